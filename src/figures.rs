@@ -5,7 +5,6 @@ use std::iter::once;
 
 use crate::error::Error;
 use crate::first_contact::FirstContact;
-use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Analytic, Estimate, Scalar};
 use crate::paper::formulas::limit;
@@ -137,7 +136,7 @@ impl Data {
     /// The numbers without their bounds, for a picture.
     pub(crate) fn values(&self) -> Vec<Vec<Option<f64>>> {
         let plain = |number: &Option<Double>| number.as_ref().map(|number| *number.value());
-        mapped(&self.rows, |row| mapped(row, plain))
+        self.rows.iter().map(|row| row.iter().map(plain).collect()).collect()
     }
 }
 
@@ -152,10 +151,12 @@ impl Figure {
     /// **Accuracy**: *within its own bound*, which is at most 1e-10 for Figure 4, 1e-9 for the tenth bounce and 1e-13
     /// for the others, relative to the numbers or to 1.
     pub(crate) fn data(&self, threads: Threads) -> Result<Data, Failed> {
-        let point = |grid: &Grid, k: usize| mapped(grid.values(k), |value| Some(Double::exact(value.to_f64())));
+        let point = |grid: &Grid, k: usize| {
+            grid.values(k).into_iter().map(|value| Some(Double::exact(value.to_f64()))).collect()
+        };
         let (columns, rows): (&[&'static str], Vec<Vec<Option<Double>>>) = match self.of {
             Of::Kernel => {
-                let rows = try_mapped(STRONG, kernel)?;
+                let rows = STRONG.into_iter().map(kernel).collect::<Result<Vec<_>, _>>()?;
                 (&["damping", "t", "side", "psi", "bounce_time"], rows.concat())
             }
             Of::Vibration | Of::Shares => {
@@ -166,9 +167,9 @@ impl Figure {
                     let energies = energies.unwrap_or_else(|| vec![None, None]);
                     let whole = speed.clone() * &speed / speed.int(2);
                     let shares = energies.clone().into_iter().map(|energy| energy.map(|energy| energy / &whole));
-                    [Some(speed), time].into_iter().chain(energies).chain(shares).collect_vec()
+                    [Some(speed), time].into_iter().chain(energies).chain(shares).collect()
                 });
-                (&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect_vec())
+                (&["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect())
             }
             Of::Restitution => {
                 let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
@@ -177,12 +178,12 @@ impl Figure {
                     let (time, restitution) = ended.unzip();
                     [point(&grid, k), vec![time, restitution.and_then(|values| values[0].clone())]].concat()
                 });
-                (&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect_vec())
+                (&["damping", "speed", "bounce_time", "restitution_squared"], rows.collect())
             }
             Of::Translational | Of::Kept | Of::Decay => {
                 let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
                 let found = contacts(&grid, SHARES, SHARP, threads)?;
-                let limits = try_mapped(DAMPINGS, limits)?;
+                let limits = DAMPINGS.into_iter().map(limits).collect::<Result<Vec<_>, _>>()?;
                 let each = found.len() / limits.len();
                 let rows = found.into_iter().enumerate().map(|(k, ended)| {
                     let Limits { translational, kept, decay, .. } = limits[k / each].clone();
@@ -191,7 +192,7 @@ impl Figure {
                         (Of::Translational, [share, _]) => ([share, translational], Double::exact(1.0)),
                         (Of::Kept, [_, share]) => ([share, kept], decay),
                         (_, [_, share]) => {
-                            ([share, kept].map_each(|kept| kept.map(|kept| kept / &decay)), Double::exact(1.0))
+                            ([share, kept].map(|kept| kept.map(|kept| kept / &decay)), Double::exact(1.0))
                         }
                     };
                     [point(&grid, k), vec![value, limit, Some(supposed)]].concat()
@@ -201,7 +202,7 @@ impl Figure {
                     Of::Kept => &["damping", "speed", "energy_kept", "limit", "supposed_limit"],
                     _ => &["damping", "speed", "energy_kept_over_decay", "limit", "supposed_limit"],
                 };
-                (columns, rows.collect_vec())
+                (columns, rows.collect())
             }
             Of::Regions => {
                 // The corners of each region for L = c = 1, x = 1/2, t₁ = 2: where y and t are.
@@ -212,7 +213,10 @@ impl Figure {
                 ];
                 let corners = [1.0, 2.0, 3.0].into_iter().zip(corners);
                 let rows = corners.flat_map(|(region, corners)| corners.iter().map(move |[y, t]| [region, *y, *t]));
-                (&["region", "y", "t"], mapped(rows, |row| row.map_each(|x| Some(Double::exact(x))).to_vec()))
+                (
+                    &["region", "y", "t"],
+                    rows.into_iter().map(|row| row.map(|x| Some(Double::exact(x))).to_vec()).collect(),
+                )
             }
             Of::Regimes => {
                 let map = Map::new("0..4:240", "0.05..1e4:240:log", threads, &|| ())?.with_regions(threads, &|| ());
@@ -225,7 +229,7 @@ impl Figure {
                 let rows = speeds(&grid).into_iter().zip(tenth).zip(first).map(|((speed, tenth), first)| {
                     vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]
                 });
-                (&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect_vec())
+                (&["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect())
             }
         };
         Ok(Data { columns: columns.to_vec(), rows, map: None })
@@ -258,7 +262,7 @@ fn contacts(grid: &Grid, wanted: Wanted, accuracy: f64, threads: Threads) -> Res
 fn grid(dampings: &str, speeds: &str) -> Result<Grid, Failed> {
     let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
     let axes = [format!("rod.damping={dampings}"), format!("impact.speed={speeds}")];
-    Ok(Grid::new(rod, try_mapped(&axes, |axis| axis.parse::<Axis>())?)?)
+    Ok(Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?)?)
 }
 
 fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Failed> {
@@ -271,7 +275,7 @@ fn contact(problem: &Problem, wanted: Wanted, accuracy: f64) -> Result<Ended, Fa
         Ok(Some((whole, (to, values))))
     };
     let found = plan.ask::<f64, _>(problem, query, |ended| {
-        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect_vec()
+        ended.iter().flat_map(|(whole, (_, values))| once(whole).chain(values.iter().flatten())).collect()
     })?;
     Ok(found.map(|(_, ended)| ended))
 }
@@ -325,7 +329,7 @@ fn kernel(damping: &str) -> Result<Vec<Vec<Option<Double>>>, Failed> {
         k if k % PER_TRIP == 0 => vec![(k, Side::Left), (k, Side::Right)],
         k => vec![(k, Side::Right)],
     };
-    Ok(mapped((0..=4 * PER_TRIP).flat_map(sides), row))
+    Ok((0..=4 * PER_TRIP).flat_map(sides).map(row).collect())
 }
 
 /// `e_E²` of the tenth contact over `impact.speed`, without damping; `None` where it is not defined or not settled.
@@ -336,12 +340,14 @@ fn tenth(grid: &Grid, threads: Threads) -> Result<Vec<Option<Double>>, Failed> {
             let contact = motion.contacts().get(9);
             contact.map(|contact| restitution(motion, contact.times())).transpose()
         };
-        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect_vec());
+        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
         found.ok()??.energy_squared.ok()
     };
     threads.all(grid.len(), |index| Ok(one(index)))
 }
 
 fn speeds(grid: &Grid) -> Vec<Double> {
-    grid.axes.last().map_or_else(Vec::new, |axis| mapped(&axis.values, |value| Double::exact(value.to_f64())))
+    grid.axes
+        .last()
+        .map_or_else(Vec::new, |axis| axis.values.iter().map(|value| Double::exact(value.to_f64())).collect())
 }

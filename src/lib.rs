@@ -76,7 +76,6 @@ mod error;
 mod figures;
 mod first_contact;
 mod lattice;
-mod mapped;
 mod modal;
 mod motion;
 pub mod number;

@@ -1,7 +1,5 @@
 //! Lists in order.
 
-use crate::mapped::mapped;
-
 /// The items in ascending order of `key`; those of equal keys stay as they are.
 pub(crate) fn ascending<T>(items: Vec<T>, key: impl Fn(&T) -> f64) -> Vec<T> {
     let mut order: Vec<(f64, usize)> = Vec::with_capacity(items.len());
@@ -9,7 +7,7 @@ pub(crate) fn ascending<T>(items: Vec<T>, key: impl Fn(&T) -> f64) -> Vec<T> {
         order.push((key(item), place));
     }
     sort(&mut order);
-    let mut items: Vec<Option<T>> = mapped(items, Some);
+    let mut items: Vec<Option<T>> = items.into_iter().map(Some).collect();
     let mut sorted = Vec::with_capacity(items.len());
     for (_, place) in order {
         sorted.extend(items[place].take());

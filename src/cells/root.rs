@@ -1,7 +1,6 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
 use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, spread};
-use crate::mapped::CollectVec;
 use crate::number::Rounded;
 
 /// Intervals shorter than this part of a segment are not cut any further.
@@ -109,7 +108,7 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
         }
         let bend = derivative(&slope);
         if bend[0].to_f64().abs() >= bound(&bend, 1) {
-            let [fall, curve] = [&slope, &bend].map(|c| c.iter().map(|c| -c.clone()).collect_vec());
+            let [fall, curve] = [&slope, &bend].map(|c| c.iter().map(|c| -c.clone()).collect::<Vec<_>>());
             if !bend[0].is_negative() && !at_zero(&fall, &zero).is_negative() && at_one(&fall, &zero).is_negative() {
                 let value = evaluate(&c, &descend(&fall, &curve));
                 if value < least {

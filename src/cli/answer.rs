@@ -7,7 +7,6 @@ use super::failure::Failure;
 use super::file::Format;
 use super::source;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Ending, Motion};
 use crate::number::{DOUBLE_DIGITS, Scalar as _};
 use crate::output::{Head, Shown};
@@ -21,7 +20,7 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
     Head {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
-        effects: mapped(scene.called_effects(), Effect::name),
+        effects: scene.called_effects().into_iter().map(Effect::name).collect(),
         // `c`, `t₁`, `R` and `M` to six digits.
         parameters: units.parameters(&scene.problem, time).join("    "),
         units,
@@ -59,7 +58,7 @@ pub(super) fn gathered<S: Target, T>(
     gather: impl Fn(&dyn Motion<S::Carried>) -> Result<(T, Vec<S::Carried>), Error>,
 ) -> Result<T, Error> {
     progress.stage("values of the answer");
-    Ok(history.ask(gather, |(_, numbers)| numbers.iter().collect_vec())?.0)
+    Ok(history.ask(gather, |(_, numbers)| numbers.iter().collect())?.0)
 }
 
 /// The head, whose warnings are printed.

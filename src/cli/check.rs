@@ -8,7 +8,6 @@ use clap::Args;
 use super::failure::Failure;
 use super::file::{self, Format, formats};
 use super::source;
-use crate::mapped::{CollectVec, mapped};
 use crate::output::{check_json, check_page, check_summary, check_table};
 use crate::routes::Published;
 use crate::routes::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
@@ -40,11 +39,11 @@ impl Check {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         let (targets, cases): (Vec<&String>, Vec<&String>) = self.only.iter().partition(|name| *name == TARGETS);
         let everything = self.only.is_empty();
-        let cases: Vec<String> = cases.into_iter().cloned().collect_vec();
+        let cases: Vec<String> = cases.into_iter().cloned().collect();
         let groups = if everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
         let groups = groups.map_err(|name| {
             let groups = CATALOGUE.map(|group| group.name).join(", ") + ", " + TARGETS;
-            let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect_vec();
+            let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
             failure!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
         let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
@@ -55,8 +54,8 @@ impl Check {
             bar.inc(1);
             checked
         };
-        let groups = groups.into_iter().map(|(group, cases)| (group, mapped(cases, run)));
-        let checked: Vec<(Group, Vec<Checked>)> = groups.collect_vec();
+        let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
+        let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
         bar.finish_and_clear();
         let published = if everything || !targets.is_empty() { Published::builtin()? } else { Vec::new() };
         let text = match self.format {

@@ -12,7 +12,6 @@ use super::source;
 use crate::compare::data::Source;
 use crate::compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
 use crate::draw::Size;
-use crate::mapped::{CollectVec, try_mapped};
 use crate::output::{compare_data, compare_svg};
 use crate::quantity::Units;
 
@@ -91,7 +90,7 @@ impl Compare {
         self.check()?;
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
-        let sources = try_mapped(&self.data, |path| Source::open(path))?;
+        let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let units = Units::of(&scene.problem, scene.units);
         let prepared =
             Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
@@ -114,7 +113,7 @@ impl Compare {
         if let Some(path) = &self.junit {
             file::write(Some(path), junit(&outcomes).as_bytes())?;
         }
-        let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect_vec();
+        let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect();
         for failure in &failures {
             eprintln!("failed: {failure}");
         }

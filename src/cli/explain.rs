@@ -8,7 +8,6 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::aligned::table;
-use crate::mapped::{CollectVec, mapped};
 use crate::output::{WIDTH, wrapped};
 use crate::scene::{Effect, EffectUse, Scene};
 use crate::solve::{Numbers, Plan, Question, Sensitivity};
@@ -41,7 +40,7 @@ impl Explain {
                 "limits": plan.limits(),
                 "sensitivity": Sensitivity::of(&scene.problem),
                 "plan": plan,
-                "warnings": mapped(scene.problem.neglected(), |note| note.to_string()),
+                "warnings": scene.problem.neglected().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
             }))),
             Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
             _ => Err(failure!("found --format csv, expected table or json: a plan is no list of numbers")),
@@ -59,7 +58,7 @@ impl Explain {
             vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, because]
         });
         let mut out = scene.title.as_ref().map_or_else(String::new, |title| fold(title, 0) + "\n\n");
-        out += &(table(&["effect", "called", "line", "because"], rows.collect_vec(), 4) + "\n\n");
+        out += &(table(&["effect", "called", "line", "because"], rows.collect(), 4) + "\n\n");
         let number = format!("{}, at first in {}", plan.numbers, plan.rung);
         let lines = [("engine:", plan.engine.to_string()), ("reach:", plan.reach.to_string()), ("numbers:", number)];
         let reasons = plan.reasons().into_iter().map(|reason| ("", reason));

@@ -8,7 +8,6 @@ use super::failure::{self, Failure};
 use super::file::{self, Format};
 use crate::draw::Size;
 use crate::figures::{ALL, Failed, Figure};
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use crate::threads::Threads;
 
@@ -51,7 +50,7 @@ impl Figures {
             return Err(failure!("found the file {}, expected a folder", self.output.display()));
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
-        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect_vec();
+        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
         let files = self.files(&figures)?;
         write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))
     }
@@ -59,7 +58,7 @@ impl Figures {
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
         let failed = |error: Failed| failure!("{error}");
         let threads = Threads::of(self.threads);
-        let data = try_mapped(figures, |figure| figure.data(threads)).map_err(failed)?;
+        let data = figures.iter().map(|figure| figure.data(threads)).collect::<Result<Vec<_>, _>>().map_err(failed)?;
         let files = threads.all(figures.len(), |k| {
             let (figure, data) = (figures[k], &data[k]);
             let svg = figure_sheet(figure, data).map_err(failed)?.svg(self.size);
@@ -70,8 +69,8 @@ impl Figures {
             }
             Ok::<_, Failure>(files)
         })?;
-        let endings: Vec<&str> = mapped(PICTURES, |format| format.ending());
+        let endings: Vec<&str> = PICTURES.iter().map(|format| format.ending()).collect();
         let index = figures_index(figures, &data, &endings).map_err(failed)?;
-        Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect_vec())
+        Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())
     }
 }

@@ -8,7 +8,6 @@ use super::failure::{self, Failure};
 #[cfg(feature = "plot")]
 use crate::draw::Rendered;
 use crate::draw::Size;
-use crate::mapped::mapped;
 pub(super) use crate::output::Format;
 use crate::output::{Dataset, write_together};
 
@@ -60,7 +59,7 @@ impl Format {
         let format = by_ending.filter(|format| format.is_picture()).or(asked).or(by_ending);
         let path = named.unwrap_or(Path::new("-")).display();
         let Some(format) = format else {
-            let endings: Vec<String> = mapped(known, |known| format!(".{}", known.ending()));
+            let endings: Vec<String> = known.iter().map(|known| format!(".{}", known.ending())).collect();
             let endings = endings.join(", ");
             let endings = endings.rsplit_once(", ").map_or(endings.clone(), |(most, last)| format!("{most} or {last}"));
             let or = if known.contains(&Format::Json) { ", or --format to say what the file holds" } else { "" };
@@ -109,7 +108,7 @@ pub(super) fn write_each(
     if !printed {
         files.push((None, bytes(asked.unwrap_or(Format::Table))?));
     }
-    write_all(&mapped(&files, |(path, bytes)| (*path, bytes.as_slice())))
+    write_all(&files.iter().map(|(path, bytes)| (*path, bytes.as_slice())).collect::<Vec<_>>())
 }
 
 pub(super) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {

@@ -11,7 +11,6 @@ use super::failure::Failure;
 use super::file::{self, Format, PICTURES};
 use super::source;
 use crate::draw::Size;
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::Ending;
 use crate::number::{Number, Scalar};
 use crate::output::Head;
@@ -66,7 +65,7 @@ const ACCURACY: f64 = 1e-6;
 fn known() -> String {
     let columns = Needs::Time.quantities().map(Quantity::name);
     let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Quantity(_))));
-    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect_vec().join(", ")
+    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
 }
 
 fn named(name: &str) -> Result<Picture, String> {
@@ -77,7 +76,7 @@ impl Plot {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
         let format = |path: &PathBuf| Format::of(Some(path), None, PICTURES);
-        let formats = try_mapped(&self.output, format)?;
+        let formats = self.output.iter().map(format).collect::<Result<Vec<_>, _>>()?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
@@ -101,9 +100,9 @@ impl Plot {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
         let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
-        let scenes = try_mapped(&self.scenes, |name| source::read(name))?;
+        let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, _>>()?;
         let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &asked);
-        let mut gathered = try_mapped(self.scenes.iter().zip(&scenes), gather)?;
+        let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {
             [scene] => {
                 // What comes from standard input has no name.
@@ -148,14 +147,14 @@ fn told_apart(scenes: &mut [Gathered]) {
         let rod = &scene.rod;
         [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
     };
-    let all: Vec<_> = mapped(&*scenes, values);
-    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect_vec();
+    let all: Vec<_> = scenes.iter().map(values).collect();
+    let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect();
     if different.is_empty() || different.len() > MOST_DIFFERENT {
         return;
     }
     for (scene, values) in scenes.iter_mut().zip(&all) {
         let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
-        scene.name = told.collect_vec().join(", ");
+        scene.name = told.collect::<Vec<_>>().join(", ");
     }
 }
 

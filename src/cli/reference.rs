@@ -13,7 +13,6 @@ use super::failure::{Failure, cannot};
 use super::file::{self, Format, formats};
 use super::source;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{List, Number, Scalar};
 use crate::output::{Head, Language, Preamble, Rows, code};
@@ -80,7 +79,7 @@ pub(super) struct Reference {
 const FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz];
 
 fn known() -> String {
-    Needs::Time.quantities().map(Quantity::name).collect_vec().join(", ")
+    Needs::Time.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ")
 }
 
 fn column(name: &str) -> Result<Quantity, String> {
@@ -101,7 +100,7 @@ impl Reference {
         let times = self.times()?;
         let columns = match &self.points {
             Some(_) => Vec::new(),
-            None => self.columns.clone().unwrap_or_else(|| Needs::Time.quantities().collect_vec()),
+            None => self.columns.clone().unwrap_or_else(|| Needs::Time.quantities().collect()),
         };
         if let Some(twice) = (1..columns.len()).find(|k| columns[..*k].contains(&columns[*k])) {
             return Err(failure!("found the column {} twice, expected each once", columns[twice].name()));
@@ -222,7 +221,7 @@ impl Visit for Series<'_> {
             Some(_) => &SLICE[..],
             None => &self.columns,
         };
-        let described = mapped(described, |column| (*column, column.unit(&head.units)));
+        let described = described.iter().map(|column| (*column, column.unit(&head.units))).collect();
         let keep = || cannot("keep the rows");
         let mut rows = Rows::new(self.format, described, head.digits).map_err(keep())?;
         let at_once = CHUNK / self.asked.points.as_ref().map_or(1, List::len).min(CHUNK);

@@ -8,7 +8,6 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::draw::Size;
-use crate::mapped::try_mapped;
 use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 use crate::sweep::Map;
 use crate::threads::Threads;
@@ -42,7 +41,7 @@ const FORMATS: &[Format] = &[Format::Csv, Format::Npz, Format::Svg, Format::Png,
 impl Regimes {
     pub(super) fn run(&self) -> Result<(), Failure> {
         // Before anything is solved.
-        let formats = try_mapped(&self.output, |path| self.format(path))?;
+        let formats = self.output.iter().map(|path| self.format(path)).collect::<Result<Vec<_>, _>>()?;
         let bar = source::bar(None, "{spinner} {pos} points, {elapsed}");
         // The curve takes R alone.
         let speeds = if self.curve { "1,2" } else { &self.speed_ratio };

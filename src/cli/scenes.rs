@@ -10,7 +10,6 @@ use super::failure::{Failure, cannot};
 use super::file::{self, Format};
 use super::source;
 use crate::aligned::table;
-use crate::mapped::{CollectVec, try_mapped};
 use crate::output::targets_data;
 use crate::routes::Published;
 use crate::scene::builtin;
@@ -43,7 +42,7 @@ impl Scenes {
         let text = match &self.name {
             None => {
                 let rows = builtin::ALL.iter().map(|scene| vec![scene.name.to_string(), scene.summary.to_string()]);
-                table(&["scene", "what it shows"], rows.collect_vec(), 2) + "\n"
+                table(&["scene", "what it shows"], rows.collect(), 2) + "\n"
             }
             Some(name) => match builtin::get(name) {
                 Some(scene) => scene.source.to_string(),
@@ -61,10 +60,13 @@ impl Scenes {
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
             None => Published::builtin()?,
-            Some(name) => try_mapped(scene_files(name)?, |name| {
-                let found = Published::of(&name, &source::read(&name)?);
-                found.map_err(|error| failure!("{name}: {error}"))
-            })?,
+            Some(name) => scene_files(name)?
+                .into_iter()
+                .map(|name| {
+                    let found = Published::of(&name, &source::read(&name)?);
+                    found.map_err(|error| failure!("{name}: {error}"))
+                })
+                .collect::<Result<Vec<_>, _>>()?,
         };
         for published in &all {
             for warning in &published.warnings {
@@ -85,7 +87,7 @@ fn scene_files(name: &str) -> Result<Vec<String>, Failure> {
     let entries = std::fs::read_dir(name).map_err(cannot(&format!("read {name}")))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    let mut names: Vec<String> = scenes.map(|path| path.display().to_string()).collect_vec();
+    let mut names: Vec<String> = scenes.map(|path| path.display().to_string()).collect();
     names.sort();
     if names.is_empty() {
         return Err(failure!("found no .toml in the folder {name}, expected scene files"));

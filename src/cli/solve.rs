@@ -10,7 +10,6 @@ use super::failure::Failure;
 use super::file::{self, Format};
 use super::source;
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar};
 use crate::output::{
@@ -123,7 +122,7 @@ impl Visit for Solve {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
             let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
             let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
-            let contacts = contacts.filter(|row| !row.is_empty()).collect_vec();
+            let contacts = contacts.filter(|row| !row.is_empty()).collect();
             record.add(Derived { by, events, contacts });
         }
         let head = Head { warnings: history.warnings(), ..head };

@@ -12,7 +12,6 @@ use super::args::{NumberArgs, quantity};
 use super::failure::{self, Failure};
 use super::file::{self, Format, formats};
 use super::source;
-use crate::mapped::{mapped, try_mapped};
 use crate::number::Number;
 use crate::output::sweep_data;
 use crate::quantity::{Needs, Quantity};
@@ -71,7 +70,7 @@ impl Sweep {
     pub(super) fn run(&self) -> Result<ExitCode, Failure> {
         let format = Format::of(self.output.as_deref(), self.format, FORMATS)?;
         let scene = source::read(&self.scene)?;
-        let axes = try_mapped(&self.vary, |text| text.parse::<Axis>())?;
+        let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
             return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
         }
@@ -95,8 +94,8 @@ impl Sweep {
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),
             "scene": scene.source(),
-            "vary": mapped(&sweep.grid.axes, vary),
-            "quantity": mapped(&sweep.asked.quantities, |quantity| quantity.name()),
+            "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
+            "quantity": sweep.asked.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
             "time": sweep.asked.time,
             "number": sweep.asked.numbers.to_string(),
             "points": [points.start, points.end],

@@ -17,7 +17,7 @@
 //! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;
 //! let limits: Vec<Limit> = vec!["strain.linf=0.0101".parse()?, "strain.linf=0.0099".parse()?];
 //! let failed = found.outcomes(&limits)?.into_iter().filter(|outcome| outcome.failure.is_some());
-//! assert_eq!(failed.map(|outcome| outcome.expected).collect::<Vec<_>>(), ["strain.linf ≤ 9.9e-3"]);
+//! assert_eq!(failed.map(|outcome| outcome.expected).collect(), ["strain.linf ≤ 9.9e-3"]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

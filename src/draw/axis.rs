@@ -1,6 +1,5 @@
 //! Axes: from where to where, in which unit, with which numbers.
 
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 
 #[derive(Clone, Debug)]
@@ -88,7 +87,7 @@ impl Axis {
         if self.log {
             return self.log_ticks();
         }
-        let [from, to] = [self.from, self.to].map_each(|end| end * self.factor);
+        let [from, to] = [self.from, self.to].map(|end| end * self.factor);
         let step = step((to - from) / about.max(1.0));
         let places = usize::try_from(-(step.log10() + 1e-9).floor() as i32).unwrap_or(0);
         let first = (from / step - 1e-6).ceil() as i64;
@@ -96,7 +95,7 @@ impl Axis {
             .map(|k| k as f64 * step)
             .take_while(|value| *value <= to + 1e-6 * step)
             .map(|value| (value / self.factor, signed(&format!("{value:.places$}"))))
-            .collect_vec()
+            .collect()
     }
 
     fn log_ticks(&self) -> Vec<(f64, String)> {
@@ -105,7 +104,7 @@ impl Axis {
         let of = |decade: i32| steps.iter().map(move |step| (decade, *step, step * 10f64.powi(decade)));
         let ticks = decades.flat_map(of);
         let within = |value: &f64| (self.from * (1.0 - 1e-9)..=self.to * (1.0 + 1e-9)).contains(value);
-        let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect_vec();
+        let ticks: Vec<_> = ticks.filter(|(.., value)| within(value)).collect();
         // All of an axis in one form.
         let plain = ticks.iter().all(|(decade, ..)| (-2..=3).contains(decade));
         let text = |(decade, step, value): (i32, f64, f64)| match () {
@@ -113,7 +112,7 @@ impl Axis {
             () if step == 1.0 => (value, power_of_ten(decade)),
             () => (value, format!("{step}·{}", power_of_ten(decade))),
         };
-        mapped(ticks, text)
+        ticks.into_iter().map(text).collect()
     }
 }
 
@@ -125,7 +124,7 @@ fn spread(value: f64) -> f64 {
 /// 1, 2 or 5 times a power of ten, at least this.
 fn step(least: f64) -> f64 {
     let power = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0, 10.0].map_each(|step| step * power).into_iter().find(|step| *step >= least * 0.999).unwrap_or(least)
+    [1.0, 2.0, 5.0, 10.0].map(|step| step * power).into_iter().find(|step| *step >= least * 0.999).unwrap_or(least)
 }
 
 /// A number with the sign that print has for minus; zero has none.

@@ -1,7 +1,6 @@
 //! What of lines and polygons lies in a rectangle. Cut here, a picture needs no clip path, for which a renderer draws
 //! each group apart.
 
-use crate::mapped::{MapEach, mapped};
 use glam::DVec2;
 
 /// What of a convex polygon lies between two corners; of another one that may be joined along the border.
@@ -46,7 +45,7 @@ pub(crate) fn line(points: &[DVec2], corners: [DVec2; 2]) -> Vec<Vec<DVec2>> {
 fn segment([a, b]: [DVec2; 2], corners: [DVec2; 2]) -> Option<[DVec2; 2]> {
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (inwards, least) in sides(corners) {
-        let [before, after] = [a, b].map_each(|point| inwards.dot(point) - least);
+        let [before, after] = [a, b].map(|point| inwards.dot(point) - least);
         let at = before / (before - after);
         match (before < 0.0, after < 0.0) {
             (true, true) => return None,
@@ -79,7 +78,7 @@ pub(crate) fn grown(points: &[DVec2], by: f64) -> Vec<DVec2> {
         let [a, b] = [outwards(before, at), outwards(at, after)];
         at + ((a + b) / (1.0 + a.dot(b)).max(1e-9)).clamp_length_max(3.0) * by
     };
-    mapped(0..count, corner)
+    (0..count).map(corner).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,5 @@
 //! Colours that stay apart for every kind of sight.
 
-use crate::mapped::{CollectVec, MapEach, mapped};
-
 /// Of lines and areas, after Okabe and Ito, the darker ones first.
 pub(crate) const LINES: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
@@ -19,7 +17,7 @@ pub(crate) fn diverging(value: f64) -> String {
     let below = (place.floor() as usize).min(last - 1);
     let share = place - below as f64;
     let mix = |bits: u32| {
-        let [a, b] = [below, below + 1].map_each(|color| f64::from((DIVERGING[color] >> bits) & 0xff));
+        let [a, b] = [below, below + 1].map(|color| f64::from((DIVERGING[color] >> bits) & 0xff));
         (a + (b - a) * share).round() as u8
     };
     format!("#{:02x}{:02x}{:02x}", mix(16), mix(8), mix(0))
@@ -30,11 +28,11 @@ pub(crate) fn diverging(value: f64) -> String {
 pub(crate) fn diverging_stops(from: f64, to: f64) -> Vec<(f64, String)> {
     let last = DIVERGING.len() as i32 - 1;
     let inner = (0..=last).map(|k| 2.0 * f64::from(k) / f64::from(last) - 1.0);
-    let mut shares: Vec<f64> = inner.map(|node| (node - from) / (to - from)).collect_vec();
+    let mut shares: Vec<f64> = inner.map(|node| (node - from) / (to - from)).collect();
     shares.retain(|share| *share > 1e-4 && *share < 1.0 - 1e-4);
     shares.extend([0.0, 1.0]);
     shares.sort_by(f64::total_cmp);
-    mapped(shares, |share| (share, diverging(from + (to - from) * share)))
+    shares.into_iter().map(|share| (share, diverging(from + (to - from) * share))).collect()
 }
 
 #[cfg(test)]

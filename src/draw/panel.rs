@@ -8,7 +8,6 @@ use super::axis::Axis;
 use super::clip;
 use super::color::{diverging, diverging_stops};
 use super::svg::{Anchor, Fill, Stroke, Svg, width};
-use crate::mapped::{CollectVec, MapEach, mapped};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Panel {
@@ -216,7 +215,10 @@ impl Panel {
         self.draw_head(svg, DVec2::new(left, from.y), wide, stacked);
         let right = |(value, text): (f64, String)| (from.x + self.x.share(value) * size.x, text);
         let above = |(value, text): (f64, String)| (to.y - self.y.share(value) * size.y, text);
-        let (across, up) = (mapped(self.x.ticks(size.x / em / 4.5), right), mapped(self.up(size.y, em), above));
+        let (across, up) = (
+            self.x.ticks(size.x / em / 4.5).into_iter().map(right).collect::<Vec<_>>(),
+            self.up(size.y, em).into_iter().map(above).collect::<Vec<_>>(),
+        );
         svg.open("grid", "");
         across.iter().for_each(|(x, _)| svg.line(&[DVec2::new(*x, from.y), DVec2::new(*x, to.y)], GRID));
         up.iter().for_each(|(y, _)| svg.line(&[DVec2::new(from.x, *y), DVec2::new(to.x, *y)], GRID));
@@ -311,7 +313,7 @@ const OVERLAP: f64 = 0.04;
 
 /// What of a shape lies in a frame.
 fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, frame: [DVec2; 2]) {
-    let placed = |points: &[DVec2]| mapped(points, |point| place(*point));
+    let placed = |points: &[DVec2]| points.iter().map(|point| place(*point)).collect::<Vec<_>>();
     match shape {
         Shape::Lines(lines, stroke) => {
             let stretches = lines.iter().flat_map(|line| clip::line(&placed(line), frame));
@@ -325,11 +327,11 @@ fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, fra
         Shape::Runs(runs) => {
             let grown = |[a, b]: [DVec2; 2]| [a.min(b) - OVERLAP, a.max(b) + OVERLAP];
             for (color, corners) in runs {
-                let corners: Vec<_> = mapped(corners, |ends| grown(ends.map(place)));
+                let corners: Vec<_> = corners.iter().map(|ends| grown(ends.map(place))).collect();
                 svg.rectangles(&corners, color);
             }
         }
-        Shape::Region(lines, color) => svg.region(&mapped(lines, |line| placed(line)), color),
+        Shape::Region(lines, color) => svg.region(&lines.iter().map(|line| placed(line)).collect::<Vec<_>>(), color),
         Shape::Marks(points, mark, color) => {
             let inside = |point: &DVec2| frame[0].cmple(*point).all() && point.cmple(frame[1]).all();
             placed(points).into_iter().filter(inside).for_each(|point| draw_mark(svg, point, *mark, color));
@@ -343,9 +345,9 @@ const ONE_COLOR: f64 = 1.0 / 200.0;
 
 /// A polygon in the colours of its values: exact where they are linear, as the steps of the palette are.
 fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
-    let corners: Vec<DVec2> = mapped(&piece.corners, |corner| place(*corner));
+    let corners: Vec<DVec2> = piece.corners.iter().map(|corner| place(*corner)).collect();
     let value = |corner: &DVec2| piece.middle + piece.slope.dot(*corner - piece.at);
-    let values: Vec<f64> = mapped(&piece.corners, value);
+    let values: Vec<f64> = piece.corners.iter().map(value).collect();
     let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let drawn = clip::grown(&corners, OVERLAP);
     if most - least < ONE_COLOR {
@@ -353,7 +355,7 @@ fn draw_piece(svg: &mut Svg, piece: &Piece, place: &impl Fn(DVec2) -> DVec2) {
     }
     // The slope on paper: unit steps of the axes are stretched there.
     let origin = place(piece.at);
-    let [right, up] = [DVec2::X, DVec2::Y].map_each(|step| place(piece.at + step) - origin);
+    let [right, up] = [DVec2::X, DVec2::Y].map(|step| place(piece.at + step) - origin);
     let slope = DVec2::new(piece.slope.x / right.x, piece.slope.y / up.y);
     let along = slope / slope.length_squared();
     let end = |value: f64| origin + along * (value - piece.middle);
@@ -364,7 +366,7 @@ fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
     let r = 0.28 * svg.em;
     let ring = |count: i32, turn: f64, radius: &dyn Fn(i32) -> f64| -> Vec<DVec2> {
         let corner = |k: i32| DVec2::from_angle((f64::from(k) / f64::from(count) + turn) * std::f64::consts::TAU);
-        mapped(0..count, |k| at + corner(k) * radius(k))
+        (0..count).map(|k| at + corner(k) * radius(k)).collect::<Vec<_>>()
     };
     let fill = Fill::Flat(color.into());
     let thin = Stroke::new(color, 0.07 * svg.em);
@@ -398,10 +400,10 @@ pub(crate) fn thinned(points: Vec<DVec2>) -> Vec<DVec2> {
     let higher = |a: &&DVec2, b: &&DVec2| a.y.partial_cmp(&b.y).unwrap_or(Ordering::Equal);
     let ends = |chunk: &[DVec2]| {
         let [least, most] =
-            [chunk.iter().min_by(higher), chunk.iter().max_by(higher)].map_each(|end| *end.unwrap_or(&chunk[0]));
+            [chunk.iter().min_by(higher), chunk.iter().max_by(higher)].map(|end| *end.unwrap_or(&chunk[0]));
         if least.x <= most.x { [least, most] } else { [most, least] }
     };
-    points.chunks(step).flat_map(ends).collect_vec()
+    points.chunks(step).flat_map(ends).collect::<Vec<_>>()
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! An SVG as PNG and as PDF, in the embedded font.
 
-use crate::mapped::{CollectVec, MapEach};
 use krilla::Document;
 use krilla::geom::Size;
 use krilla::page::PageSettings;
@@ -34,14 +33,12 @@ impl Rendered {
 
     /// A PNG on white; `scale` pixels are one of the SVG.
     pub(crate) fn png(&self, scale: f32) -> Result<Vec<u8>, String> {
-        let [width, height] =
-            [self.0.size().width(), self.0.size().height()].map_each(|side| (side * scale).round() as u32);
+        let [width, height] = [self.0.size().width(), self.0.size().height()].map(|side| (side * scale).round() as u32);
         let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or("a picture without size")?;
         pixels.fill(tiny_skia::Color::WHITE);
         resvg::render(&self.0, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
         // Nothing is transparent on white.
-        let colors: Vec<u8> =
-            pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect_vec();
+        let colors: Vec<u8> = pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
@@ -57,7 +54,7 @@ impl Rendered {
 
     /// A PDF of one page of the size of the SVG, its texts as text in the embedded font.
     pub(crate) fn pdf(&self) -> Result<Vec<u8>, String> {
-        let [width, height] = [self.0.size().width(), self.0.size().height()].map_each(|side| side * POINTS);
+        let [width, height] = [self.0.size().width(), self.0.size().height()].map(|side| side * POINTS);
         let size = Size::from_wh(width, height).ok_or("a picture without size")?;
         let mut document = Document::new();
         let mut page = document.start_page_with(PageSettings::new(size));

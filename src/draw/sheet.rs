@@ -4,7 +4,6 @@ use glam::DVec2;
 
 use super::panel::{Key, Panel, Place};
 use super::svg::{Anchor, Svg, width};
-use crate::mapped::CollectVec;
 
 /// What a picture is made for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,8 +82,8 @@ impl Sheet {
         let (wide, letters, frames) = size.measures();
         let across = if size == Size::Column || self.panels.len() < 2 { 1 } else { 2 };
         let em = letters[usize::from(self.panels.len() > 2)];
-        let rows: Vec<&[Panel]> = self.panels.chunks(across).collect_vec();
-        let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect_vec();
+        let rows: Vec<&[Panel]> = self.panels.chunks(across).collect();
+        let title: Vec<&str> = self.title.iter().flat_map(|line| wrapped(line, (wide - 2.0 * em) / em)).collect();
         let above = em * (0.9 + TITLE * title.len() as f64);
         let cell = wide / across as f64;
         // A frame of this height, and the legends that its width leaves room for.

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::mapped::{MapEach, mapped};
 use glam::DVec2;
 
 /// The font of all pictures; where it is not known another one without serifs takes its place.
@@ -117,7 +116,7 @@ pub(crate) fn width(text: &str) -> f64 {
 impl Svg {
     /// An empty page of this size with letters of the height `em`, all in mm.
     pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
-        let [w, h, size] = [width, height, em].map_each(length);
+        let [w, h, size] = [width, height, em].map(length);
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"{FAMILY}\" font-size=\"{size}\" fill=\"#000000\" stroke-linejoin=\"round\">\n\
@@ -145,7 +144,7 @@ impl Svg {
         let paint = match fill {
             Fill::Flat(color) => color.clone(),
             Fill::Gradient([from, to], stops) => {
-                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map_each(length);
+                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
                 let mut gradient =
                     format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
                 for (share, color) in stops {
@@ -161,28 +160,31 @@ impl Svg {
 
     /// What an odd number of closed lines is about.
     pub(crate) fn region(&mut self, lines: &[Vec<DVec2>], fill: &str) {
-        let path = mapped(lines, |line| format!("M{}z", places(line))).concat();
+        let path = lines.iter().map(|line| format!("M{}z", places(line))).collect::<Vec<_>>().concat();
         self.text += &format!("<path fill=\"{fill}\" fill-rule=\"evenodd\" d=\"{path}\"/>\n");
     }
 
     /// Rectangles of one colour, each from one corner to the opposite one.
     pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
         // Rounded as places, so that neighbours meet.
-        let path = mapped(corners, |[a, b]| {
-            let [left, top, right, bottom] = [a.x, a.y, b.x, b.y].map_each(length);
-            format!("M{left} {top}H{right}V{bottom}H{left}z")
-        });
+        let path = corners
+            .iter()
+            .map(|[a, b]| {
+                let [left, top, right, bottom] = [a.x, a.y, b.x, b.y].map(length);
+                format!("M{left} {top}H{right}V{bottom}H{left}z")
+            })
+            .collect::<Vec<_>>();
         self.text += &format!("<path fill=\"{fill}\" d=\"{}\"/>\n", path.concat());
     }
 
     pub(crate) fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
-        let [x, y, w, h] = [from.x, from.y, to.x - from.x, to.y - from.y].map_each(length);
+        let [x, y, w, h] = [from.x, from.y, to.x - from.x, to.y - from.y].map(length);
         self.text += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{stroke}/>\n");
     }
 
     /// A closed mark about a point, or a ring where it has no fill.
     pub(crate) fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
-        let [x, y, r] = [at.x, at.y, radius].map_each(length);
+        let [x, y, r] = [at.x, at.y, radius].map(length);
         self.text += &format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{stroke}/>\n");
     }
 
@@ -193,7 +195,7 @@ impl Svg {
 
     /// A text about its middle that is read upwards. Letters are so many times as high as the others.
     pub(crate) fn text_upwards(&mut self, at: DVec2, text: &str, size: f64) {
-        let [x, y] = [at.x, at.y].map_each(length);
+        let [x, y] = [at.x, at.y].map(length);
         let smaller = if size < 1.0 { format!(" font-size=\"{}\"", length(size * self.em)) } else { String::new() };
         self.place_text(at, Anchor::Middle, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
     }
@@ -204,7 +206,7 @@ impl Svg {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let [x, y, down, up, small] = [at.x, at.y, LOW.1 * self.em, -LOW.1 * self.em, LOW.0 * self.em].map_each(length);
+        let [x, y, down, up, small] = [at.x, at.y, LOW.1 * self.em, -LOW.1 * self.em, LOW.0 * self.em].map(length);
         self.text += &format!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>");
         let mut low = false;
         for (part, lower) in parts(text) {
@@ -225,7 +227,7 @@ impl Svg {
 }
 
 fn places(points: &[DVec2]) -> String {
-    mapped(points, |point| format!("{},{}", length(point.x), length(point.y))).join(" ")
+    points.iter().map(|point| format!("{},{}", length(point.x), length(point.y))).collect::<Vec<_>>().join(" ")
 }
 
 /// As attributes.

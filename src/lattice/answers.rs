@@ -5,7 +5,6 @@ use super::parts::{self, Parted};
 use super::start::Units;
 use super::trace::{GroundEvent, Line, Part, Piece, Place};
 use crate::error::Error;
-use crate::mapped::MapEach;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{
     Contact, Course, Event, EventKind, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, WavePiece, Waves,
@@ -71,7 +70,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let (trip, unit) = (self.last_trip(&moment, time)?, velocity.square() * length);
         if pair == Pair::EnergyParts {
             // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
-            return Ok(self.squares(&trip)?.map_each(|part| part * &unit));
+            return Ok(self.squares(&trip)?.map(|part| part * &unit));
         }
         let Centre { height, rate } = self.centre_at(&trip)?;
         if pair == Pair::Centre {

@@ -18,7 +18,6 @@ use std::cmp::Ordering;
 
 use super::march::{Halt, March, Stop, Until};
 use super::trace::{GroundEvent, Line, Piece, at_deviating, place_to};
-use crate::mapped::MapEach;
 use crate::motion::{Ending, EventKind};
 use crate::number::{Bounded, Open};
 
@@ -134,7 +133,7 @@ impl<N: Bounded> March<'_, N> {
         let (q, q_end) = (line.value_at_stored(&from), line.value_at_stored(&to));
         let trip = self.trip_number();
         let knot = |piece: usize| Some(self.trace.knot_returned(pieces.get(piece)?.knot?, trip));
-        Stretch { incoming: first..next, from, to, line, q, q_end, knots: [first, next].map_each(knot) }
+        Stretch { incoming: first..next, from, to, line, q, q_end, knots: [first, next].map(knot) }
     }
 
     /// Contact and flight in one stretch, with the events between them.

@@ -6,7 +6,6 @@ use super::march::{GroundMotion, Halt, Limits, Until, march};
 use super::start::{Scaled, Units};
 use super::trace::{Part, Piece, Place};
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::motion::{Course, Ending, Side, unobserved};
 use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
@@ -108,7 +107,7 @@ impl<N: Bounded> Undamped<N> {
             coincidence.map(|from| Warning::Coincidence { from }),
             undetermined.map(|from| Warning::NotDetermined { from }),
         ];
-        history.course.warnings = warnings.into_iter().flatten().collect_vec();
+        history.course.warnings = warnings.into_iter().flatten().collect();
         Ok(history)
     }
 

@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use super::history::{Trip, Undamped};
 use super::start::Units;
 use super::trace::Part;
-use crate::mapped::mapped;
 use crate::motion::moments::Moments;
 use crate::motion::{Side, Stretch};
 use crate::number::{Bounded, Open};
@@ -118,7 +117,7 @@ impl<N: Bounded> Undamped<N> {
         })?;
         // What goes up is met from its last part on: x falls with the age, and a jump is across the other end; that
         // of the last part is at the ground, that of the first at the top.
-        let mut edges = mapped(&mut up, |part| part.shift.take());
+        let mut edges = up.iter_mut().map(|part| part.shift.take()).collect::<Vec<_>>();
         edges.push(self.edge(trip, until, Side::Left).and_then(|edge| edge.shift));
         let at_top = edges.remove(0);
         let top = up.first().zip(down.last()).map(|(p, q)| (p.value.clone(), q.slope.clone() * &q.width + &q.value));
@@ -126,7 +125,7 @@ impl<N: Bounded> Undamped<N> {
             let value = part.slope.clone() * &part.width + &part.value;
             Part { value, slope: -part.slope, shift, ..part }
         };
-        join(mapped(up.into_iter().zip(edges).rev(), turned), down, visit)?;
+        join(up.into_iter().zip(edges).rev().map(turned).collect(), down, visit)?;
         if let (Some(shift), Some((p, q))) = (at_top, top) {
             let (width, slopes) = (one.zero(), [one.zero(), one.zero()]);
             visit(Both { width, values: halves(&p, &q), slopes, shifts: vec![shift] });

@@ -1,7 +1,6 @@
 //! The problem in its own units: one round trip, and the speed that gravity gives in it.
 
 use crate::error::Error;
-use crate::mapped::mapped;
 use crate::motion::{AtStart, Segment};
 use crate::number::{Bounded, Open};
 use crate::problem::{Parameters, Problem, Start, Top};
@@ -118,5 +117,5 @@ fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, to
         (from, value, slope)
     };
     let down = segments.iter().map(|segment| (false, segment));
-    mapped(down.chain(segments.iter().rev().map(|segment| (true, segment))), piece)
+    down.chain(segments.iter().rev().map(|segment| (true, segment))).map(piece).collect()
 }

@@ -2,7 +2,6 @@
 
 use std::cmp::Ordering;
 
-use crate::mapped::MapEach;
 use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::order::partition;
@@ -199,7 +198,7 @@ impl<N: Bounded> Part<N> {
     /// Without exact numbers inside.
     pub(super) fn without_exact(self) -> Self {
         let Part { offset, width, value, slope, .. } = self;
-        let [offset, width, value, slope] = [offset, width, value, slope].map_each(N::without_exact);
+        let [offset, width, value, slope] = [offset, width, value, slope].map(N::without_exact);
         Part { offset, width, value, slope, ..self }
     }
 }

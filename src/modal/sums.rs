@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::Side;
 use crate::number::{Analytic, Estimate, Rounded, Scalar};
 use crate::special::RoundedSpecial;
@@ -84,7 +83,7 @@ impl<S: RoundedSpecial> Modal<S> {
         // To be damped, and damped already.
         let mut bare: [Estimate<S>; N] = std::array::from_fn(|_| trips.zero());
         let mut damped: [Estimate<S>; N] = std::array::from_fn(|_| trips.zero());
-        let used = [0, 1, 2].map_each(|m| list.iter().any(|s| s.motion as usize == m));
+        let used = [0, 1, 2].map(|m| list.iter().any(|s| s.motion as usize == m));
         let pi = trips.pi();
         for n in (0..expansion.modes).rev() {
             let omega = pi.clone() * &trips.int(2 * n + 1);
@@ -164,9 +163,9 @@ impl<S: RoundedSpecial> Modal<S> {
         let mut rounding = 0.0;
         for order in 2..=MOST_POWERS {
             let taken = order - 1;
-            let sizes = [&powers[0][taken], &powers[1][taken]].map_each(|f| f.to_f64().abs());
+            let sizes = [&powers[0][taken], &powers[1][taken]].map(|f| f.to_f64().abs());
             rounding += 100.0 * trips.value().unit() * (sizes[0] + sizes[1]) / PI.powi(taken as i32);
-            for radius in [order as f64 / turn, 0.5 / r].map_each(|rho| rho.min(0.5 / r).min(1e300)) {
+            for radius in [order as f64 / turn, 0.5 / r].map(|rho| rho.min(0.5 / r).min(1e300)) {
                 let least = 1.0 / (PI * radius) + 1.0;
                 if least.is_nan() || least > MOST_MODES as f64 {
                     continue;
@@ -195,7 +194,7 @@ impl<S: RoundedSpecial> Modal<S> {
     fn powers(&self, trips: &Estimate<S>) -> [Vec<Estimate<S>>; 3] {
         let square = self.damping.square();
         let zero = || trips.zero();
-        let mut exponent: Vec<Estimate<S>> = mapped(0..MOST_POWERS, |_| zero());
+        let mut exponent: Vec<Estimate<S>> = (0..MOST_POWERS).map(|_| zero()).collect();
         let mut root = exponent.clone();
         let (mut half, mut inverse) = (trips.ratio(1, 2) * trips * &square, trips.one());
         for m in (0..MOST_POWERS as i64).step_by(2) {
@@ -211,9 +210,9 @@ impl<S: RoundedSpecial> Modal<S> {
             x.push(sum / trips.int(n as i64));
         }
         let gamma = |n: usize| (0..=n).fold(zero(), |sum, k| sum + root[k].clone() * &x[n - k]);
-        let sine: Vec<Estimate<S>> = mapped(0..MOST_POWERS, |m| if m == 0 { zero() } else { gamma(m - 1) });
-        let falling = x.iter().zip(&sine).map(|(x, s)| x.clone() - self.damping.clone() * s).collect_vec();
-        let rising = x.iter().zip(&sine).map(|(x, s)| x.clone() + self.damping.clone() * s).collect_vec();
+        let sine: Vec<Estimate<S>> = (0..MOST_POWERS).map(|m| if m == 0 { zero() } else { gamma(m - 1) }).collect();
+        let falling = x.iter().zip(&sine).map(|(x, s)| x.clone() - self.damping.clone() * s).collect();
+        let rising = x.iter().zip(&sine).map(|(x, s)| x.clone() + self.damping.clone() * s).collect();
         [sine, falling, rising]
     }
 }

@@ -1,7 +1,6 @@
 //! The data at `t = 0`, in the numbers of an engine.
 
 use super::Field;
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Number, Open, Scalar};
 use crate::problem::{Parameters, Problem, Profile, Start, Top};
 
@@ -51,7 +50,7 @@ impl<S: Scalar> AtStart<S> {
     pub(crate) fn with(problem: &Problem, given: &Parameters<S>, lift: &dyn Fn(Datum, &Number) -> S) -> Self {
         let zero = given.length.zero();
         let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {
-            mapped(list.iter().enumerate(), |(k, (x, value))| (lift(Datum::Point, x), lift(datum(k), value)))
+            list.iter().enumerate().map(|(k, (x, value))| (lift(Datum::Point, x), lift(datum(k), value))).collect()
         };
         let (displacement, velocity) = match &problem.start {
             Start::Profile(profile) => {
@@ -114,7 +113,7 @@ fn segments<S: Scalar>(
             return vec![(0.into(), zero.clone(), zero.clone()), (place.clone(), length.clone(), zero)];
         }
         let points = places.iter().zip(numbers);
-        points.map(|((place, _), (x, value))| (place.clone(), x.clone(), value.clone())).collect_vec()
+        points.map(|((place, _), (x, value))| (place.clone(), x.clone(), value.clone())).collect()
     };
     let (displacement, velocity) = (or_rest(&profile.displacement, displacement), or_rest(&profile.velocity, velocity));
     let mut segments = Vec::new();
@@ -125,7 +124,7 @@ fn segments<S: Scalar>(
         if from.0.compare(&to.0).is_lt() {
             let slope = |a: &(Number, S, S), b: &(Number, S, S)| (b.2.clone() - &a.2) / (b.1.clone() - &a.1);
             let (strain, rate) = (slope(ya, yb), slope(va, vb));
-            let velocities = [from, to].map_each(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
+            let velocities = [from, to].map(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
             segments.push(Segment { ends: [from.1.clone(), to.1.clone()], velocities, strain });
         }
         // Whichever list's segment ends first is left behind; both where they end together.

@@ -4,7 +4,6 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 use crate::reason::{Near, Reason, Warning};
 
@@ -125,7 +124,7 @@ impl<S> Contact<S> {
     }
 
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect_vec()
+        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect()
     }
 }
 
@@ -138,7 +137,7 @@ impl<S: Clone> Contact<S> {
             let to = events.get(k + 1).map(|release| release.time.clone());
             Contact { from: impact.time.clone(), to, impulse, peak_strain }
         };
-        impacts.map(contact).collect_vec()
+        impacts.map(contact).collect()
     }
 }
 
@@ -156,7 +155,7 @@ impl<S> Energy<S> {
 impl<S> StressPiece<S> {
     /// Where pieces begin and end, and the values there.
     pub(crate) fn numbers(pieces: &[Self]) -> Vec<&S> {
-        pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect_vec()
+        pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect()
     }
 
     /// The same piece in other numbers.
@@ -166,7 +165,7 @@ impl<S> StressPiece<S> {
             to: f(self.to),
             left: f(self.left),
             right: f(self.right),
-            chebyshev: mapped(self.chebyshev, f),
+            chebyshev: self.chebyshev.into_iter().map(f).collect(),
         }
     }
 }
@@ -226,7 +225,7 @@ impl<S: Scalar> StressPiece<S> {
             let before = if k == 1 { coefficient(0) * &passed.int(2) } else { coefficient(k - 1) };
             (before - coefficient(k + 1)) / passed.int(2 * k as i64)
         };
-        let mut chebyshev: Vec<S> = mapped(1..=self.chebyshev.len(), term);
+        let mut chebyshev: Vec<S> = (1..=self.chebyshev.len()).map(term).collect();
         // Zero at −1, where T_k = (−1)^k.
         let start =
             chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
@@ -251,7 +250,7 @@ pub struct StressHistory<S> {
 impl<S: Scalar> fmt::Display for StressHistory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, piece) in self.pieces.iter().enumerate() {
-            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map_each(Scalar::text);
+            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
             let to = match &self.ending {
                 Ending::ExactnessEnds { time, .. } if k + 1 == self.pieces.len() => format!("just before {time}"),
                 _ => to,
@@ -370,8 +369,8 @@ impl<S> Course<S> {
         Course {
             end: f(self.end),
             ending: self.ending,
-            events: mapped(self.events, |event| event.map(&f)),
-            contacts: mapped(self.contacts, |contact| contact.map(&f)),
+            events: self.events.into_iter().map(|event| event.map(&f)).collect(),
+            contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
             warnings: self.warnings,
         }
     }

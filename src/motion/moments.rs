@@ -2,7 +2,6 @@
 
 use super::Stretch;
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::number::Scalar;
 
 /// `∫ f dx` and `∫ f (x − a) dx` over a cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
@@ -123,5 +122,5 @@ pub(crate) fn of_sums<S: Scalar>(sums: Vec<Sums<S>>, points: &[S], ground: S) ->
         start = end;
         moments
     });
-    moments.skip(1).collect_vec()
+    moments.skip(1).collect()
 }

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
-use crate::mapped::try_mapped;
 use crate::number::Scalar;
 use crate::order::partition;
 use crate::problem::Parameters;
@@ -151,10 +150,13 @@ pub trait Motion<S: Scalar>: Send + Sync {
     /// all points of one time together. Where a ray passes, the value on one of its sides.
     fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
         let places = times.iter().flat_map(|time| points.iter().map(move |point| (point, time)));
-        try_mapped(places, |(point, time)| {
-            let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
-            Ok([velocity, strain])
-        })
+        places
+            .into_iter()
+            .map(|(point, time)| {
+                let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
+                Ok([velocity, strain])
+            })
+            .collect()
     }
 
     /// `t*` and `h(t*)`: where the centre of mass turns in the flight after the release that is this event, if nothing

@@ -1,7 +1,6 @@
 //! The register of rays: when each is where.
 
 use super::{Event, EventKind, Motion, Scales};
-use crate::mapped::{CollectVec, mapped};
 use crate::number::Scalar;
 use crate::order::ascending;
 
@@ -71,7 +70,7 @@ impl<S: Scalar> RayRegister<S> {
         let most = (motion.scales().time.to_f64() * MOST_LATE).log2();
         let times = motion.events().iter().map(|event| &event.time);
         let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
-        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect_vec());
+        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
         [start, displaced]
     }
 
@@ -92,7 +91,7 @@ impl<S: Scalar> RayRegister<S> {
         let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
         let found = ascending(ascending(found, |ray| ray.0.to_f64()), |ray| fraction(&ray.0));
-        let phases: Vec<_> = mapped(found, |ray| (fraction(&ray.0), ray));
+        let phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
         let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
         let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
         let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new(), widest };
@@ -173,7 +172,7 @@ impl<S: Scalar> RayRegister<S> {
             let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
             self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + apart)
         });
-        near.map(|phase| &phase.rays[0].0).collect_vec()
+        near.map(|phase| &phase.rays[0].0).collect()
     }
 
     /// The rays that pass `point` from one time to another, in order; at the ground also those that come from the start

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use super::StressPiece;
-use crate::mapped::mapped;
 use crate::number::Scalar;
 
 /// The pieces cut into straight ones, each within `share` of the greatest `|v_x(0,·)|` at their ends.
@@ -27,7 +26,7 @@ pub(crate) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<
 const MOST_HALVINGS: u32 = 30;
 
 fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<StressPiece<S>>) {
-    let coefficients = mapped(&piece.chebyshev, Scalar::to_f64);
+    let coefficients = piece.chebyshev.iter().map(Scalar::to_f64).collect();
     let mut shares = Vec::new();
     halve(coefficients, (0.0, 1.0), tolerance, MOST_HALVINGS, &mut shares);
     shares.pop();
@@ -69,12 +68,12 @@ fn half(c: &[f64], middle: f64) -> Vec<f64> {
         }
         x * b1 - b2 + c[0]
     };
-    let values: Vec<f64> = mapped(0..n, value);
+    let values: Vec<f64> = (0..n).map(value).collect();
     let coefficient = |k: usize| {
         let sum: f64 = values.iter().enumerate().map(|(j, value)| value * angle(k, j)).sum();
         sum * if k == 0 { 1.0 } else { 2.0 } / n as f64
     };
-    mapped(0..n, coefficient)
+    (0..n).map(coefficient).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use glam::{DMat2, DVec2};
 
-use crate::mapped::{CollectVec, mapped};
 use crate::number::Scalar;
 use crate::problem::Top;
 
@@ -179,7 +178,7 @@ impl<S: Scalar> Waves<S> {
 
     pub(crate) fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
-        [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect_vec()
+        [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect()
     }
 
     pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
@@ -190,7 +189,7 @@ impl<S: Scalar> Waves<S> {
             slope: f(piece.slope),
         };
         Waves {
-            pieces: mapped(self.pieces, piece),
+            pieces: self.pieces.into_iter().map(piece).collect(),
             constant: f(self.constant),
             linear: f(self.linear),
             quadratic: f(self.quadratic),

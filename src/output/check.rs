@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 use super::cost::duration;
 use super::target::{published_json, published_page, targets_data};
 use crate::aligned::table;
-use crate::mapped::{CollectVec, mapped};
 use crate::routes::Published;
 use crate::routes::check::{Checked, CheckedQuestion, Group};
 
@@ -21,7 +20,7 @@ pub(crate) type Groups = [(Group, Vec<Checked>)];
 
 /// How many cases came to each verdict, in the order of their first appearance.
 fn count(groups: &Groups) -> String {
-    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect_vec();
+    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for checked in &cases {
         let name = checked.verdict.name();
@@ -30,7 +29,7 @@ fn count(groups: &Groups) -> String {
             None => counts.push((name, 1)),
         }
     }
-    let counts: Vec<String> = mapped(&counts, |(name, count)| format!("{count} {name}"));
+    let counts: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
     format!("{} cases: {}", cases.len(), counts.join(", "))
 }
 
@@ -50,7 +49,7 @@ pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
                 });
                 out += &format!("  {what} = {}\n", truth);
                 let header = ["route", "promises", "", "answers", "digits", "time"];
-                let text = table(&header, rows.collect_vec(), 3);
+                let text = table(&header, rows.collect(), 3);
                 out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
             }
             out += "\n";
@@ -76,7 +75,7 @@ pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String 
     let rows = cases.map(|(group, checked)| {
         vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
     });
-    let cases = table(&["group", "case", "verdict"], rows.collect_vec(), 3) + "\n\n";
+    let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
     if groups.is_empty() { below(groups, published) } else { cases + &below(groups, published) }
 }
 
@@ -133,7 +132,7 @@ pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
                     "seconds": row.seconds,
                 })
             });
-            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect_vec() })
+            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
         });
         let case = checked.case;
         json!({
@@ -142,8 +141,8 @@ pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
             "source": case.source,
             "about": case.about,
             "verdict": checked.verdict.name(),
-            "questions": asked.collect_vec(),
+            "questions": asked.collect::<Vec<_>>(),
         })
     });
-    json!({ "schema": 1, "cases": cases.collect_vec(), "targets": published_json(published) })
+    json!({ "schema": 1, "cases": cases.collect::<Vec<_>>(), "targets": published_json(published) })
 }

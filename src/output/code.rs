@@ -1,7 +1,6 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::reference::Preamble;
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{WavePiece, Waves};
 use crate::number::{Scalar, bound_of_log2};
 use crate::problem::Top;
@@ -47,7 +46,7 @@ pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, pre
         ("B", &waves.linear),
         ("D", &waves.quadratic),
     ]
-    .map_each(|(name, value)| (name, number(value)));
+    .map(|(name, value)| (name, number(value)));
     let mut rows: Vec<[String; 4]> = Vec::with_capacity(waves.pieces.len());
     for WavePiece { from, sum, rate, slope } in &waves.pieces {
         rows.push([number(from), number(sum), number(rate), number(slope)]);
@@ -83,7 +82,7 @@ fn written(
     let constants: String = match language {
         Language::Python => assigned.map(|line| line + "\n").collect(),
         Language::Matlab => assigned.map(|line| line + ";\n").collect(),
-        Language::C => assigned.collect_vec().join(", "),
+        Language::C => assigned.collect::<Vec<_>>().join(", "),
     };
     let row = |row: &[String; 4]| match language {
         Language::Python => format!("    ({}),\n", row.join(", ")),
@@ -96,7 +95,7 @@ fn written(
         ("@CONSTANTS@", constants),
         ("@SIGN@", sign.into()),
         ("@COUNT@", rows.len().to_string()),
-        ("@ROWS@", mapped(&rows, row).concat()),
+        ("@ROWS@", rows.iter().map(row).collect::<Vec<_>>().concat()),
         ("@NEAR@", NEAR.into()),
         // Last, because a title may hold anything.
         ("@REMARKS@", remarks),

@@ -5,7 +5,6 @@ use serde_json::json;
 
 use super::dataset::{Column, Dataset};
 use crate::draw::{Axis, Key, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
-use crate::mapped::{CollectVec, mapped};
 use crate::number::Number;
 use crate::routes::cost::{Difference, Family, Row, Table};
 
@@ -171,7 +170,7 @@ fn digits_at(place: f64, decades: f64) -> f64 {
 
 /// Ticks at all whole numbers of a range.
 fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
-    mapped(from.ceil() as i32..=to.floor() as i32, |place| (place.into(), text(place.into())))
+    (from.ceil() as i32..=to.floor() as i32).map(|place| (place.into(), text(place.into()))).collect()
 }
 
 /// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
@@ -190,7 +189,7 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
         DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
     };
-    let times: Vec<f64> = mapped(&cost.rows, |row| place(row).x);
+    let times: Vec<f64> = cost.rows.iter().map(|row| place(row).x).collect();
     let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
     let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
     let mut x = Axis::new("time [s]", "", [first, last]);
@@ -209,13 +208,13 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     // The rows come by family, and in it by ladder.
     for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
         let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
-        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| mapped(rows, place)).collect_vec();
+        let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
         let (color, mark) = look(rows[0].family);
         panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
         panel.add("marks", Shape::Marks(lines.concat(), mark, color));
         panel.legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
     }
-    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect_vec();
+    let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     for mark in [Mark::Ring, Mark::Star] {
         panel.add("chosen", Shape::Marks(chosen.clone(), mark, "#000000"));
     }

@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use serde_json::Value;
 
-use crate::mapped::{MapEach, mapped};
 use crate::number::{Number, Scalar, bound_json, bound_of_log2, number_json, show, shown_bound};
 
 /// A number of any system, as writers ask it.
@@ -65,7 +64,7 @@ impl Cell {
     }
 
     pub(crate) fn numbers(all: &[impl Scalar]) -> Self {
-        Cell::Numbers(mapped(all, |x| Rc::new(x.clone()) as Shared))
+        Cell::Numbers(all.iter().map(|x| Rc::new(x.clone()) as Shared).collect())
     }
 
     pub(super) fn shared(x: Option<&Shared>) -> Self {
@@ -86,7 +85,7 @@ impl Cell {
             Cell::Plain(Value::Null) => none.into(),
             Cell::Plain(value) => plain(value),
             Cell::Number(x) => x.printed(digits),
-            Cell::Numbers(numbers) => mapped(numbers, |x| x.printed(digits)).join(" "),
+            Cell::Numbers(numbers) => numbers.iter().map(|x| x.printed(digits)).collect::<Vec<_>>().join(" "),
         }
     }
 
@@ -139,7 +138,7 @@ pub(crate) struct Column {
 
 impl Column {
     fn at(head: bool, name: bool, key: bool, text: Cow<'static, str>) -> Self {
-        let [head, name, key] = [head, name, key].map_each(|there| there.then(|| text.clone()));
+        let [head, name, key] = [head, name, key].map(|there| there.then(|| text.clone()));
         Column { head, name, key, unit: "", is_text: false, is_bounded: false, is_optional: false }
     }
 

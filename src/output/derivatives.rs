@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use super::dataset::{Cell, Column, Dataset, Shared};
 use super::record::Head;
-use crate::mapped::mapped;
 use crate::number::Scalar;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
@@ -13,7 +12,7 @@ use crate::solve::{Derivative, Derivatives};
 /// Derivatives in numbers that every writer takes.
 pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
     let share = |cell: Option<Derivative<S>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
-    mapped(found, |row| mapped(row, share))
+    found.into_iter().map(|row| row.into_iter().map(share).collect()).collect()
 }
 
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
@@ -59,7 +58,7 @@ pub(super) fn table(
     data.columns = vec![Column::table(what.to_string()).text(), Column::table("side").text()];
     data.columns.extend(quantities.iter().map(|(_, symbol)| Column::table(format!("∂ {symbol}"))));
     for (key, row) in keys.into_iter().zip(rows) {
-        let cells: Vec<_> = mapped(quantities, |(k, _)| row.get(*k).and_then(Option::as_ref));
+        let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
         let both = cells.iter().flatten().all(|cell| cell.value().is_some());
         let sides: &[(usize, &str)] = if both { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
         for (side, word) in sides {

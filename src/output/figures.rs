@@ -6,7 +6,6 @@ use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use crate::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Shape, Sheet, Stroke};
 use crate::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Analytic;
 
 const LINE: f64 = 0.4;
@@ -22,15 +21,15 @@ pub(crate) fn figure_data(figure: &Figure, data: &Data) -> Dataset {
     if let Some(map) = &data.map {
         return regimes_data(map);
     }
-    let row = |row: &Vec<_>| mapped(row, |value: &Option<_>| Cell::optional(value.as_ref()));
-    let columns = mapped(&data.columns, |name| Column::new(*name));
-    let notes = [figure.shown, figure.corrected].map_each(String::from).to_vec();
-    Dataset { columns, rows: mapped(&data.rows, row), notes, ..Dataset::default() }
+    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::optional(value.as_ref())).collect();
+    let columns = data.columns.iter().map(|name| Column::new(*name)).collect();
+    let notes = [figure.shown, figure.corrected].map(String::from).to_vec();
+    Dataset { columns, rows: data.rows.iter().map(row).collect(), notes, ..Dataset::default() }
 }
 
 /// What stands beside the files, whose pictures have these `endings`.
 pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]) -> Result<String, Failed> {
-    let names: Vec<String> = mapped(endings, |ending| ending.to_uppercase());
+    let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
         "# Figures\n\nOf F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an elastic \
          rod with viscous damping*, IMA Preprint 2473, 2016, worked out by dalembert {}: `dalembert figures`.\nEach is \
@@ -60,8 +59,7 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
         for damping in DAMPINGS {
             let limits = limits(damping)?;
             let numbers = [Some(limits.restitution), Some(limits.decay.sqrt()), limits.translational, limits.kept];
-            let cells: Vec<String> =
-                numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect_vec();
+            let cells: Vec<String> = numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect();
             text += &format!("| {damping} | {} |\n", cells.join(" | "));
         }
     }
@@ -121,12 +119,11 @@ fn kernel(rows: &[Row]) -> Panel {
     let mut panel = Panel::new(title, Axis::new("t", "", [0.0, 4.0]), y);
     panel.level("limit", 0.0, Stroke::new("#808080", THIN));
     for (k, damping) in STRONG.into_iter().enumerate() {
-        let (rows, stroke) = (of(rows, damping).collect_vec(), Stroke::new(LINES[k], LINE));
+        let (rows, stroke) = (of(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
-        let points = |rows: &[&Row]| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect_vec();
-        let stretches: Vec<Vec<DVec2>> = mapped(rows.chunk_by(|a, b| a[1] != b[1]), points);
-        let jumps =
-            stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect_vec();
+        let points = |rows: &[&Row]| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect();
+        let stretches: Vec<Vec<DVec2>> = rows.chunk_by(|a, b| a[1] != b[1]).map(points).collect();
+        let jumps = stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect();
         panel.lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5"));
         panel.lines("curve", stretches, stroke);
         panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
@@ -145,7 +142,7 @@ fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
         let stroke = Stroke::new(LINES[k], LINE);
         panel.lines("curve", stretches(rows.iter(), 0, *column), stroke);
         let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
-        dots(&mut panel, dot.map(|value| DVec2::new(2.0, value)).collect_vec(), UNDAMPED);
+        dots(&mut panel, dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED);
         if columns.len() > 1 {
             panel.legend.push(Key::Line((*name).into(), stroke));
         }
@@ -201,15 +198,15 @@ fn shares(rows: &[Row], label: &str) -> Panel {
 fn regions(rows: &[Row]) -> Panel {
     let mut x = Axis::new("y", "", [-2.0, 3.0]);
     let ticks = [(-1.5, "x − c t₁"), (0.0, "0"), (0.5, "x"), (2.0, "2L"), (2.5, "x + c t₁")];
-    x.ticks = Some(ticks.map_each(|(y, text)| (y, text.into())).into());
+    x.ticks = Some(ticks.map(|(y, text)| (y, text.into())).into());
     let mut y = Axis::new("time", "", [0.0, 2.2]);
     y.ticks = Some(vec![(0.0, "0".into()), (2.0, "t₁".into())]);
     let mut panel = Panel::new("regions of integration for the point (x, t₁), x = L/2", x, y);
     for ((region, color), name) in [1.0, 2.0, 3.0].into_iter().zip(REGIONS).zip(["A", "B", "C"]) {
         let rows = rows.iter().filter(|row| row[0] == Some(region));
-        let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect_vec();
+        let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
-        let edge = corners.iter().chain(corners.first()).copied().collect_vec();
+        let edge = corners.iter().chain(corners.first()).copied().collect();
         panel.add("area", Shape::Areas(vec![corners], color));
         panel.lines("curve", vec![edge], Stroke::new(BLACK, THIN));
         panel.add("note", Shape::Note(middle, Anchor::Middle, name.into()));

@@ -6,8 +6,6 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::mapped::{CollectVec, mapped};
-
 /// Writes bytes to each path, or to standard output for `-` or none: all files appear, each complete, or none.
 pub(crate) fn write_together(files: &[(Option<&Path>, &[u8])]) -> Result<(), (usize, io::Error)> {
     let (mut staged, mut printed) = (Vec::new(), Vec::new());
@@ -86,7 +84,7 @@ pub(crate) fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> io::Res
         let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir(folder).map_err(|error| plain(&error, parent))?;
     }
-    let paths = mapped(files, |(name, _)| folder.join(name));
-    let files: Vec<_> = paths.iter().zip(files).map(|(path, (_, bytes))| (Some(&**path), &**bytes)).collect_vec();
+    let paths = files.iter().map(|(name, _)| folder.join(name)).collect::<Vec<_>>();
+    let files: Vec<_> = paths.iter().zip(files).map(|(path, (_, bytes))| (Some(&**path), &**bytes)).collect();
     write_together(&files).map_err(|(_, error)| error)
 }

@@ -1,7 +1,6 @@
 //! The stress at the ground as a line of blocks, for a glance at a terminal.
 
 use super::record::Head;
-use crate::mapped::{MapEach, mapped};
 use crate::motion::{Motion, StressPiece, straight};
 use crate::number::Scalar;
 use crate::quantity::Measure;
@@ -16,7 +15,7 @@ const STRAIGHT: f64 = 0.05;
 ///
 /// **Accuracy**: 0.05 of the greatest `|v_x(0,t)|`.
 pub(crate) fn outline<S: Scalar>(motion: &dyn Motion<S>) -> Vec<f64> {
-    let pieces = mapped(motion.stress_pieces(), |piece| piece.map(|x| x.to_f64()));
+    let pieces = motion.stress_pieces().into_iter().map(|piece| piece.map(|x| x.to_f64())).collect::<Vec<_>>();
     parts(&straight(&pieces, STRAIGHT), motion.end().to_f64())
 }
 
@@ -26,7 +25,7 @@ fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     for piece in pieces.iter().filter(|piece| piece.to > piece.from && piece.left.min(piece.right) < 0.0) {
         let first = (piece.from / width) as usize;
         for (k, part) in least.iter_mut().enumerate().skip(first) {
-            let [from, to] = [k, k + 1].map_each(|k| (k as f64 * width).clamp(piece.from, piece.to));
+            let [from, to] = [k, k + 1].map(|k| (k as f64 * width).clamp(piece.from, piece.to));
             if from >= piece.to {
                 break;
             }

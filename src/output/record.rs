@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::dataset::{Dataset, Shared};
 use super::table::{WIDTH, wrapped};
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::Ending;
 use crate::problem::Parameter;
 use crate::quantity::{Undefined, Units};
@@ -38,16 +37,16 @@ impl Head {
     }
 
     pub(super) fn warning_texts(&self) -> Vec<String> {
-        mapped(&self.warnings, ToString::to_string)
+        self.warnings.iter().map(ToString::to_string).collect()
     }
 
     pub(super) fn warning_lines(&self) -> String {
-        mapped(&self.warnings, |warning| self.line(&format!("warning: {warning}"))).concat()
+        self.warnings.iter().map(|warning| self.line(&format!("warning: {warning}"))).collect::<Vec<_>>().concat()
     }
 
     pub(super) fn notes(&self) -> Vec<String> {
         let end = self.exact_until.iter().map(|end| format!("{end}; the numbers are {}", self.number));
-        end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect_vec()
+        end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect()
     }
 
     pub(super) fn exact_until_json(&self) -> Value {

@@ -11,7 +11,6 @@ use super::npz::Npz;
 use super::record::Head;
 use super::write_filled;
 use super::writer::Format;
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, number_json, show, shown_bound};
 use crate::quantity::Quantity;
 use crate::solve::Numbers;
@@ -90,7 +89,7 @@ impl Preamble<'_> {
             "kind": "reference",
             "dalembert": env!("CARGO_PKG_VERSION"),
             "title": self.head.title,
-            "scene": self.scene_lines().collect_vec().join("\n"),
+            "scene": self.scene_lines().collect::<Vec<_>>().join("\n"),
             "effects": self.head.effects,
             "until": self.until,
             "numbers": self.head.number,
@@ -99,9 +98,9 @@ impl Preamble<'_> {
             "signs": SIGNS,
             "side": SIDE,
             "ends": self.ends,
-            "warnings": mapped(&self.head.warnings, ToString::to_string),
+            "warnings": self.head.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "cite": CITE,
-            "columns": columns.collect_vec(),
+            "columns": columns.collect::<Vec<_>>(),
         })
     }
 
@@ -224,16 +223,16 @@ impl Rows {
                         let mut bytes = [0; 8];
                         values.read_exact(&mut bytes).map(|()| f64::from_le_bytes(bytes))
                     };
-                    let values = try_mapped(0..count, |_| next())?;
+                    let values = (0..count).map(|_| next()).collect::<Result<Vec<_>, _>>()?;
                     match is_flag(*column) {
-                        true => npz.add(column.name(), &[count], mapped(&values, |x| *x as i8)),
+                        true => npz.add(column.name(), &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>()),
                         false => npz.add(column.name(), &[count], values),
                     }?;
                 }
                 npz.finish()
             }
             _ => {
-                let names: Vec<&str> = mapped(&columns, |(column, _)| column.name());
+                let names: Vec<&str> = columns.iter().map(|(column, _)| column.name()).collect();
                 writeln!(file, "{}{}", preamble.comments(&columns, &bounds), names.join(","))?;
                 kept.try_for_each(|rows| io::copy(&mut rows?, file).map(|_| ()))
             }

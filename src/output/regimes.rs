@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::dataset::{Column, Dataset};
 use super::npz::Npz;
 use crate::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
 use crate::sweep::{BANDS, Map, Regime, Spread, threshold, threshold_near};
 
@@ -36,8 +35,8 @@ pub(crate) fn regimes_data(map: &Map) -> Dataset {
         };
         vec![r.to_string().into(), m.to_string().into(), time.into(), word.into()]
     };
-    let columns = ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map_each(Column::new).to_vec();
-    Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect_vec(), ..Dataset::default() }
+    let columns = ["damping_ratio", "speed_ratio", "bounce_ratio", "regime"].map(Column::new).to_vec();
+    Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect(), ..Dataset::default() }
 }
 
 /// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
@@ -47,8 +46,8 @@ pub(crate) fn threshold_data(map: &Map) -> Dataset {
         let [m, bound] = m.map(|m| [m.text(), bound_of_log2(double_bound(&m))]).unwrap_or_default();
         vec![r.to_string().into(), m.into(), bound.into()]
     };
-    let columns = ["damping_ratio", "threshold", "uncertainty"].map_each(Column::new).to_vec();
-    Dataset { columns, rows: mapped(&map.damping, row), ..Dataset::default() }
+    let columns = ["damping_ratio", "threshold", "uncertainty"].map(Column::new).to_vec();
+    Dataset { columns, rows: map.damping.iter().map(row).collect(), ..Dataset::default() }
 }
 
 /// How often each regime comes, in words.
@@ -72,7 +71,7 @@ pub(crate) fn regimes_text(map: &Map) -> String {
 pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     let mut npz = Npz::new(&mut bytes, true);
-    let doubles = |list: &[Number]| mapped(list, Number::to_f64);
+    let doubles = |list: &[Number]| list.iter().map(Number::to_f64).collect::<Vec<_>>();
     let (dampings, speeds) = (doubles(&map.damping), doubles(&map.speed));
     let value = |regime: &Regime| match regime {
         Regime::Bounce(time) => *time,
@@ -80,10 +79,10 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
         Regime::Undecided => f64::NAN,
     };
     let shape = [speeds.len(), dampings.len()];
-    let thresholds = mapped(&dampings, |r| threshold_near(*r));
+    let thresholds = dampings.iter().map(|r| threshold_near(*r)).collect::<Vec<_>>();
     npz.add("damping_ratio", &shape[1..], dampings)?;
     npz.add("speed_ratio", &shape[..1], speeds)?;
-    npz.add("bounce_ratio", &shape, mapped(&map.regimes, value))?;
+    npz.add("bounce_ratio", &shape, map.regimes.iter().map(value).collect())?;
     npz.add("threshold", &shape[1..], thresholds)?;
     npz.finish()?;
     Ok(bytes.into_inner())
@@ -92,7 +91,7 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
 /// The axis of some values and where its parts begin and end: a value is the middle of its part.
 fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
     let spread = Spread::of(values);
-    let ends = [0.0, values.len() as f64].map_each(|steps| spread.border(steps));
+    let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
 
@@ -100,14 +99,14 @@ fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
 pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
     let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
-    let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map_each(DVec2::from_array).to_vec();
+    let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map(DVec2::from_array).to_vec();
     let [bottom, top] = [y.from, y.to];
     let mut panel = Panel::new("when the first contact ends", x, y);
     panel.add("bands", Shape::Region(vec![whole], COLORS[known - 1].0));
     let place = |steps: DVec2| DVec2::new(across.border(steps.x), up.border(steps.y));
     // Each band lies over those after it.
     for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
-        let lines = mapped(lines, |line| mapped(line, |point| place(*point)));
+        let lines = lines.iter().map(|line| line.iter().map(|point| place(*point)).collect()).collect();
         panel.add("bands", Shape::Region(lines, color));
     }
     // Closer and closer to I₀(R) = 2, where it is infinite.
@@ -117,13 +116,13 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
         *(if threshold_near(middle).is_finite() { &mut below } else { &mut above }) = middle;
     }
     let curve = (0..=800).map(|k| below * (1.0 - (-f64::from(k) / 20.0).exp2()));
-    let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect_vec();
-    let pi = [bottom, top].map_each(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
+    let curve = curve.map(|r| DVec2::new(r, threshold_near(r))).filter(|point| point.y.is_finite()).collect();
+    let pi = [bottom, top].map(|m| DVec2::new(std::f64::consts::PI, m)).to_vec();
     // Apart from every colour of the map, and from paper.
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     panel.lines("threshold", vec![curve], solid);
     panel.lines("curve", vec![pi], dashed);
-    panel.legend = mapped(&COLORS[..known], |(color, text)| Key::Area((*text).into(), color));
+    panel.legend = COLORS[..known].iter().map(|(color, text)| Key::Area((*text).into(), color)).collect();
     panel.legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
     panel.legend.push(Key::Line("R = π".into(), dashed));
     panel

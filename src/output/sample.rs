@@ -8,7 +8,6 @@ use super::record::Head;
 use super::solve::{listed, named_units, units_json};
 use super::table::table_digits;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::problem::Parameter;
@@ -58,8 +57,10 @@ impl Quantity {
             (Quantity::End, _) => pair(history.ground_end(time, side)?),
             (Quantity::Top, _) => pair(history.top_end(time, side)?),
             (Quantity::Centre, _) => pair(history.centre(time)?),
-            (Quantity::Energy, _) => mapped(history.energy(time)?.numbers(), Clone::clone),
-            (Quantity::Field, Some(point)) => mapped(history.field(point, time, side)?.numbers(), Clone::clone),
+            (Quantity::Energy, _) => history.energy(time)?.numbers().into_iter().cloned().collect(),
+            (Quantity::Field, Some(point)) => {
+                history.field(point, time, side)?.numbers().into_iter().cloned().collect()
+            }
             (Quantity::Field, None) => Vec::new(),
         })
     }
@@ -89,7 +90,7 @@ pub(crate) fn samples<S: Scalar>(
     let mut found: Vec<(&S, Option<&S>, Vec<S>)> = Vec::new();
     let of_field = wanted.contains(&Quantity::Field);
     for time in times {
-        let points = if of_field { mapped(points, Some) } else { vec![None] };
+        let points = if of_field { points.iter().map(Some).collect() } else { vec![None] };
         for point in points {
             let mut values = Vec::new();
             for quantity in wanted {
@@ -101,8 +102,8 @@ pub(crate) fn samples<S: Scalar>(
     }
     let units = &head.units;
     let has_points = of_field && !found.is_empty();
-    let asked = wanted.iter().flat_map(|quantity| quantity.columns()).map(|column| column.0).collect_vec();
-    let values = mapped(&found, |(.., values)| mapped(values, Some));
+    let asked = wanted.iter().flat_map(|quantity| quantity.columns()).map(|column| column.0).collect::<Vec<_>>();
+    let values = found.iter().map(|(.., values)| values.iter().map(Some).collect::<Vec<_>>()).collect::<Vec<_>>();
     let name = naming(wanted);
     let column = |quantity| Column::new(name(quantity)).keyed(format!("values/{}", name(quantity)));
     let mut data = listed(history, &asked, &column, head, &values);
@@ -115,7 +116,7 @@ pub(crate) fn samples<S: Scalar>(
         row.splice(0..0, [Cell::number(time), Cell::optional(point), side.to_string().into()]);
         numbers.extend(values.into_iter().chain(point.cloned()).chain([time.clone()]));
     }
-    let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect_vec();
+    let quantities = asked.into_iter().filter(|quantity| quantity.is_listed(units.has_material())).collect::<Vec<_>>();
     Ok((Samples { wanted: wanted.to_vec(), quantities, data, derivatives: Vec::new() }, numbers))
 }
 
@@ -125,15 +126,15 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
     let place = |row: &Vec<Cell>| {
         let places = ["t = ", "x = "].into_iter().zip(row).filter(|(_, cell)| !cell.is_empty());
         let texts = places.map(|(name, cell)| format!("{name}{}", cell.text(table_digits(head.digits), "")));
-        texts.collect_vec().join("   ")
+        texts.collect::<Vec<_>>().join("   ")
     };
-    let keys = mapped(&data.rows, place);
-    let symbols = quantities.iter().map(|quantity| quantity.symbol()).enumerate().collect_vec();
+    let keys = data.rows.iter().map(place).collect::<Vec<_>>();
+    let symbols = quantities.iter().map(|quantity| quantity.symbol()).enumerate().collect::<Vec<_>>();
     let tables = derivatives.iter().map(|by| derivatives::table(("at", keys.clone()), &symbols, (by.0, &by.1), head));
-    let tables = tables.collect_vec().concat();
+    let tables = tables.collect::<Vec<_>>().concat();
     let end = head.exact_until.as_ref().map_or_else(String::new, |end| format!("{end}; these are {}\n", head.number));
     let columns = wanted.iter().flat_map(|quantity| quantity.columns());
-    let measures = columns.filter_map(|(quantity, _)| quantity.measure()).collect_vec();
+    let measures = columns.filter_map(|(quantity, _)| quantity.measure()).collect::<Vec<_>>();
     let below = end + &named_units(&measures, units) + &head.warning_lines();
     let space = if below.is_empty() { "" } else { "\n" };
     let mut data = Dataset {
@@ -141,7 +142,7 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
             ("schema", 1.into()),
             ("title", head.title.clone().into()),
             ("number", head.number.clone().into()),
-            ("quantity", mapped(&wanted, |quantity| quantity.name()).join(",").into()),
+            ("quantity", wanted.iter().map(|quantity| quantity.name()).collect::<Vec<_>>().join(",").into()),
             ("units", units_json(units)),
             ("exact_until", head.exact_until_json()),
             ("warnings", head.warning_texts().into()),

@@ -10,7 +10,6 @@ use super::outline::sparkline;
 use super::record::{Derived, Head, Record};
 use super::table::table_digits;
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, Motion, StressPiece, straight};
 use crate::number::{DOUBLE_DIGITS, Scalar};
 use crate::quantity::Quantity::{self, *};
@@ -68,7 +67,8 @@ pub(super) fn listed<S: Scalar>(
     rows: &[Vec<Option<&S>>],
 ) -> Dataset {
     let units = &head.units;
-    let mut data = Dataset { rows: mapped(rows, |_| Vec::new()), digits: head.digits, ..Dataset::default() };
+    let mut data =
+        Dataset { rows: rows.iter().map(|_| Vec::new()).collect(), digits: head.digits, ..Dataset::default() };
     data.keys = (!head.wide).then_some(1);
     let present = |(_, quantity): &(usize, &Quantity)| quantity.is_listed(units.has_material());
     for (k, quantity) in quantities.iter().enumerate().filter(present) {
@@ -113,16 +113,19 @@ fn csv_name(quantity: Quantity) -> String {
 
 /// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
 fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
-    [MomentumRestitution, EnergyRestitution].map_each(|ratio| {
+    [MomentumRestitution, EnergyRestitution].map(|ratio| {
         let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
         contact.get(place)?.as_ref().err().copied()
     })
 }
 
 fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], head: &Head) -> Dataset {
-    let rows = mapped(pieces, |StressPiece { from, to, left, right, .. }| {
-        vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
-    });
+    let rows = pieces
+        .iter()
+        .map(|StressPiece { from, to, left, right, .. }| {
+            vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
+        })
+        .collect::<Vec<_>>();
     listed(history, &PIECE, &column, head, &rows)
 }
 
@@ -154,7 +157,8 @@ pub(crate) fn record<S: Scalar>(
                 }
             }
         }
-        let defined = mapped(&rows, |row| mapped(row, |value| value.as_ref().ok()));
+        let defined =
+            rows.iter().map(|row| row.iter().map(|value| value.as_ref().ok()).collect::<Vec<_>>()).collect::<Vec<_>>();
         Ok::<_, Error>((listed(history, quantities, &column, head, &defined), rows))
     };
     let (mut events, _) = gather(&EVENT)?;
@@ -169,11 +173,11 @@ pub(crate) fn record<S: Scalar>(
         let bound = row[1].bound(table_digits(head.digits));
         row.splice(2..2, uncertain.then_some(bound));
     }
-    let undefined = mapped(&ends, undefined_ratios);
-    let keys = ["momentum", "energy_squared"].map_each(|name| format!("restitution/undefined/{name}"));
-    contacts.columns.extend(keys.map_each(|key| Column::json(key).optional()));
+    let undefined = ends.iter().map(undefined_ratios).collect::<Vec<_>>();
+    let keys = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
+    contacts.columns.extend(keys.map(|key| Column::json(key).optional()));
     for (row, undefined) in contacts.rows.iter_mut().zip(&undefined) {
-        row.extend(undefined.map_each(|reason| reason.map(|reason| reason.to_string()).into()));
+        row.extend(undefined.map(|reason| reason.map(|reason| reason.to_string()).into()));
     }
     let curve = if stress.is_some() { history.stress_pieces() } else { Vec::new() };
     for number in StressPiece::numbers(&curve) {
@@ -351,15 +355,15 @@ fn derivative_tables(record: &Record, head: &Head) -> String {
             let listed = column(*quantity).head.is_some() && quantity.is_listed(head.units.has_material());
             listed.then(|| (k, quantity.symbol()))
         };
-        quantities.iter().enumerate().filter_map(shown).collect_vec()
+        quantities.iter().enumerate().filter_map(shown).collect()
     };
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
-        let keys = mapped(&record.events.rows, event);
+        let keys = record.events.rows.iter().map(event).collect();
         out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
         // When a contact begins and ends is in the table above.
-        let keys = mapped(&record.contacts.rows, contact);
-        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect_vec();
+        let keys = record.contacts.rows.iter().map(contact).collect();
+        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect();
         out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
     }
     out
@@ -383,7 +387,7 @@ pub(super) fn named_units(measures: &[Measure], units: &Units) -> String {
             unit => format!("{word} in {unit}"),
         })
     };
-    let mut texts: Vec<String> = measures.iter().filter_map(text).collect_vec();
+    let mut texts: Vec<String> = measures.iter().filter_map(text).collect();
     texts.dedup();
     if texts.is_empty() { String::new() } else { texts.join(", ") + "\n" }
 }

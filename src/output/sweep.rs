@@ -4,7 +4,6 @@ use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::table::{WIDTH, wrapped};
-use crate::mapped::{MapEach, mapped};
 use crate::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 use crate::sweep::{self, Point, Sweep};
 
@@ -48,7 +47,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         let mut row: Vec<Cell> = vec![point.index.into()];
         row.extend(sweep.grid.values(point.index).iter().map(|value| value.to_string().into()));
         for cell in &point.cells {
-            let [value, uncertainty] = [&cell.value, &cell.uncertainty].map_each(|value| value.clone().into());
+            let [value, uncertainty] = [&cell.value, &cell.uncertainty].map(|value| value.clone().into());
             row.extend([shown(cell), value, uncertainty, cell.note.clone().into()]);
         }
         let note = notes(point);
@@ -60,7 +59,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         row.extend([note.into(), mark.into()]);
         row
     };
-    let rows = mapped(points, &mut row);
+    let rows = points.iter().map(&mut row).collect();
     let below = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
     let below: String = below.collect();
     let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
@@ -78,7 +77,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         columns,
         rows,
         around: [String::new(), if noted { format!("\n\n{below}") } else { "\n".into() }],
-        shape: mapped(&sweep.grid.axes, |axis| axis.values.len()),
+        shape: sweep.grid.axes.iter().map(|axis| axis.values.len()).collect(),
         ..Dataset::default()
     }
 }

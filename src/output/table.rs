@@ -2,7 +2,6 @@
 
 use super::dataset::{Cell, Column, Dataset};
 use crate::aligned::table as aligned;
-use crate::mapped::{CollectVec, mapped};
 
 /// Characters that a table may be wide where nothing else is asked for.
 pub(crate) const WIDTH: usize = 80;
@@ -18,13 +17,13 @@ impl Dataset {
         }
         let digits = table_digits(self.digits);
         let shown = |column: &&Column| column.head.is_some();
-        let columns: Vec<&Column> = self.columns.iter().filter(shown).collect_vec();
-        let header: Vec<&str> = columns.iter().filter_map(|column| column.head.as_deref()).collect_vec();
+        let columns: Vec<&Column> = self.columns.iter().filter(shown).collect();
+        let header: Vec<&str> = columns.iter().filter_map(|column| column.head.as_deref()).collect();
         let row = |row: &Vec<Cell>| {
             let cells = self.columns.iter().zip(row).filter(|(column, _)| shown(column));
-            cells.map(|(_, cell)| cell.text(digits, "–")).collect_vec()
+            cells.map(|(_, cell)| cell.text(digits, "–")).collect()
         };
-        let rows: Vec<Vec<String>> = mapped(&self.rows, row);
+        let rows: Vec<Vec<String>> = self.rows.iter().map(row).collect();
         let words = columns.iter().take_while(|column| column.is_text).count();
         let table = match self.keys {
             Some(keys) => fitted(&header, &rows, words, keys),
@@ -43,12 +42,12 @@ pub(super) fn table_digits(digits: u32) -> u32 {
 /// `keys` columns again.
 fn fitted(header: &[&str], rows: &[Vec<String>], words: usize, keys: usize) -> String {
     let select = |columns: &[usize]| {
-        let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect_vec();
-        let pick = |row: &Vec<String>| columns.iter().filter_map(|k| row.get(*k).cloned()).collect_vec();
-        aligned(&header, mapped(rows, pick), words)
+        let header: Vec<&str> = columns.iter().filter_map(|k| header.get(*k).copied()).collect();
+        let pick = |row: &Vec<String>| columns.iter().filter_map(|k| row.get(*k).cloned()).collect();
+        aligned(&header, rows.iter().map(pick).collect(), words)
     };
     let mut parts = Vec::new();
-    let keys: Vec<usize> = (0..keys).collect_vec();
+    let keys: Vec<usize> = (0..keys).collect();
     let mut columns = keys.clone();
     for k in keys.len()..header.len() {
         columns.push(k);
@@ -77,9 +76,9 @@ fn blocks(header: &[&str], rows: &[Vec<String>]) -> String {
             let sign = if text.starts_with('-') { "" } else { " " };
             format!(" {name}{space}  {sign}{text}")
         });
-        lines.collect_vec().join("\n")
+        lines.collect::<Vec<_>>().join("\n")
     };
-    mapped(rows, block).join("\n\n")
+    rows.iter().map(block).collect::<Vec<_>>().join("\n\n")
 }
 
 /// A text in lines of so many characters, those after the first indented.

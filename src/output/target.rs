@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use crate::mapped::mapped;
 use crate::number::{Estimate, Scalar, show};
 use crate::routes::Published;
 use crate::scene::Target;
@@ -96,5 +95,5 @@ pub(crate) fn published_json(published: &[Published]) -> Value {
         let values = targets_data(std::slice::from_ref(published), false).objects();
         json!({ "scene": published.scene, "values": values })
     };
-    mapped(published, scene).into()
+    published.iter().map(scene).collect::<Vec<_>>().into()
 }

@@ -6,7 +6,6 @@ use serde_json::{Map, Value};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::npz::Npz;
-use crate::mapped::{CollectVec, mapped};
 use crate::number::DOUBLE_DIGITS;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +39,7 @@ impl Dataset {
     }
 
     pub(super) fn objects(&self) -> Vec<Value> {
-        mapped(&self.rows, |row| object(self, row))
+        self.rows.iter().map(|row| object(self, row)).collect()
     }
 
     /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and
@@ -65,13 +64,13 @@ impl Dataset {
                 writer.write_field(match cell {
                     Cell::Plain(_) => String::new(),
                     Cell::Number(x) => x.printed_bound(digits),
-                    Cell::Numbers(all) => mapped(all, |x| x.printed_bound(digits)).join(" "),
+                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
                 })?;
             }
             writer.write_record(None::<&[u8]>)?;
         }
         let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-        let comments: String = mapped(&self.notes, |note| format!("# {note}\n")).concat();
+        let comments: String = self.notes.iter().map(|note| format!("# {note}\n")).collect::<Vec<_>>().concat();
         Ok(comments + &String::from_utf8_lossy(&bytes))
     }
 
@@ -81,7 +80,7 @@ impl Dataset {
         let mut npz = Npz::new(&mut bytes, true);
         let count = &[self.rows.len()];
         if !self.shape.is_empty() {
-            npz.add("shape", &[self.shape.len()], mapped(&self.shape, |n| *n as i64))?;
+            npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
         }
         for (k, column) in self.columns.iter().enumerate() {
             let (Column { name: Some(name), is_text: false, .. }, cells) =
@@ -92,7 +91,7 @@ impl Dataset {
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,
-                None => npz.add(name, count, cells.map(Cell::double).collect_vec())?,
+                None => npz.add(name, count, cells.map(Cell::double).collect())?,
             }
         }
         npz.finish()?;
@@ -111,8 +110,10 @@ fn object(data: &Dataset, row: &[Cell]) -> Value {
             Cell::Plain(value) => (value.clone(), Value::Null),
             Cell::Number(x) => (x.json(data.digits), x.json_bound(data.digits)),
             Cell::Numbers(all) => {
-                let (values, bounds) =
-                    (mapped(all, |x| x.json(data.digits)), mapped(all, |x| x.json_bound(data.digits)));
+                let (values, bounds) = (
+                    all.iter().map(|x| x.json(data.digits)).collect::<Vec<_>>(),
+                    all.iter().map(|x| x.json_bound(data.digits)).collect::<Vec<_>>(),
+                );
                 (values.into(), bounds.into())
             }
         };

@@ -4,7 +4,6 @@
 //! square wave; integrals nest as deep as in print, three for an energy.
 
 use super::quadrature::Quadrature;
-use crate::mapped::mapped;
 use crate::problem::Parameters;
 
 /// The first contact by (2.22)–(2.28), (3.38), (3.39) and (3.54), and the flight by (3.43), (3.44), as printed, in
@@ -65,7 +64,7 @@ impl Printed {
     /// Where the extended data jump, as far as the cone of `(x,t)` reaches.
     fn lattice(&self, reach: f64) -> Vec<f64> {
         let most = (reach / (2.0 * self.l)).ceil() as i64 + 1;
-        mapped(-most..=most, |k| 2.0 * self.l * k as f64)
+        (-most..=most).map(|k| 2.0 * self.l * k as f64).collect()
     }
 
     /// `t₁`.
@@ -76,7 +75,7 @@ impl Printed {
     /// `t₁, 2t₁, …` up to `t`.
     fn trips(&self, t: f64) -> Vec<f64> {
         let t1 = self.round_trip();
-        mapped(1..=(t / t1).ceil() as i64, |k| k as f64 * t1)
+        (1..=(t / t1).ceil() as i64).map(|k| k as f64 * t1).collect()
     }
 
     /// `∫_{x−cτ}^{x+cτ} kernel(λs, x − y) 1^e(y) dy`.
@@ -94,7 +93,7 @@ impl Printed {
         if self.g == 0.0 {
             return 0.0;
         }
-        let cuts: Vec<f64> = mapped(&self.lattice(x + self.c * t), |y| (y - x).abs() / self.c);
+        let cuts: Vec<f64> = self.lattice(x + self.c * t).iter().map(|y| (y - x).abs() / self.c).collect();
         // On the ground the cone cancels by symmetry: what is left of it there is rounding.
         let noise = 16.0 * f64::EPSILON * self.g * t * self.c * t * (self.r * t).exp() * i0(self.r * t);
         self.quadrature.integral([0.0, t], &cuts, noise, f)

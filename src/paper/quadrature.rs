@@ -1,6 +1,5 @@
 //! Adaptive Gauss–Kronrod quadrature, with a deadline.
 
-use crate::mapped::{CollectVec, MapEach};
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
@@ -54,9 +53,9 @@ impl Quadrature {
         // A cut within rounding of an end would leave a sliver on which f is noise.
         let (least, blur) = (a.min(b), 1e-13 * (a.abs() + b.abs()));
         let inner = |cut: &f64| *cut > least + blur && *cut < b - blur;
-        let mut ends: Vec<f64> = cuts.iter().copied().filter(inner).chain([a, b]).collect_vec();
+        let mut ends: Vec<f64> = cuts.iter().copied().filter(inner).chain([a, b]).collect();
         ends.sort_by(f64::total_cmp);
-        let pieces: Vec<Piece> = ends.windows(2).map(|pair| self.piece(pair[0], pair[1], f)).collect_vec();
+        let pieces: Vec<Piece> = ends.windows(2).map(|pair| self.piece(pair[0], pair[1], f)).collect();
         // Halves as good as the whole may be: the estimate is that of the seven-point rule, far above the error of the
         // fifteen. Below the floor it is the noise of the integrals within.
         let allowed = self.tolerance.max(FLOOR) * pieces.iter().map(|piece| piece.size).sum::<f64>() + noise;
@@ -69,7 +68,7 @@ impl Quadrature {
             return piece.value;
         }
         let middle = 0.5 * (piece.from + piece.to);
-        let halves = [(piece.from, middle), (middle, piece.to)].map_each(|(from, to)| self.piece(from, to, f));
+        let halves = [(piece.from, middle), (middle, piece.to)].map(|(from, to)| self.piece(from, to, f));
         halves.into_iter().map(|half| self.halved(half, allowed, depth + 1, f)).sum()
     }
 

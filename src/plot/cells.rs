@@ -5,7 +5,6 @@ use glam::DVec2;
 use super::picture::Along;
 use crate::draw::{Piece, clip};
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::{Field, Side};
 use crate::number::Scalar;
 use crate::problem::Parameters;
@@ -64,23 +63,30 @@ pub(crate) fn of<S: Target>(
     let fine = strip
         .is_damped()
         .then(|| strip.trip / PARTS.min((4.0 * MOST_CELLS as f64 / (strip.trips() * 16.0)).sqrt()).max(2.0));
-    let [rising, falling] = [0.0, strip.trip].map_each(|late| strip.knots(&breaks, late, fine));
+    let [rising, falling] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
     let mut greatest = 0.0f64;
     let values = match strip.polygons(&rising, &falling) {
         Some(polygons) => {
-            let points: Vec<DVec2> = polygons.iter().flat_map(|polygon| samples(polygon)).collect_vec();
-            let values = mapped(ask(history, along, strip, &points)?, |value| factor * value);
+            let points: Vec<DVec2> = polygons.iter().flat_map(|polygon| samples(polygon)).collect();
+            let values =
+                ask(history, along, strip, &points)?.into_iter().map(|value| factor * value).collect::<Vec<_>>();
             let pieces = polygons.into_iter().zip(values.chunks(3)).zip(points.chunks(3));
             let pieces = pieces.filter(|((_, values), _)| values.iter().all(|value| value.is_finite()));
-            Values::Linear(mapped(pieces, |((corners, values), at)| {
-                let slope = slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
-                let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
-                greatest = ends.fold(greatest, f64::max);
-                Piece { corners, at: at[0], middle: values[0], slope }
-            }))
+            Values::Linear(
+                pieces
+                    .into_iter()
+                    .map(|((corners, values), at)| {
+                        let slope =
+                            slope([at[1] - at[0], at[2] - at[0]], [values[1] - values[0], values[2] - values[0]]);
+                        let ends = corners.iter().map(|corner| (values[0] + slope.dot(*corner - at[0])).abs());
+                        greatest = ends.fold(greatest, f64::max);
+                        Piece { corners, at: at[0], middle: values[0], slope }
+                    })
+                    .collect::<Vec<_>>(),
+            )
         }
         None => {
-            let values = mapped(grid(history, along, strip)?, |value| factor * value);
+            let values = grid(history, along, strip)?.into_iter().map(|value| factor * value).collect::<Vec<_>>();
             greatest = values.iter().filter(|value| value.is_finite()).fold(0.0, |most, value| most.max(value.abs()));
             Values::Grid(GRID[0], values)
         }
@@ -106,7 +112,7 @@ pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
 fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
     if !strip.is_damped() {
         let waves = history.waves()?.map(|x| x.to_f64());
-        return Ok(mapped(points, |point| along.part(waves.at(&point.y, &point.x))));
+        return Ok(points.iter().map(|point| along.part(waves.at(&point.y, &point.x))).collect());
     }
     let values = history.ask(
         |motion| {
@@ -114,11 +120,11 @@ fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[D
             let value = |point: &DVec2| {
                 Ok(along.part(motion.field(&like.double(point.y), &like.double(point.x), Side::Right)?))
             };
-            try_mapped(points, value)
+            points.iter().map(value).collect::<Result<Vec<_>, _>>()
         },
-        |values| values.iter().collect_vec(),
+        |values| values.iter().collect::<Vec<_>>(),
     )?;
-    Ok(mapped(&values, settled))
+    Ok(values.iter().map(settled).collect::<Vec<_>>())
 }
 
 /// Values at the middles of the grid, from the ground up, row by row.
@@ -127,22 +133,22 @@ fn grid<S: Target>(history: &History<S>, along: Along, strip: &Strip) -> Result<
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
     if !strip.is_damped() {
         let place = |k: usize| strip.place(middle(k % across, across), middle(k / across, up));
-        return ask(history, along, strip, &mapped(0..across * up, place));
+        return ask(history, along, strip, &(0..across * up).map(place).collect::<Vec<_>>());
     }
     let found = history.ask(
         |motion| {
             let like = motion.end();
-            let points: Vec<_> = mapped(0..up, |k| like.double(strip.place(0.0, middle(k, up)).y));
-            let times: Vec<_> = mapped(0..across, |k| like.double(strip.place(middle(k, across), 0.0).x));
+            let points: Vec<_> = (0..up).map(|k| like.double(strip.place(0.0, middle(k, up)).y)).collect();
+            let times: Vec<_> = (0..across).map(|k| like.double(strip.place(middle(k, across), 0.0).x)).collect();
             motion.rates(&points, &times)
         },
-        |rates| rates.iter().flatten().collect_vec(),
+        |rates| rates.iter().flatten().collect(),
     )?;
     let value = |k: usize| {
         let [velocity, strain] = &found[(k % across) * up + k / across];
         settled(if along == Along::Velocity { velocity } else { strain })
     };
-    Ok(mapped(0..across * up, value))
+    Ok((0..across * up).map(value).collect())
 }
 
 impl Cells {
@@ -203,7 +209,7 @@ impl Strip {
         let ([from, to], half) = (self.span, 0.5 * self.trip);
         let (least, most) = if late == 0.0 { (from - half, to) } else { (from, to + half) };
         let inner = breaks.iter().map(|ray| ray.time + late).filter(|knot| *knot > least && *knot < most);
-        let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect_vec();
+        let mut knots: Vec<f64> = [least].into_iter().chain(inner).chain([most]).collect();
         knots.dedup_by(|b, a| *b - *a < 1e-9 * self.trip);
         let Some(fine) = fine else { return knots };
         let parts = |pair: &[f64]| {
@@ -211,7 +217,7 @@ impl Strip {
             let count = (width / fine - 1e-9).ceil().max(1.0) as usize;
             (0..count).map(move |k| from + width * k as f64 / count as f64)
         };
-        knots.windows(2).flat_map(parts).chain(knots.last().copied()).collect_vec()
+        knots.windows(2).flat_map(parts).chain(knots.last().copied()).collect()
     }
 
     /// What of each cell lies in the strip; `None` where there are too many.
@@ -224,7 +230,7 @@ impl Strip {
             let first = down.partition_point(|eta| *eta <= xi[0]).saturating_sub(1);
             for eta in down[first..].windows(2).take_while(|eta| eta[0] < xi[1] + self.trip) {
                 let corner = |xi: f64, eta: f64| DVec2::new(0.5 * (xi + eta), 0.5 * self.rod.wave_speed * (eta - xi));
-                let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map_each(|(a, b)| corner(xi[a], eta[b]));
+                let cell = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(a, b)| corner(xi[a], eta[b]));
                 let inside = self.clipped(cell.to_vec());
                 if !inside.is_empty() {
                     polygons.push(inside);

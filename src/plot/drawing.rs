@@ -5,7 +5,6 @@ use super::picture::{Along, Picture};
 use super::pictures::{sheet, time_axis};
 use crate::draw::{Canvas, Size, plain};
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::problem::{Parameters, Problem};
 use crate::quantity::Units;
 use crate::solve::{History, Target};
@@ -83,5 +82,5 @@ impl Drawing {
 pub(crate) fn heading(title: Option<&str>, problem: &Problem, scene: &Gathered, asked: &Asked) -> Vec<String> {
     let axis = time_axis(std::slice::from_ref(scene));
     let known = scene.units.parameters(problem, |time| axis.told(time)).join(", ");
-    title.map(plain).into_iter().chain([known]).chain(scene.cut(asked, &axis)).collect_vec()
+    title.map(plain).into_iter().chain([known]).chain(scene.cut(asked, &axis)).collect()
 }

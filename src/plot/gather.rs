@@ -4,7 +4,6 @@ use super::cells::{self, Break, Cells, MOST_RAYS, Strip, settled};
 use super::picture::{Along, Picture};
 use crate::draw::Axis;
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{EventKind, Motion, RayRegister, Side, StressPiece};
 use crate::motion::{WavePiece, straight};
 use crate::number::Scalar;
@@ -78,7 +77,7 @@ impl Gathered {
     pub(crate) fn cut(&self, asked: &Asked, axis: &Axis) -> Option<String> {
         let ([from, to], (shown, all)) = (self.span, (self.contacts.len(), self.of_contacts));
         (asked.over_time() && asked.from.is_none() && asked.to.is_none() && to != self.end).then(|| {
-            let [from, to, end] = [from, to, self.end].map_each(|time| axis.told(time));
+            let [from, to, end] = [from, to, self.end].map(|time| axis.told(time));
             format!("from t = {from} to {to} of {end}, {shown} of {all} contacts")
         })
     }
@@ -122,7 +121,7 @@ impl Asked {
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
             let inside = pieces.filter(|piece| piece.to >= span[0] && piece.from <= span[1]);
-            stress = straight(&inside.collect_vec(), STRAIGHT);
+            stress = straight(&inside.collect::<Vec<_>>(), STRAIGHT);
         }
         if self.wants(Picture::Restitution) {
             for contact in 0..history.contacts().len().min(MOST_CONTACTS) {
@@ -137,7 +136,7 @@ impl Asked {
             let factor = units.factor::<f64>(self.along.told(&units).0, &()).unwrap_or(1.0);
             cells = Some(cells::of(history, (self.along, factor), &strip, breaks)?);
         }
-        let (contacts, of_contacts) = (contacts.collect_vec(), history.contacts().len());
+        let (contacts, of_contacts) = (contacts.collect(), history.contacts().len());
         let Strip { rod, span, .. } = strip;
         Ok(Gathered { name, units, rod, span, end, contacts, of_contacts, columns, stress, restitution, cells, world })
     }
@@ -145,7 +144,7 @@ impl Asked {
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
     pub(super) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = known_until(history);
-        let events: Vec<_> = mapped(history.events(), |event| (event.time.to_f64(), event.kind));
+        let events: Vec<_> = history.events().iter().map(|event| (event.time.to_f64(), event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
@@ -179,21 +178,20 @@ impl Asked {
             return Ok(Vec::new());
         }
         let table = history.ask_columns(&columns, None, |motion| times(motion, strip, breaks))?;
-        let table: Vec<Vec<f64>> = mapped(&table, |column| mapped(column, settled));
+        let table: Vec<Vec<f64>> = table.iter().map(|column| column.iter().map(settled).collect()).collect();
         let (times, sides) = (&table[0], &table[1]);
         // A time at which a value is open, as beside a ray in enclosures, is left out of all lines.
-        let rows: Vec<usize> =
-            (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect_vec();
+        let rows: Vec<usize> = (0..times.len()).filter(|k| table.iter().all(|column| column[*k].is_finite())).collect();
         let of = |(column, values): (Quantity, &Vec<f64>)| {
             // A jump lies between two rows of one time; one that is not seen is none.
             let seen = UNSEEN * rows.iter().map(|k| values[*k].abs()).fold(0.0, f64::max);
             let jumps =
                 |a: usize, b: usize| sides[a] < 0.0 && times[a] == times[b] && (values[a] - values[b]).abs() > seen;
             let stretches = rows.chunk_by(|a, b| !jumps(*a, *b));
-            let lines = stretches.map(|rows| mapped(rows, |k| (times[*k], values[*k])));
-            (column, lines.collect_vec())
+            let lines = stretches.map(|rows| rows.iter().map(|k| (times[*k], values[*k])).collect());
+            (column, lines.collect())
         };
-        Ok(mapped(columns.into_iter().zip(&table).skip(2), of))
+        Ok(columns.into_iter().zip(&table).skip(2).map(of).collect())
     }
 }
 
@@ -218,7 +216,7 @@ fn breaks<S: Target>(history: &History<S>, strip: &Strip) -> Result<Vec<Break>, 
             let jump = (pair[1].rate - pair[0].at(&pair[1].from).1).abs();
             Break { time: pair[1].from, jump: jump > 1e-9 * greatest, share: jump / greatest }
         };
-        return Ok(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(of).collect_vec());
+        return Ok(waves.pieces.windows(2).filter(|pair| inside(&pair[1].from)).map(of).collect());
     }
     // A ray of a damped rod comes back for ever, and fades.
     let faded = strip.rod.damping.recip() * -FADED.ln();
@@ -234,7 +232,7 @@ fn breaks<S: Target>(history: &History<S>, strip: &Strip) -> Result<Vec<Break>, 
             let time = ray.time.clone() + &late;
             let mut jump = None;
             if ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64() {
-                let [left, right] = [Side::Left, Side::Right].map_each(|side| motion.field(&middle, &time, side));
+                let [left, right] = [Side::Left, Side::Right].map(|side| motion.field(&middle, &time, side));
                 jump = Some((right?.strain.to_f64() - left?.strain.to_f64()).abs());
             }
             found.push((ray, jump));
@@ -261,14 +259,15 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, strip: &Strip, breaks: &[Break]) -> 
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The numbers of the engine itself where two limits may differ: they meet the rays.
-    let mut times: Vec<(f64, S)> = mapped(motion.events(), |event| (event.time.to_f64(), event.time.clone()));
+    let mut times: Vec<(f64, S)> =
+        motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
     if breaks.len() <= MOST_BREAKS {
         match motion.waves() {
             Ok(waves) => {
                 let late = motion.scales().time / end.int(2);
                 for piece in waves.pieces {
                     let top = piece.from.clone() + &late;
-                    times.extend([piece.from, top].map_each(|time| (time.to_f64(), time)));
+                    times.extend([piece.from, top].map(|time| (time.to_f64(), time)));
                 }
             }
             Err(Error::NoWaves) => {
@@ -289,12 +288,12 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, strip: &Strip, breaks: &[Break]) -> 
     if let Some(last) = times.last_mut().filter(|(time, _)| *time >= end.to_f64()) {
         last.1 = end;
     }
-    Ok(mapped(times, |(_, time)| time))
+    Ok(times.into_iter().map(|(_, time)| time).collect())
 }
 
 /// `v(x,t)` of points along the rod.
 fn world_lines<S: Target>(history: &History<S>, strip: &Strip, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
-    let inner: Vec<f64> = mapped(0..WORLD, |k| k as f64 / (WORLD - 1) as f64);
+    let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
     let found = history.ask(
         |motion| {
             let length = motion.scales().length;
@@ -307,8 +306,8 @@ fn world_lines<S: Target>(history: &History<S>, strip: &Strip, breaks: &[Break])
             }
             Ok(rows)
         },
-        |rows| mapped(rows, |row| &row.1),
+        |rows| rows.iter().map(|row| &row.1).collect(),
     )?;
-    let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect_vec();
-    Ok(inner.iter().enumerate().map(|(k, share)| (share * strip.rod.length, line(k))).collect_vec())
+    let line = |k: usize| found.iter().skip(k).step_by(WORLD).map(|(t, v)| (t.to_f64(), v.to_f64())).collect();
+    Ok(inner.iter().enumerate().map(|(k, share)| (share * strip.rod.length, line(k))).collect())
 }

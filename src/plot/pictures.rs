@@ -10,7 +10,6 @@ use super::picture::Picture;
 use crate::draw::{
     AREAS, Anchor, Axis, Key, LINES, Mark, Panel, Piece, Shape, Sheet, Stroke, diverging, plain, thinned,
 };
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::number::Scalar;
 use crate::quantity::{Measure, Quantity};
 
@@ -77,7 +76,7 @@ pub(super) fn time_axis(scenes: &[Gathered]) -> Axis {
 }
 
 fn points(line: &[(f64, f64)]) -> Vec<DVec2> {
-    mapped(line, |point| (*point).into())
+    line.iter().map(|point| (*point).into()).collect()
 }
 
 /// Adds the times on the ground: bands from the lower edge up to a height, and a mark above that edge for each that is
@@ -88,12 +87,11 @@ fn contacts(panel: &mut Panel, scene: &Gathered, high: f64) {
     let cut = |[from, to]: &[f64; 2]| *from < x.from || *to > x.to;
     let short = |contact: &[f64; 2]| contact[1] - contact[0] < SHORT * (x.to - x.from) && !cut(contact);
     let (marks, bands): (Vec<[f64; 2]>, Vec<[f64; 2]>) = scene.contacts.iter().copied().partition(short);
-    let band = |[from, to]: &[f64; 2]| {
-        [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map_each(DVec2::from).to_vec()
-    };
+    let band =
+        |[from, to]: &[f64; 2]| [(*from, y.from), (*to, y.from), (*to, high), (*from, high)].map(DVec2::from).to_vec();
     let height = y.from + 0.5 * FLOOR * (y.to - y.from);
     let mark = |[from, to]: &[f64; 2]| DVec2::new((0.5 * (from + to)).clamp(x.from, x.to), height);
-    let (bands, marks) = (mapped(&bands, band), mapped(&marks, mark));
+    let (bands, marks) = (bands.iter().map(band).collect::<Vec<_>>(), marks.iter().map(mark).collect::<Vec<_>>());
     if !bands.is_empty() {
         panel.add("contacts", Shape::Areas(bands, CONTACT));
         panel.legend.push(Key::Area("contact".into(), CONTACT));
@@ -112,11 +110,15 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
     let columns = if picture == Picture::Stress { vec![Quantity::Stress] } else { picture.columns() };
     let stretches = |scene, column| if picture == Picture::Stress { stress(scene) } else { scene.lines(column) };
     let curves = scenes.iter().flat_map(|scene| columns.iter().map(move |column| (scene, *column)));
-    let curves: Vec<(&Gathered, Vec<Line>)> = mapped(curves, |(scene, column)| (scene, stretches(scene, column)));
-    let units: Vec<&str> = mapped(scenes, |scene| match picture {
-        Picture::Stress if !scene.units.has_material() => "",
-        _ => columns[0].unit(&scene.units),
-    });
+    let curves: Vec<(&Gathered, Vec<Line>)> =
+        curves.into_iter().map(|(scene, column)| (scene, stretches(scene, column))).collect();
+    let units: Vec<&str> = scenes
+        .iter()
+        .map(|scene| match picture {
+            Picture::Stress if !scene.units.has_material() => "",
+            _ => columns[0].unit(&scene.units),
+        })
+        .collect();
     if let Some(other) = units.iter().find(|unit| **unit != units[0]) {
         let name = |unit: &str| if unit.is_empty() { "none".into() } else { format!("`{unit}`") };
         return Err(format!("found scenes in different units, {} and {}", name(units[0]), name(other)));
@@ -146,12 +148,12 @@ fn lines(picture: Picture, scenes: &[Gathered]) -> Result<Panel, String> {
         let color = if scenes.len() == 1 { of_quantity } else { of_scene };
         let look = Stroke::new(LINES[color % LINES.len()], WIDTH).dashed(DASHES[of_quantity % DASHES.len()]);
         let jumps = stretches.windows(2).filter_map(|pair| Some(points(&[*pair[0].last()?, *pair[1].first()?])));
-        let jumps: Vec<Vec<DVec2>> = jumps.collect_vec();
+        let jumps: Vec<Vec<DVec2>> = jumps.collect();
         if !jumps.is_empty() && jumps.len() <= MOST_JUMPS {
             panel.lines("jumps", jumps, Stroke { width: 0.15, dash: JUMP, ..look });
         }
         let stretches = stretches.iter().filter(|stretch| stretch.len() > 1);
-        panel.lines("curve", stretches.map(|stretch| thinned(points(stretch))).collect_vec(), look);
+        panel.lines("curve", stretches.map(|stretch| thinned(points(stretch))).collect(), look);
         if scenes.len() > 1 && of_quantity == 0 {
             panel.legend.push(Key::Line(plain(&scene.name), look));
         } else if scenes.len() == 1 && each > 1 {
@@ -194,7 +196,7 @@ fn stress(scene: &Gathered) -> Vec<Line> {
     let mut stretches: Vec<Line> = Vec::new();
     for piece in &scene.stress {
         let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
-        let ends = [from, to].map_each(|t| (t, factor * piece.eval(&t)));
+        let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
         match stretches.last_mut() {
             Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= UNSEEN * factor * peak) => {
                 last.push(ends[1]);
@@ -215,7 +217,7 @@ fn restitution(scenes: &[Gathered]) -> Panel {
     }
     let mut x = Axis::new("bounce", "", [0.5, most as f64 + 0.5]);
     if most <= 12 {
-        x.ticks = Some(mapped(1..=most, |k| (k as f64, k.to_string())));
+        x.ticks = Some((1..=most).map(|k| (k as f64, k.to_string())).collect());
     }
     let mut panel = Panel::new("restitution of each bounce", x, y);
     panel.level("zero", 1.0, ZERO);
@@ -223,11 +225,11 @@ fn restitution(scenes: &[Gathered]) -> Panel {
         let of = if scenes.len() == 1 { String::new() } else { format!(", {}", plain(&scene.name)) };
         for (q, (name, mark)) in series.into_iter().enumerate() {
             let color = LINES[if scenes.len() == 1 { q } else { s } % LINES.len()];
-            let numbered = scene.restitution.iter().enumerate().collect_vec();
+            let numbered = scene.restitution.iter().enumerate().collect::<Vec<_>>();
             // No line over a bounce for which it is not defined.
             let stretches = numbered.split(|(_, pair)| pair[q].is_none()).filter(|known| !known.is_empty());
             let place = |(k, pair): &(usize, &[Option<f64>; 2])| Some(DVec2::new((k + 1) as f64, pair[q]?));
-            let lines = stretches.map(|known| known.iter().filter_map(place).collect_vec()).collect_vec();
+            let lines = stretches.map(|known| known.iter().filter_map(place).collect::<Vec<_>>()).collect::<Vec<_>>();
             panel.lines("curve", lines.clone(), Stroke::new(color, 0.15).dashed(DASHES[q]));
             panel.add("marks", Shape::Marks(lines.concat(), mark, color));
             panel.legend.push(Key::Mark(format!("{name}{of}"), mark, color));
@@ -246,7 +248,7 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2], mut y: Axis) -> Panel {
         [scene] => (q as f64 + 1.0, format!("{} = {} ({of})", names[q], text(value(scene, q), 4))),
         _ => (q as f64 + 1.0, format!("{} ({of})", names[q])),
     };
-    x.ticks = Some(mapped(["momentum", "energy"].into_iter().enumerate(), tick));
+    x.ticks = Some(["momentum", "energy"].into_iter().enumerate().map(tick).collect());
     let letters = 0.1 * (y.to - y.from);
     y.to += if scenes.len() > 1 { letters } else { 0.0 };
     let wide = 0.8 / scenes.len().max(1) as f64;
@@ -260,9 +262,7 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2], mut y: Axis) -> Panel {
             let corner = |side: f64, height: f64| DVec2::new(left + side * wide, height);
             let value = value(scene, q);
             bars.extend(
-                value.map(|top| {
-                    [(0.1, 0.0), (0.9, 0.0), (0.9, top), (0.1, top)].map_each(|(a, b)| corner(a, b)).to_vec()
-                }),
+                value.map(|top| [(0.1, 0.0), (0.9, 0.0), (0.9, top), (0.1, top)].map(|(a, b)| corner(a, b)).to_vec()),
             );
             // No line goes through a text.
             let top = value.unwrap_or(0.0).max(0.0);
@@ -285,7 +285,7 @@ fn single_bounce(scenes: &[Gathered], names: [&str; 2], mut y: Axis) -> Panel {
 /// edge is `E`.
 fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy];
-    let edges = edges.map_each(|column| scene.lines(column).concat());
+    let edges = edges.map(|column| scene.lines(column).concat());
     let least = edges[0].iter().map(|(_, value)| *value).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
     let x = time_axis(scenes);
@@ -298,12 +298,12 @@ fn energy(scene: &Gathered, scenes: &[Gathered]) -> Panel {
     let gravity = if base < 0.0 { format!("gravity, from {} up", y.shown(base)) } else { "gravity".into() };
     let names = [gravity, "centre of mass".into(), "vibration E_z".into()];
     let mut panel = Panel::new("energy: the upper edge is E", x, y);
-    let mut below: Vec<DVec2> = mapped(&edges[0], |(t, _)| DVec2::new(*t, base));
+    let mut below: Vec<DVec2> = edges[0].iter().map(|(t, _)| DVec2::new(*t, base)).collect();
     // Without gravity its layer is empty.
     let weightless = scene.rod.gravity == 0.0;
     for ((edge, name), color) in edges.iter().zip(names).zip(AREAS).skip(usize::from(weightless)) {
         let edge = points(edge);
-        let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect_vec()].concat();
+        let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect()].concat();
         panel.add("area", Shape::Areas(vec![area], color));
         panel.legend.push(Key::Area(name, color));
         below = edge;
@@ -341,11 +341,12 @@ fn along(asked: &Asked, scene: &Gathered, scenes: &[Gathered]) -> Panel {
 fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
     match &cells.values {
-        Values::Linear(pieces) => Shape::Pieces(mapped(pieces, |piece| Piece {
-            middle: piece.middle / unit,
-            slope: piece.slope / unit,
-            ..piece.clone()
-        })),
+        Values::Linear(pieces) => Shape::Pieces(
+            pieces
+                .iter()
+                .map(|piece| Piece { middle: piece.middle / unit, slope: piece.slope / unit, ..piece.clone() })
+                .collect(),
+        ),
         Values::Grid(across, values) => {
             let (rows, [from, to]) = (values.len() / across, scene.span);
             let time = |column: usize| from + (to - from) * column as f64 / *across as f64;
@@ -361,7 +362,7 @@ fn field(cells: &Cells, scene: &Gathered, greatest: f64) -> Shape {
                     column += run.len();
                 }
             }
-            Shape::Runs(mapped(runs, |(color, ends)| (diverging(f64::from(color) / 24.0), ends)))
+            Shape::Runs(runs.into_iter().map(|(color, ends)| (diverging(f64::from(color) / 24.0), ends)).collect())
         }
     }
 }
@@ -375,12 +376,12 @@ fn rays(panel: &mut Panel, cells: &Cells, scene: &Gathered) {
     let end = scene.span[1];
     let path = |from: f64| {
         let height = |time: f64| length * (1.0 - ((time - from) / (0.5 * trip) - 1.0).abs());
-        let times = [from, from + 0.5 * trip, from + trip].map_each(|time| time.min(end));
+        let times = [from, from + 0.5 * trip, from + trip].map(|time| time.min(end));
         times.map(|time| DVec2::new(time, height(time))).to_vec()
     };
     let mut add = |wanted: &dyn Fn(&Break) -> bool, class: &'static str, look: Stroke| {
         let rays = cells.breaks.iter().filter(|ray| wanted(ray));
-        let lines: Vec<Vec<DVec2>> = rays.map(|ray| path(ray.time)).collect_vec();
+        let lines: Vec<Vec<DVec2>> = rays.map(|ray| path(ray.time)).collect();
         if !lines.is_empty() {
             panel.lines(class, lines, look);
         }
@@ -403,8 +404,9 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
         share if share > 0.0 && share < 0.05 => 10f64.powf((0.3 / share).log10().floor()),
         _ => 1.0,
     };
-    let line = |(point, line): &(f64, Line)| thinned(mapped(line, |(t, v)| DVec2::new(*t, point + times * v)));
-    let lines: Vec<Vec<DVec2>> = mapped(&scene.world, line);
+    let line =
+        |(point, line): &(f64, Line)| thinned(line.iter().map(|(t, v)| DVec2::new(*t, point + times * v)).collect());
+    let lines: Vec<Vec<DVec2>> = scene.world.iter().map(line).collect();
     let heights = || lines.iter().flatten().map(|point| point.y);
     let [_, high] = Axis::range(heights(), true);
     let floor = heights().fold(0.0, f64::min) - FLOOR * (high - heights().fold(0.0, f64::min));
@@ -412,7 +414,7 @@ fn world(scene: &Gathered, x: Axis) -> Panel {
     let y = Axis::new(&label, scene.units.name(Measure::Length), [floor, high]);
     let mut panel = Panel::new("the rod where it is", x, y);
     if let [low, inner @ .., top] = lines.as_slice() {
-        let body = [low.clone(), top.iter().rev().copied().collect_vec()].concat();
+        let body = [low.clone(), top.iter().rev().copied().collect()].concat();
         panel.add("area", Shape::Areas(vec![body], AREAS[1]));
         panel.level("zero", 0.0, ZERO);
         panel.lines("curve", inner.to_vec(), Stroke::new("#000000", 0.12));

@@ -4,7 +4,6 @@ use glam::DVec2;
 
 use crate::draw::{AREAS, Anchor, Stroke, Svg, diverging};
 use crate::error::Error;
-use crate::mapped::mapped;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 use crate::problem::{Problem, Top};
@@ -88,11 +87,11 @@ impl Pose {
         let length = problem.rod.length.to_f64();
         let query = |motion: &dyn Motion<S::Carried>| {
             let time = motion.end().double(time);
-            let points = mapped(0..=PARTS, |k| time.double(length * k as f64 / PARTS as f64));
+            let points = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect::<Vec<_>>();
             let rates = motion.rates(&points, std::slice::from_ref(&time))?;
             let energy = motion.energy(&time)?;
             Ok(Found {
-                strains: mapped(rates, |[_, strain]| strain.to_f64()),
+                strains: rates.into_iter().map(|[_, strain]| strain.to_f64()).collect::<Vec<_>>(),
                 end: motion.ground_end(&time, Side::Right)?.0.to_f64(),
                 centre: motion.centre(&time)?.0.to_f64(),
                 energy: [energy.translational.to_f64(), energy.vibrational.to_f64()],
@@ -120,12 +119,17 @@ impl Pose {
         let part = length / PARTS as f64;
         let (mut shift, foot) = (found.end, place(factor * found.end));
         let mut low = foot;
-        let shown = mapped(found.strains.windows(2).enumerate(), |(k, ends)| {
-            let strain = (ends[0] + ends[1]) / 2.0;
-            shift += strain * part;
-            low = place(part * (k + 1) as f64 + factor * shift);
-            (low, diverging(if greatest > 0.0 { strain / greatest } else { 0.0 }))
-        });
+        let shown = found
+            .strains
+            .windows(2)
+            .enumerate()
+            .map(|(k, ends)| {
+                let strain = (ends[0] + ends[1]) / 2.0;
+                shift += strain * part;
+                low = place(part * (k + 1) as f64 + factor * shift);
+                (low, diverging(if greatest > 0.0 { strain / greatest } else { 0.0 }))
+            })
+            .collect::<Vec<_>>();
         // Each reaches to the foot, and the next one covers it: neighbours leave no seam.
         for (high, color) in shown.chunk_by(|a, b| a.1 == b.1).rev().filter_map(<[_]>::last) {
             svg.rectangles(&[[DVec2::new(left, *high), DVec2::new(left + thick, foot)]], color);

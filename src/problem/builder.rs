@@ -3,7 +3,6 @@
 use super::profile::Points;
 use super::validate::{Draft, IMPACT};
 use super::{Material, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
-use crate::mapped::mapped;
 use crate::number::Number;
 
 /// A problem put together value by value: see [`Problem::builder`]. A number is given as [`Written`] says; nothing is
@@ -206,5 +205,5 @@ impl Builder {
 }
 
 fn written<X: Into<Written>, V: Into<Written>>(points: impl IntoIterator<Item = (X, V)>) -> Points {
-    mapped(points, |(x, v)| (x.into(), v.into()))
+    points.into_iter().map(|(x, v)| (x.into(), v.into())).collect()
 }

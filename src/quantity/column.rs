@@ -3,7 +3,6 @@
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::{Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::threads::Threads;
@@ -26,10 +25,10 @@ pub fn columns<S: Scalar>(
     }
     finite(&motion.end(), times)?;
     let Asked { sided, plain, places, count } = Asked::of(columns);
-    let factors = mapped(columns, |column| column.factor(&motion.scales(), units));
+    let factors = columns.iter().map(|column| column.factor(&motion.scales(), units)).collect::<Vec<_>>();
     let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
     side_by_side(times, |times| {
-        let mut table: Vec<Vec<S>> = mapped(columns, |_| Vec::with_capacity(times.len()));
+        let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
         let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for time in times {
             let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
@@ -90,8 +89,10 @@ pub(crate) fn along<S: Scalar>(
     for time in times {
         for point in points {
             rows.push(match at(motion, units, quantities, (point, time), side) {
-                Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => mapped(quantities, |_| None),
-                row => mapped(row?, Some),
+                Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => {
+                    quantities.iter().map(|_| None).collect()
+                }
+                row => row?.into_iter().map(Some).collect(),
             });
         }
     }
@@ -109,7 +110,10 @@ pub(super) fn at<S: Scalar>(
     let field = motion.field(point, time, side)?;
     let [displacement, velocity, strain] = field.numbers();
     let numbers = [point, displacement, velocity, strain];
-    Ok(mapped(quantities, |quantity| quantity.in_unit(numbers[quantity.source().1].clone(), &motion.scales(), units)))
+    Ok(quantities
+        .iter()
+        .map(|quantity| quantity.in_unit(numbers[quantity.source().1].clone(), &motion.scales(), units))
+        .collect())
 }
 
 /// Refuses times that are no numbers, for a history that ends at `end`.
@@ -131,14 +135,14 @@ struct Asked {
 
 impl Asked {
     fn of(columns: &[Quantity]) -> Self {
-        let mut sources: Vec<Source> = mapped(columns, |column| column.source().0);
+        let mut sources: Vec<Source> = columns.iter().map(|column| column.source().0).collect();
         sources.sort_unstable();
         sources.dedup();
         let (sided, plain): (Vec<Source>, Vec<Source>) = sources.into_iter().partition(|source| source.has_sides());
         let asked = [&sided[..], &plain[..]].concat();
         let before = |end: usize| asked[..end].iter().map(|source| source.answers()).sum::<usize>();
         let place = |(source, index)| index + before(asked.iter().position(|known| *known == source).unwrap_or(0));
-        let places = mapped(columns, |column| place(column.source()));
+        let places = columns.iter().map(|column| place(column.source())).collect();
         Asked { places, count: before(asked.len()), sided, plain }
     }
 }
@@ -156,7 +160,7 @@ fn side_by_side<S: Scalar>(
     if times.len() <= size {
         return rows(times);
     }
-    let parts: Vec<&[S]> = times.chunks(size).collect_vec();
+    let parts: Vec<&[S]> = times.chunks(size).collect();
     let mut tables = threads.all(parts.len(), |k| rows(parts[k]))?.into_iter();
     let mut all = tables.next().unwrap_or_default();
     for table in tables {
@@ -233,7 +237,7 @@ impl<S: Scalar> Pushes<S> {
             sum = sum.clone() + piece.integral(&piece.to);
             (piece, before)
         };
-        let pieces = mapped(motion.stress_pieces(), with_sum);
+        let pieces = motion.stress_pieces().into_iter().map(with_sum).collect::<Vec<_>>();
         let size = |value: &S| 2.0 * value.to_f64().abs() + value.width().to_f64();
         let of = |(piece, _): &(StressPiece<S>, S)| {
             size(&piece.left).max(size(&piece.right)).max(piece.chebyshev.iter().map(size).sum())

@@ -1,7 +1,5 @@
 //! Units by their names: what brings a number in one to another.
 
-use crate::mapped::MapEach;
-
 /// A unit as powers of metre, kilogram and second, and its size in those, `size · 10^ten`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
@@ -60,7 +58,7 @@ impl Unit {
 
     /// The unit to a power, times another one.
     fn times(self, other: Self, power: i32) -> Self {
-        let powers = [0, 1, 2].map_each(|k| self.powers[k] + power * other.powers[k]);
+        let powers = [0, 1, 2].map(|k| self.powers[k] + power * other.powers[k]);
         Unit { powers, size: self.size * other.size.powi(power), ten: self.ten + power * other.ten }
     }
 

@@ -6,7 +6,6 @@ use super::restitution::{Undefined, energy_shares, flights, restitution};
 use super::table::{Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 use Quantity::*;
@@ -50,11 +49,12 @@ pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
 /// **Errors**: what the history cannot answer.
 pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
     let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
-    let present: Vec<Quantity> = present.collect_vec();
+    let present: Vec<Quantity> = present.collect();
     let rows = values(motion, &present, units)?;
-    let column =
-        |(k, quantity): (usize, &Quantity)| (quantity.key(), mapped(&rows, |row| row.get(k).cloned().flatten()));
-    Ok(present.iter().enumerate().map(column).collect_vec())
+    let column = |(k, quantity): (usize, &Quantity)| {
+        (quantity.key(), rows.iter().map(|row| row.get(k).cloned().flatten()).collect())
+    };
+    Ok(present.iter().enumerate().map(column).collect())
 }
 
 /// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None`
@@ -67,7 +67,7 @@ pub(crate) fn values<S: Scalar>(
     let value = |(value, quantity): (Result<S, Undefined>, &Quantity)| {
         Some(quantity.in_unit(value.ok()?, &motion.scales(), units))
     };
-    Ok(mapped(rows(motion, quantities)?, |row| mapped(row.into_iter().zip(quantities), value)))
+    Ok(rows(motion, quantities)?.into_iter().map(|row| row.into_iter().zip(quantities).map(value).collect()).collect())
 }
 
 /// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
@@ -114,27 +114,36 @@ impl Source {
     /// Its answers for every contact, event, flight or piece.
     fn rows<S: Scalar>(self, motion: &dyn Motion<S>) -> Result<Vec<Row<S>>, Error> {
         Ok(match self {
-            Source::Event => mapped(motion.events(), |event| known(&event.numbers())),
+            Source::Event => motion.events().iter().map(|event| known(&event.numbers())).collect(),
             Source::Ends => {
                 let velocities = |kind: EventKind| {
                     let events = motion.events().iter().filter(move |event| event.kind == kind);
                     events.map(|event| Ok(event.end_velocity.clone())).chain(repeat(Err(Undefined::Unfinished)))
                 };
                 let ends = velocities(EventKind::Impact).zip(velocities(EventKind::Release));
-                mapped(ends.take(motion.contacts().len()), |(impact, release)| vec![impact, release])
+                ends.take(motion.contacts().len()).map(|(impact, release)| vec![impact, release]).collect()
             }
-            Source::Push => mapped(motion.contacts(), |contact| known(&[&contact.impulse, &contact.peak_strain])),
-            Source::Flight => mapped(flights(motion)?, |flight| {
-                let (time, top) = flight.highest.unzip();
-                let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
-                vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]
-            }),
-            Source::Piece => {
-                mapped(&motion.stress_pieces(), |piece| known(&[&piece.from, &piece.to, &piece.left, &piece.right]))
+            Source::Push => {
+                motion.contacts().iter().map(|contact| known(&[&contact.impulse, &contact.peak_strain])).collect()
             }
-            Source::Span | Source::Restitution | Source::Shares | Source::Left => {
-                try_mapped(motion.contacts(), |contact| self.of_times(motion, &contact.from, contact.to.as_ref()))?
-            }
+            Source::Flight => flights(motion)?
+                .into_iter()
+                .map(|flight| {
+                    let (time, top) = flight.highest.unzip();
+                    let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
+                    vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]
+                })
+                .collect(),
+            Source::Piece => motion
+                .stress_pieces()
+                .iter()
+                .map(|piece| known(&[&piece.from, &piece.to, &piece.left, &piece.right]))
+                .collect(),
+            Source::Span | Source::Restitution | Source::Shares | Source::Left => motion
+                .contacts()
+                .iter()
+                .map(|contact| self.of_times(motion, &contact.from, contact.to.as_ref()))
+                .collect::<Result<Vec<_>, _>>()?,
             _ => Vec::new(),
         })
     }
@@ -158,5 +167,5 @@ impl Source {
 
 /// A row of numbers that there are.
 fn known<S: Clone>(numbers: &[&S]) -> Row<S> {
-    mapped(numbers, |number| Ok((*number).clone()))
+    numbers.iter().map(|number| Ok((*number).clone())).collect()
 }

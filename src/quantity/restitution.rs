@@ -3,7 +3,6 @@
 use std::iter::once;
 
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
 
@@ -49,7 +48,7 @@ impl<S> Restitution<S> {
 
     /// Every number in it.
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        self.momentum.iter().chain(&self.energy_squared).collect_vec()
+        self.momentum.iter().chain(&self.energy_squared).collect()
     }
 }
 
@@ -125,7 +124,7 @@ impl<S> Flight<S> {
         let numbers = flights.iter().flat_map(|Flight { from, to, highest }| {
             once(from).chain(to).chain(highest.iter().flat_map(|(time, height)| [time, height]))
         });
-        numbers.collect_vec()
+        numbers.collect()
     }
 }
 

@@ -3,7 +3,6 @@
 use super::column::{finite, same};
 use super::table::Quantity;
 use crate::error::Error;
-use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::moments::Moments;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
@@ -51,13 +50,13 @@ pub fn slices<S: Scalar>(
     side: Option<Side>,
 ) -> Result<Vec<Vec<S>>, Error> {
     finite(&motion.end(), times)?;
-    let mut table: Vec<Vec<S>> = mapped(0..6, |_| Vec::with_capacity(points.len() * times.len()));
+    let mut table: Vec<Vec<S>> = (0..6).map(|_| Vec::with_capacity(points.len() * times.len())).collect();
     let mut add = |time: &S, limit: i64, x: &S, values: [S; 3]| {
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
         table.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
     };
     let stored = |point: &S| point.as_double().map_or_else(|| point.clone(), |double| point.double(double));
-    let cells: Vec<S> = if slice == Slice::Points { Vec::new() } else { mapped(points, stored) };
+    let cells: Vec<S> = if slice == Slice::Points { Vec::new() } else { points.iter().map(stored).collect::<Vec<_>>() };
     if slice != Slice::Points {
         check(&cells, &motion.scales().length)?;
     }
@@ -73,7 +72,7 @@ pub fn slices<S: Scalar>(
         }
         let ask = |side: Side| {
             let field = |x: &S| motion.field(x, time, side).map(|f| [f.displacement, f.velocity, f.strain]);
-            try_mapped(points, field)
+            points.iter().map(field).collect::<Result<Vec<_>, _>>()
         };
         let right = ask(side.unwrap_or_default())?;
         let left = if side.is_none() { ask(Side::Left)? } else { Vec::new() };
@@ -114,7 +113,7 @@ fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S;
     let cells = points.windows(2).zip(moments).map(|(pair, moments)| {
         let width = pair[1].clone() - &pair[0];
         let middle = (pair[1].clone() + &pair[0]) / width.int(2);
-        (middle, moments.each_ref().map_each(|[area, _]| area.clone() / &width))
+        (middle, moments.each_ref().map(|[area, _]| area.clone() / &width))
     });
     cells.unzip()
 }
@@ -123,8 +122,8 @@ fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S;
 fn projection<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> Vec<[S; 3]> {
     let Some(first) = points.first() else { return Vec::new() };
     let zero = || first.zero();
-    let mut diagonal: Vec<S> = mapped(points, |_| zero());
-    let mut loads: Vec<[S; 3]> = mapped(points, |_| [zero(), zero(), zero()]);
+    let mut diagonal: Vec<S> = points.iter().map(|_| zero()).collect();
+    let mut loads: Vec<[S; 3]> = points.iter().map(|_| [zero(), zero(), zero()]).collect();
     let mut beside = Vec::with_capacity(moments.len());
     for (k, (pair, moments)) in points.windows(2).zip(moments).enumerate() {
         let width = pair[1].clone() - &pair[0];

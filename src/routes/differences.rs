@@ -8,7 +8,6 @@
 use glam::{DVec2, DVec3};
 
 use crate::error::Error;
-use crate::mapped::mapped;
 use crate::motion::EventKind;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Profile, Run, Start, Top};
@@ -122,8 +121,9 @@ impl Grid {
             Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
-        let lift =
-            |list: &[(Number, Number)]| -> Vec<DVec2> { mapped(list, |(x, v)| DVec2::new(x.to_f64(), v.to_f64())) };
+        let lift = |list: &[(Number, Number)]| -> Vec<DVec2> {
+            list.iter().map(|(x, v)| DVec2::new(x.to_f64(), v.to_f64())).collect()
+        };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
         displacement.extend(problem.gap().map(|gap| DVec2::new(0.0, gap.to_f64())));
         let place = |x: f64| between(&displacement, x);
@@ -134,7 +134,7 @@ impl Grid {
             DVec2::new(rate - strain, rate + strain)
         };
         let centre = (0..cells).map(|k| place((k as f64 + 0.5) * width)).sum::<f64>() / cells as f64;
-        let (waves, height) = (mapped(0..cells, wave), place(0.0));
+        let (waves, height) = ((0..cells).map(wave).collect(), place(0.0));
         let (fixed, step) = (problem.rod.top == Top::Fixed, width / rod.wave_speed);
         Grid { fixed, step, waves, contact: height <= 0.0, time: 0.0, height, centre, width, rod }
     }
@@ -187,7 +187,7 @@ impl Grid {
             let sum = (up + down) / (1.0 + up_share + down_share);
             DVec2::new(up - up_share * sum, down - down_share * sum)
         };
-        self.waves = mapped(0..n, next);
+        self.waves = (0..n).map(next).collect();
         self.centre += 0.5 * dt * (rate + self.velocity());
         self.time += dt;
         (if self.contact { ground / c } else { 0.0 }, moved)

@@ -3,7 +3,6 @@
 use super::account::{Account, At, Found, find};
 use super::value::{NoAnswer, System, Value};
 use crate::error::Error;
-use crate::mapped::CollectVec;
 use crate::motion::{Motion, Scales, Side};
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run};
@@ -89,7 +88,7 @@ impl Question {
     /// The answer in doubles by a plan, which works out nothing else.
     pub(super) fn ask_plan(&self, plan: &Plan) -> Result<Value, NoAnswer> {
         let query = |motion: &dyn Motion<_>| self.find_in(motion);
-        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect_vec())?.map(Into::into)
+        plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
     pub(crate) fn ask_solution(&self, solution: &Solution) -> Result<Value, NoAnswer> {
@@ -102,7 +101,7 @@ impl Question {
     }
 
     fn ask_history<S: Target<Carried: System>>(&self, history: &History<S>) -> Result<Value, NoAnswer> {
-        history.ask(|motion| self.find_in(motion), |found| found.iter().collect_vec())?.map(Into::into)
+        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 
     /// The answer of a motion. **Errors**: those that more bits may settle.

@@ -1,7 +1,6 @@
 //! What others have published of a scene, held against its history.
 
 use crate::error::Error;
-use crate::mapped::try_mapped;
 use crate::motion::Motion;
 use crate::number::{Estimate, Scalar};
 use crate::quantity::{Units, columns, of_contact};
@@ -25,8 +24,9 @@ impl Published {
     pub(crate) fn of(called: &str, scene: &Scene) -> Result<Self, Error> {
         let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
         let history: History<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
-        let reached =
-            |motion: &dyn Motion<Double>| try_mapped(&scene.targets, |target| Reached::of(target, motion, &units));
+        let reached = |motion: &dyn Motion<Double>| {
+            scene.targets.iter().map(|target| Reached::of(target, motion, &units)).collect()
+        };
         let reached = history.ask(reached, |_| Vec::new())?;
         let (scene, title) = (called.to_string(), scene.title.clone());
         Ok(Published { scene, title, units, reached, warnings: history.warnings() })

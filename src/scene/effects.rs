@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::Scene;
-use crate::mapped::{CollectVec, mapped};
 use crate::number::Number;
 use crate::problem::written::short;
 use crate::problem::{Material, Problem, Run, Start, Top};
@@ -79,12 +78,12 @@ impl Scene {
     /// # Ok::<(), dalembert::SceneError>(())
     /// ```
     pub fn effects(&self) -> Vec<EffectUse> {
-        mapped(Effect::ALL, |effect| self.effect(effect))
+        Effect::ALL.into_iter().map(|effect| self.effect(effect)).collect()
     }
 
     /// The effects that the scene calls for.
     pub fn called_effects(&self) -> Vec<Effect> {
-        self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect_vec()
+        self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
     pub(crate) fn effect(&self, effect: Effect) -> EffectUse {

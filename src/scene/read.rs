@@ -8,7 +8,6 @@ use super::error::{SceneError, position};
 use super::reader::{Key, Reader, Value, did_you_mean};
 use super::suggest;
 use super::target::Target;
-use crate::mapped::try_mapped;
 use crate::number::Number;
 use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
@@ -309,7 +308,7 @@ impl<'a> Reader<'a> {
                 Err(self.error(point.span(), Kind::WrongType, found, "a point [x, value]"))
             }
         };
-        try_mapped(array, point).map(Some)
+        array.into_iter().map(point).collect::<Result<Vec<_>, _>>().map(Some)
     }
 
     /// The line of every key.

@@ -1,7 +1,5 @@
 //! What a person may have meant by a word that no scene has.
 
-use crate::mapped::CollectVec;
-
 /// Common words for a key, in lower case.
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("title", &["name", "description"]),
@@ -73,7 +71,7 @@ pub(super) fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str
 
 /// The least number of characters to insert, delete or replace that makes `a` into `b`.
 fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect_vec();
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, x) in a.chars().enumerate() {
         let mut diagonal = i;
         row[0] = i + 1;

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::error::SceneError;
 use super::reader::{Reader, Value};
 use super::suggest;
-use crate::mapped::try_mapped;
 use crate::motion::Side;
 use crate::number::Number;
 use crate::problem::ProblemErrorKind as Kind;
@@ -86,7 +85,7 @@ impl<'a> Reader<'a> {
             Some(document) => Reader { document, ..*self }.target(value.span(), has_material),
             None => Err(self.wrong_type(value, "target", "a table, [[target]]")),
         };
-        try_mapped(array, table)
+        array.into_iter().map(table).collect()
     }
 
     /// The published value of this table, which stands at `span`.

@@ -9,7 +9,6 @@ use super::plan::Plan;
 use super::question::Observer;
 use crate::error::Error;
 use crate::lattice::Undamped;
-use crate::mapped::{CollectVec, MapEach, mapped, try_mapped};
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
@@ -240,17 +239,17 @@ fn covering<X: Scalar, M: Scalar>(
             Err(Error::TimeOutside { .. } | Error::PointOutside { .. }) => continue,
             other => other?,
         };
-        let sums = off.get_or_insert_with(|| mapped(&found, Scalar::zero));
+        let sums = off.get_or_insert_with(|| found.iter().map(Scalar::zero).collect());
         for ((sum, other), found) in sums.iter_mut().zip(other).zip(&found) {
             *sum = sum.clone() + (other - found).magnitude();
         }
     }
-    let Some(off) = off else { return Ok(mapped(found, read)) };
+    let Some(off) = off else { return Ok(found.into_iter().map(read).collect()) };
     let widened = |(found, off): (X, X)| {
         let off = read(off);
         read(found).widened(&(off.clone() + off))
     };
-    Ok(mapped(found.into_iter().zip(off), widened))
+    Ok(found.into_iter().zip(off).map(widened).collect())
 }
 
 /// The numbers of a list that was made of so many.
@@ -264,7 +263,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<M>> {
-        mapped(self.engine.stress_pieces(), |piece| piece.map(M::read))
+        self.engine.stress_pieces().into_iter().map(|piece| piece.map(M::read)).collect()
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
@@ -311,9 +310,9 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     /// In one march, where no time is that of an event or of a ray at a point of its own.
     fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
-        let points = try_mapped(points, |point| self.point(point))?;
-        let times = try_mapped(times, |time| self.time(time))?;
-        Ok(mapped(self.engine.rates(&points, &times)?, |pair| pair.map_each(M::read)))
+        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<_>, _>>()?;
+        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.engine.rates(&points, &times)?.into_iter().map(|pair| pair.map(M::read)).collect())
     }
 
     fn highest(&self, release: usize) -> Option<(M, M)> {
@@ -327,15 +326,15 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
-        Ok(mapped(self.engine.rays(trip)?, |ray| ray.map(M::read)))
+        Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
     }
 
     fn corners(&self) -> Vec<M> {
-        mapped(self.engine.corners(), M::read)
+        self.engine.corners().into_iter().map(M::read).collect()
     }
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
-        Ok(mapped(self.engine.stretches(&self.time(time)?)?, |stretch| stretch.map(M::read)))
+        Ok(self.engine.stretches(&self.time(time)?)?.into_iter().map(|stretch| stretch.map(M::read)).collect())
     }
 
     fn moments(&self, time: &M, points: &[M]) -> Result<Vec<Moments<M>>, Error> {
@@ -344,22 +343,22 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
             match self.engine.stretches(&given) {
                 Err(Error::NoWaves) => {}
                 stretches => {
-                    let stretches = mapped(stretches?, |stretch| stretch.map(M::read));
+                    let stretches = stretches?.into_iter().map(|stretch| stretch.map(M::read)).collect::<Vec<_>>();
                     return moments::of_stretches(&stretches, points);
                 }
             }
         }
-        let points = try_mapped(points, |point| self.point(point))?;
+        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<_>, _>>()?;
         let ask = |time: &N| {
             let cells = self.engine.moments(time, &points)?;
-            Ok(cells.into_iter().flatten().flatten().collect_vec())
+            Ok(cells.into_iter().flatten().flatten().collect())
         };
         let mut numbers = self.around(&given, late, M::read, &ask)?.into_iter();
         let mut cell = || {
-            let [a, b, c, d, e, f] = array(numbers.by_ref().take(6).collect_vec());
+            let [a, b, c, d, e, f] = array(numbers.by_ref().take(6).collect());
             [[a, b], [c, d], [e, f]]
         };
-        Ok((1..points.len()).map(|_| cell()).collect_vec())
+        Ok((1..points.len()).map(|_| cell()).collect())
     }
 
     fn waves(&self) -> Result<Waves<M>, Error> {

@@ -3,7 +3,6 @@
 use super::plan::{Plan, Rung};
 use super::question::{Observer, Want};
 use crate::error::Error;
-use crate::mapped::{MapEach, mapped, try_mapped};
 use crate::motion::{Motion, Side};
 use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Parameter, Problem};
@@ -53,9 +52,12 @@ pub(super) type Rows<S> = Vec<Vec<Option<S>>>;
 
 /// `f` of each number that there is, with its row and column.
 pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S) -> T) -> Rows<T> {
-    mapped(rows.iter().enumerate(), |(i, row)| {
-        mapped(row.iter().enumerate(), |(j, number)| number.as_ref().map(|number| f((i, j), number)))
-    })
+    rows.iter()
+        .enumerate()
+        .map(|(i, row)| {
+            row.iter().enumerate().map(|(j, number)| number.as_ref().map(|number| f((i, j), number))).collect()
+        })
+        .collect()
 }
 
 /// What there is in that row and column.
@@ -103,24 +105,24 @@ impl Asked<'_> {
             return quantity::values(motion, self.quantities, &units);
         };
         let precision = motion.end().precision();
-        let lift = |list: &[Number]| -> Vec<S> { mapped(list, |number| S::spelling(number, &precision)) };
+        let lift = |list: &[Number]| -> Vec<S> { list.iter().map(|number| S::spelling(number, &precision)).collect() };
         let times = lift(times);
         if !points.is_empty() {
             return quantity::along(motion, &units, self.quantities, (&lift(points), &times), side);
         }
         let rows = |times: &[S]| {
             let table = quantity::columns(motion, &units, self.quantities, times, Some(side))?;
-            Ok(mapped(0..times.len(), |row| mapped(&table, |column| Some(column[row].clone()))))
+            Ok((0..times.len()).map(|row| table.iter().map(|column| Some(column[row].clone())).collect()).collect())
         };
         match rows(&times) {
             // With another value it may end before.
             Err(Error::TimeOutside { .. }) => {
-                let none = || vec![mapped(self.quantities, |_| None)];
+                let none = || vec![self.quantities.iter().map(|_| None).collect()];
                 let row = |time: &S| match rows(std::slice::from_ref(time)) {
                     Err(Error::TimeOutside { .. }) => Ok(none()),
                     found => found,
                 };
-                Ok(try_mapped(&times, row)?.concat())
+                Ok(times.iter().map(row).collect::<Result<Vec<_>, _>>()?.concat())
             }
             found => found,
         }
@@ -130,10 +132,13 @@ impl Asked<'_> {
     pub(super) fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
         let units = Units::of(problem, UnitSystem::default());
         let time = motion.scales().time.to_f64();
-        mapped(self.quantities, |quantity| match quantity.measure() {
-            Some(Measure::Time) => time,
-            _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
-        })
+        self.quantities
+            .iter()
+            .map(|quantity| match quantity.measure() {
+                Some(Measure::Time) => time,
+                _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
+            })
+            .collect()
     }
 
     /// Whether a number is absent where the rod is too short for it: then there is but one side.
@@ -155,7 +160,7 @@ impl<S> Derivative<S> {
     pub fn sides(&self) -> [Result<&S, NoDerivative>; 2] {
         match self {
             Derivative::One(value) => [Ok(value), Ok(value)],
-            Derivative::Sides { left, right } => [left, right].map_each(|side| side.as_ref().map_err(|why| *why)),
+            Derivative::Sides { left, right } => [left, right].map(|side| side.as_ref().map_err(|why| *why)),
         }
     }
 

@@ -12,7 +12,6 @@ use super::history::History;
 use super::plan::Plan;
 use super::question::{Numbers, Question};
 use crate::error::Error;
-use crate::mapped::{CollectVec, MapEach};
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameter, Problem};
@@ -79,7 +78,7 @@ impl Level {
     fn of(asked: &Asked<'_>, exponent: u32, zero: bool) -> Result<Self, Error> {
         let by: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
         let step = by.to_rational();
-        let problems = [-(step.clone() + &step), step].map_each(|step| asked.by.moved(asked.problem, &step));
+        let problems = [-(step.clone() + &step), step].map(|step| asked.by.moved(asked.problem, &step));
         let bits = bits_for_digits(2 * exponent) + SPARE_BITS;
         let run = |k: usize| match k {
             0 => rows(asked, asked.problem, exponent, bits).map(Some),
@@ -88,7 +87,7 @@ impl Level {
         let mut runs = Threads::default().all(3, run)?.into_iter();
         let mut next = || runs.next().flatten();
         let (base, scales) = next().unwrap_or_default();
-        let moved = [next(), next()].map_each(|run| run.map(|(rows, _)| rows));
+        let moved = [next(), next()].map(|run| run.map(|(rows, _)| rows));
         let value = match zero {
             true => Long::from_number(&asked.by.scale_of_zero(asked.problem), &bits),
             false => asked.by.value_in(asked.problem, &bits)?,
@@ -179,7 +178,7 @@ impl Judge {
             (_, Err(why)) => return Some(Err(why)),
         };
         let change = now.clone() - &before;
-        let [was, is] = [&before, &now].map_each(size);
+        let [was, is] = [&before, &now].map(size);
         if size(&change) <= f64::max(was, is) / 10.0 + self.wanted * self.natural {
             let found = now.widened(&change);
             return self.is_fine(bound(&found), is).then_some(Ok(found));
@@ -227,7 +226,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
     let plan = Plan::of(problem, &question)?;
     let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;
     let query = |motion: &dyn Motion<Long>| Ok((asked.values(problem, motion)?, asked.scales(problem, motion)));
-    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect_vec())?;
+    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {
         let error = (number.log2_error() + f64::from(bits)).exp2();

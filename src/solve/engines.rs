@@ -12,7 +12,6 @@ use super::question::Observer;
 use super::{differences, interpolated, long, rates};
 use crate::error::Error;
 use crate::first_contact::Bounce;
-use crate::mapped::mapped;
 use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Rational, Reads};
 use crate::problem::Problem;
@@ -53,7 +52,10 @@ impl Target for f64 {
         }
         let digits = asked.plan.goal.digits.ceil() as u32;
         let found = differences::of(asked, digits)?;
-        Ok(mapped(found, |row| mapped(row, |cell| cell.map(|it| it.map(Reads::read)))))
+        Ok(found
+            .into_iter()
+            .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
+            .collect())
     }
 }
 

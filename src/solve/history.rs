@@ -6,7 +6,6 @@ use super::ladder::{Attempt, Ladder, Query, Target, settled};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Observer, Question, unobserved};
 use crate::error::Error;
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
 };
@@ -66,7 +65,7 @@ impl<S: Target> History<S> {
         };
         let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, |(end, events, contacts)| {
             let happens = events.iter().flat_map(Event::numbers).chain(contacts.iter().flat_map(Contact::numbers));
-            std::iter::once(end).chain(happens).collect_vec()
+            std::iter::once(end).chain(happens).collect()
         })?;
         let motion = History {
             ending: attempt.engine.ending().clone(),
@@ -81,8 +80,8 @@ impl<S: Target> History<S> {
             observe,
         };
         if ask_events {
-            motion.events.get_or_init(|| mapped(events, |event| event.map(S::strip)));
-            motion.contacts.get_or_init(|| mapped(contacts, |contact| contact.map(S::strip)));
+            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
+            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
         }
         Ok(motion)
     }
@@ -216,19 +215,20 @@ impl<S: Target> History<S> {
 
     /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
     pub fn events(&self) -> &[Event<S>] {
-        self.events.get_or_init(|| mapped(self.current().engine.events(), |event| event.clone().map(S::strip)))
+        self.events
+            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
     }
 
     /// All times on the ground, in order.
     pub fn contacts(&self) -> &[Contact<S>] {
         let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
-        self.contacts.get_or_init(|| mapped(self.current().engine.contacts(), strip))
+        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
     }
 
     /// The flights between the contacts, and how high they go.
     pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
         let found = self.ask(flights, |flights| Flight::numbers(flights))?;
-        Ok(mapped(found, |flight| flight.map(S::strip)))
+        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
     }
 
     /// `e_P` and `e_E²` of a contact, counted from 0.
@@ -243,11 +243,12 @@ impl<S: Target> History<S> {
             let times = engine.contact_times(contact);
             let missing = || Error::NoContact { contact, found: engine.contacts().len() };
             let (from, to) = times.ok_or_else(missing)?;
-            let centres = try_mapped(std::iter::once(&from).chain(&to), |time| engine.centre(time))?;
+            let centres =
+                std::iter::once(&from).chain(&to).map(|time| engine.centre(time)).collect::<Result<Vec<_>, _>>()?;
             Ok((restitution(engine, (&from, to.as_ref()))?, centres))
         };
         let (found, _) = self.ask(query, |(found, centres)| match doubles {
-            true => centres.iter().flat_map(|(h, rate)| [h, rate]).collect_vec(),
+            true => centres.iter().flat_map(|(h, rate)| [h, rate]).collect::<Vec<_>>(),
             false => Restitution::numbers(found),
         })?;
         Ok(found.map(S::strip))
@@ -256,7 +257,7 @@ impl<S: Target> History<S> {
     /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
-        let pieces = mapped(pieces, |piece| piece.map(S::strip));
+        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect::<Vec<_>>();
         Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
 
@@ -304,9 +305,9 @@ impl<S: Target> History<S> {
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     pub fn columns(&self, columns: &[Quantity], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
-        let times: Vec<_> = mapped(times, Answer::carry);
+        let times: Vec<_> = times.iter().map(Answer::carry).collect();
         let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
-        Ok(mapped(table, |column| mapped(column, S::strip)))
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
     }
 
     /// [`History::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
@@ -322,7 +323,7 @@ impl<S: Target> History<S> {
             let scaled = quantity::of_one_size(engine, &self.units(), columns, &table);
             Ok((table, scaled))
         };
-        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect_vec())?.0)
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
     /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
@@ -342,10 +343,10 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
-        let carry = |list: &[S]| mapped(list, Answer::carry);
+        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
         let (points, times) = (carry(points), carry(times));
         let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
-        Ok(mapped(table, |column| mapped(column, S::strip)))
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect::<Vec<_>>()).collect())
     }
 
     /// [`History::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
@@ -361,7 +362,7 @@ impl<S: Target> History<S> {
             let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
             Ok((table, scaled))
         };
-        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect_vec())?.0)
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
     /// The columns of a table by name, such as the `from`, `to`, `impulse` and `peak_strain` of all contacts; with a
@@ -379,8 +380,8 @@ impl<S: Target> History<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
-        let strip = |column: Vec<Option<S::Carried>>| mapped(column, |x| x.map(S::strip));
-        Ok(mapped(self.ask_table(table)?, |(name, column)| (name, strip(column))))
+        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
+        Ok(self.ask_table(table)?.into_iter().map(|(name, column)| (name, strip(column))).collect())
     }
 
     /// [`History::table`] in numbers that carry their bound.
@@ -389,7 +390,7 @@ impl<S: Target> History<S> {
         let units = self.units();
         self.ask(
             |motion| quantity::table(motion, table, &units),
-            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect_vec(),
+            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
         )
     }
 
@@ -401,21 +402,21 @@ impl<S: Target> History<S> {
     /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
     /// together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
-        let points: Vec<_> = mapped(points, Answer::carry);
+        let points: Vec<_> = points.iter().map(Answer::carry).collect();
         let value = |(time, point): (&S, _)| {
             let time = self.time(time)?;
             let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
             Ok(value.map(S::strip))
         };
-        try_mapped(times.iter().flat_map(|time| points.iter().map(move |point| (time, point))), value)
+        times.iter().flat_map(|time| points.iter().map(move |point| (time, point))).map(value).collect()
     }
 
     /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
     ///
     /// **Errors**: [`Error::NoRays`] under damping.
     pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
-        let rays = self.ask(|motion| motion.rays(trip), |rays| mapped(rays, |ray| &ray.from))?;
-        Ok(mapped(rays, |ray| ray.map(S::strip)))
+        let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
+        Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
     }
 
     /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.

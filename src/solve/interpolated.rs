@@ -13,7 +13,6 @@ use super::ladder::{Engined, Ladder};
 use super::plan::{Engine, Plan};
 use super::question::Question;
 use crate::error::Error;
-use crate::mapped::{CollectVec, try_mapped};
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
 use crate::problem::Problem;
@@ -64,13 +63,13 @@ fn with_step(
         let ladder = Ladder { problem: &problem, plan: &plan, observe: asked.observe };
         let found = ladder.ask::<f64, _>(
             |motion| rows(asked, &problem, motion),
-            |(rows, _)| rows.iter().flatten().flatten().collect_vec(),
+            |(rows, _)| rows.iter().flatten().flatten().collect(),
         )?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
     // On the lattice a run takes less time than a thread to begin.
     let runs = match asked.plan.engine {
-        Engine::Lattice => try_mapped(0..3, run)?,
+        Engine::Lattice => (0..3).map(run).collect::<Result<Vec<_>, _>>()?,
         _ => Threads::default().all(3, run)?,
     };
     let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };

@@ -7,7 +7,6 @@ use super::derivative::{Asked, Derivatives};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer, UNOBSERVED};
 use crate::error::Error;
-use crate::mapped::mapped;
 use crate::motion::{Ending, Motion, Scales};
 use crate::number::{Answer, Scalar};
 use crate::problem::Problem;
@@ -95,7 +94,7 @@ pub(crate) struct Size {
 }
 
 fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
-    mapped(numbers, |x| Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() })
+    numbers.into_iter().map(|x| Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() }).collect()
 }
 
 /// What the ladder asks of each attempt: which answer it is, counted from 0, and the numbers of it. So the ladder is

@@ -9,7 +9,6 @@ use super::question::{Numbers, Observer, Question, Want};
 use crate::cells::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
-use crate::mapped::CollectVec;
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run, Start, profile};
 use crate::reason::Warning;
@@ -356,7 +355,7 @@ impl Plan {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let longer = self.climb.bits.into_iter().flat_map(|bits| [bits, 2 * bits, 4 * bits]);
         let longer = longer.filter(|bits| *bits > rung.bits()).map(Rung::Bits);
-        exact.then_some(Rung::Fractions).into_iter().chain(longer).collect_vec()
+        exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
     }
 
     /// Why this engine and these numbers, a sentence each.

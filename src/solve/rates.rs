@@ -7,7 +7,6 @@ use super::ladder::Engined;
 use super::plan::{Engine, Rung};
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
-use crate::mapped::{MapEach, mapped};
 use crate::motion::{AtStart, Datum, Motion};
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Reads, Scalar};
 use crate::problem::{Material, Parameter, Parameters, Problem};
@@ -80,7 +79,7 @@ fn confirmed(rates: [OneSide; 2], quotient: Option<&Derivative<Estimate<Float>>>
     let Some(quotient) = quotient.map(Derivative::sides) else { return [Err(unsettled), Err(unsettled)] };
     let [left, right] = rates;
     let [to_left, to_right] = quotient;
-    [(left, to_left), (right, to_right)].map_each(|(rate, quotient)| {
+    [(left, to_left), (right, to_right)].map(|(rate, quotient)| {
         let (rate, quotient) = (rate, quotient?);
         rate.ok().filter(|rate| meets(rate, quotient)).ok_or(unsettled)
     })
@@ -127,8 +126,9 @@ pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Opti
     }
     let (rates, settled) = on_both_sides(asked)?;
     let base = asked.values(asked.problem, &**run)?;
-    let listed = |row: &Vec<Option<Estimate<f64>>>| mapped(row, Option::is_some);
-    let settled = settled && rates.iter().map(|row| mapped(row, Option::is_some)).eq(base.iter().map(listed));
+    let listed = |row: &Vec<Option<Estimate<f64>>>| row.iter().map(Option::is_some).collect::<Vec<_>>();
+    let settled = settled
+        && rates.iter().map(|row| row.iter().map(Option::is_some).collect::<Vec<_>>()).eq(base.iter().map(listed));
     Ok(settled.then(|| of_each(&rates, |_, sides| derivative(sides.clone()).map(Estimate::read))))
 }
 

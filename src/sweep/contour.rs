@@ -2,16 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::mapped::{CollectVec, MapEach};
-
 /// Two neighbours on a grid, from the one that is nearer to its origin: columns and rows.
 pub(crate) type Edge = [[usize; 2]; 2];
 
 /// The edges across which `inside` changes.
 pub(crate) fn crossed(size: [usize; 2], inside: &dyn Fn([usize; 2]) -> bool) -> Vec<Edge> {
     let nodes = (0..size[0]).flat_map(|column| (0..size[1]).map(move |row| [column, row]));
-    let edges = nodes.flat_map(|[column, row]| [[column + 1, row], [column, row + 1]].map_each(|b| [[column, row], b]));
-    edges.filter(|[_, b]| b[0] < size[0] && b[1] < size[1]).filter(|[a, b]| inside(*a) != inside(*b)).collect_vec()
+    let edges = nodes.flat_map(|[column, row]| [[column + 1, row], [column, row + 1]].map(|b| [[column, row], b]));
+    edges.filter(|[_, b]| b[0] < size[0] && b[1] < size[1]).filter(|[a, b]| inside(*a) != inside(*b)).collect()
 }
 
 /// Closed lines through the crossed edges of a grid whose border lies outside, as lists of edges: what is inside lies
@@ -24,7 +22,7 @@ pub(crate) fn loops(edges: &[Edge], inside: &dyn Fn([usize; 2]) -> bool) -> Vec<
         let below = (a[0] >= across[0] && a[1] >= across[1]).then(|| [a[0] - across[0], a[1] - across[1]]);
         // The squares on both sides. A line comes in where, about the square, what is inside ends.
         for square in below.into_iter().chain([*a]) {
-            let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map_each(|[x, y]| [square[0] + x, square[1] + y]);
+            let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[x, y]| [square[0] + x, square[1] + y]);
             let at = (0..4).find(|k| {
                 let side = [corners[*k], corners[(k + 1) % 4]];
                 (side == [*a, *b] || side == [*b, *a]) && inside(side[0]) && !inside(side[1])

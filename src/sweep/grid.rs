@@ -1,6 +1,5 @@
 //! Which values of a scene are varied, and the problem of each point.
 
-use crate::mapped::{CollectVec, mapped, try_mapped};
 use crate::number::{List, Number};
 use crate::problem::{Builder, Problem, ProblemError, Written};
 
@@ -35,7 +34,7 @@ impl std::str::FromStr for Axis {
         let paths = Builder::NUMBERS.iter().map(|(_, path)| *path);
         let known = paths.clone().find(|known| *known == path.trim());
         let path = known.ok_or_else(|| {
-            let expected = format!("a number of a scene: {}", paths.collect_vec().join(", "));
+            let expected = format!("a number of a scene: {}", paths.collect::<Vec<_>>().join(", "));
             SweepError::new(format!("the path `{}`", path.trim()), expected)
         })?;
         Ok(Axis { path, values: values(list)? })
@@ -53,8 +52,8 @@ pub(super) fn values(text: &str) -> Result<Vec<Number>, SweepError> {
         let value = if geometric { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
         Written::from(value).number().cloned().map_err(|error| SweepError(error.to_string()))
     };
-    let between = try_mapped(1..count - 1, inner)?;
-    Ok(std::iter::once(from).chain(between).chain([to]).collect_vec())
+    let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
+    Ok(std::iter::once(from).chain(between).chain([to]).collect::<Vec<_>>())
 }
 
 /// Every combination of the values of some axes, the last one varying fastest.
@@ -75,7 +74,7 @@ impl Grid {
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
-            let sizes = mapped(&axes, |axis| axis.values.len().to_string()).join(" × ");
+            let sizes = axes.iter().map(|axis| axis.values.len().to_string()).collect::<Vec<_>>().join(" × ");
             return Err(SweepError::new(format!("{sizes} points"), format!("at most {MOST_POINTS}")));
         }
         Ok(Grid { problem, axes })

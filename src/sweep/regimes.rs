@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::contour::{Edge, crossed, loops};
 use super::grid::{Axis, Grid, SweepError, values};
 use crate::first_contact::{Bounce, FirstContact, Kernels};
-use crate::mapped::{CollectVec, MapEach, mapped};
 use crate::motion::{Ending, Motion};
 use crate::number::{Analytic, Estimate, Number, Scalar};
 use crate::problem::written::{Written, short};
@@ -64,15 +63,15 @@ impl Map {
         let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
         // Before any point is solved.
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
-            let values: Vec<f64> = mapped(&axis.values, Number::to_f64);
+            let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
             if values.len() < 2 || values[0] < least || !values.is_sorted_by(|a, b| a < b) {
-                let found = mapped(&axis.values, Number::to_string).join(",");
+                let found = axis.values.iter().map(Number::to_string).collect::<Vec<_>>().join(",");
                 let expected = "two values or more that increase, R from zero and M from above zero";
                 return Err(SweepError::new(format!("the values {}", short(&found)), expected));
             }
         }
-        let [speeds, dampings] = [0, 1].map_each(|k: usize| grid.axes[k].values.clone());
-        let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect_vec();
+        let [speeds, dampings] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
+        let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect();
         let columns = threads.all(dampings.len() * parts.len(), |k| {
             let kernels = Kernels::default();
             let mut regimes = Vec::with_capacity(SHARING);
@@ -84,7 +83,7 @@ impl Map {
         })?;
         let columns: Vec<Regime> = columns.concat();
         let rows = (0..speeds.len()).flat_map(|row| columns.iter().skip(row).step_by(speeds.len()).copied());
-        let regimes = rows.collect_vec();
+        let regimes = rows.collect();
         Ok(Map { regimes, damping: dampings, speed: speeds, regions: Vec::new() })
     }
 
@@ -110,7 +109,7 @@ impl Map {
                 }
                 node => regime_at(place(node), &kernels),
             };
-            Ok::<_, std::convert::Infallible>(mapped(0..size[1], band))
+            Ok::<_, std::convert::Infallible>((0..size[1]).map(band).collect::<Vec<_>>())
         });
         let mut regions = Vec::new();
         for level in 0..=BANDS.len() {
@@ -122,7 +121,7 @@ impl Map {
                 let mut kernels = Kernels::default();
                 let (mut within, mut beyond) = if inside(a) { (place(a), place(b)) } else { (place(b), place(a)) };
                 // The ring lies on the border.
-                let outer = [a, b].map_each(|[x, y]| bands[x][y]).contains(&usize::MAX);
+                let outer = [a, b].map(|[x, y]| bands[x][y]).contains(&usize::MAX);
                 let halvings = (FINE / across.max(up) as f64).log2().ceil().max(2.0) as usize;
                 for _ in 0..if outer { 0 } else { halvings } {
                     let point = within.midpoint(beyond);
@@ -135,7 +134,12 @@ impl Map {
                 Ok::<_, std::convert::Infallible>(if outer { within } else { within.midpoint(beyond) })
             });
             let of: BTreeMap<Edge, DVec2> = edges.iter().copied().zip(crossings).collect();
-            regions.push(mapped(loops(&edges, &inside), |line| mapped(line, |edge| of[&edge])));
+            regions.push(
+                loops(&edges, &inside)
+                    .into_iter()
+                    .map(|line| line.into_iter().map(|edge| of[&edge]).collect())
+                    .collect(),
+            );
         }
         Map { regions, ..self }
     }
@@ -161,7 +165,7 @@ impl Spread {
             let (straight, geometric) = (from + (to - from) * place, from * (to / from).powf(place));
             (middle / geometric).ln().abs() < (middle / straight).ln().abs()
         };
-        let [from, to] = [from, to].map_each(|end| if log { end.ln() } else { end });
+        let [from, to] = [from, to].map(|end| if log { end.ln() } else { end });
         Spread { log, first: from, step: (to - from) / last.max(1) as f64 }
     }
 
@@ -217,7 +221,7 @@ fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
         let end = motion.contact_times(0).and_then(|(_, end)| end);
         Ok((end, matches!(motion.ending(), Ending::NoBounce(_))))
     };
-    match plan.ask::<f64, _>(problem, query, |(end, _)| end.iter().collect_vec()) {
+    match plan.ask::<f64, _>(problem, query, |(end, _)| end.iter().collect()) {
         Ok((Some(time), _)) => Regime::Bounce(time.into_value()),
         Ok((None, true)) => Regime::Never,
         _ => Regime::Undecided,

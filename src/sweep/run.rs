@@ -7,7 +7,6 @@ use serde_json::Value;
 
 use super::grid::Grid;
 use crate::error::Error;
-use crate::mapped::mapped;
 use crate::motion::Motion;
 use crate::number::{Number, Scalar, bound_json, bound_of_log2, number_json, shown_bound};
 use crate::problem::{Problem, ProblemError, Run};
@@ -117,7 +116,7 @@ impl Visitor for Found<'_> {
     fn visit<S: Target>(self, history: &History<S>) -> Cell {
         let digits = self.digits;
         let query = |motion: &dyn Motion<S::Carried>| self.one.of(motion, self.units, self.run);
-        let found = history.ask(query, |found| mapped(found, |[_, plain]| plain));
+        let found = history.ask(query, |found| found.iter().map(|[_, plain]| plain).collect());
         let cell = match found {
             Ok(Ok([value, _])) if !value.is_finite() => Cell::none("no finite number"),
             Ok(Ok([value, _])) => Cell {

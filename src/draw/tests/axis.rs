@@ -2,7 +2,7 @@ use super::*;
 
 #[test]
 fn units_have_prefixes_and_ticks_are_round() {
-    let texts = |axis: &Axis| axis.ticks(5.0).into_iter().map(|tick| tick.1).collect::<Vec<_>>();
+    let texts = |axis: &Axis| axis.ticks(5.0).into_iter().map(|tick| tick.1).collect();
     let axis = Axis::new("t", "s", [0.0, 1.2e-3]);
     assert_eq!((axis.label.as_str(), texts(&axis)), ("t [ms]", ["0.0", "0.5", "1.0"].map(String::from).to_vec()));
     let axis = Axis::new("E v_x", "Pa", [-4.1e7, 0.0]);

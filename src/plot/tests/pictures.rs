@@ -14,7 +14,7 @@ fn a_single_bounce_is_bars_of_its_coefficients() {
     };
     let (mut bars, mut texts) = (0, 0);
     for speeds in [&[2][..], &[2, 7], &[2, 3, 40, 5]] {
-        let scenes = mapped(speeds, |speed| gathered(*speed));
+        let scenes = speeds.iter().map(|speed| gathered(*speed)).collect::<Vec<_>>();
         let sheet = sheet(&asked, &scenes, Vec::new()).unwrap();
         let panel = &sheet.panels[0];
         let drawn = panel.layers.iter().filter_map(|layer| match &layer.shape {

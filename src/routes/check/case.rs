@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use super::verdict::{Outcome, Promise, Row, Verdict, outcome};
-use crate::mapped::{CollectVec, mapped};
 use crate::motion::Side;
 use crate::number::Number;
 use crate::paper::Printed;
@@ -163,7 +162,7 @@ impl Entry {
             let outcome = outcome(*promise, truth.as_ref(), &found, digits.unwrap_or(0.0));
             Some(Row { route: route_name, found, promise: *promise, digits, outcome, seconds })
         });
-        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect_vec() }
+        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect() }
     }
 }
 
@@ -259,7 +258,7 @@ pub(super) const fn claim(name: Text, verdict: Verdict, source: Text, about: Tex
 impl Case {
     /// Takes every route to every question. A build without long numbers takes those in doubles only.
     pub(crate) fn run(&'static self) -> Checked {
-        let asked: Vec<CheckedQuestion> = mapped(self.entries, Entry::check);
+        let asked: Vec<CheckedQuestion> = self.entries.iter().map(Entry::check).collect();
         let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
         Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
     }

@@ -2,7 +2,6 @@
 
 use super::case::{Case, Group};
 use super::{hard, section_2, section_3, section_4};
-use crate::mapped::CollectVec;
 
 /// All groups, in the order in which they are shown.
 pub(crate) const CATALOGUE: [Group; 12] = [
@@ -26,7 +25,7 @@ pub(crate) const CATALOGUE: [Group; 12] = [
 pub(crate) fn select(names: &[String]) -> Result<Vec<(Group, Vec<&'static Case>)>, String> {
     let named = |name: &String, group: &Group, case: &Case| *name == case.name || *name == group.name;
     let cases = |group: Group, wanted: &dyn Fn(&Case) -> bool| {
-        (group, group.cases.iter().filter(|case| wanted(case)).collect_vec())
+        (group, group.cases.iter().filter(|case| wanted(case)).collect::<Vec<_>>())
     };
     let known = |name: &&String| CATALOGUE.iter().any(|group| group.cases.iter().any(|case| named(name, group, case)));
     if let Some(unknown) = names.iter().find(|name| !known(name)) {
@@ -34,7 +33,7 @@ pub(crate) fn select(names: &[String]) -> Result<Vec<(Group, Vec<&'static Case>)
     }
     let wanted =
         |group: Group| cases(group, &|case| names.is_empty() || names.iter().any(|name| named(name, &group, case)));
-    Ok(CATALOGUE.into_iter().map(wanted).filter(|(_, cases)| !cases.is_empty()).collect_vec())
+    Ok(CATALOGUE.into_iter().map(wanted).filter(|(_, cases)| !cases.is_empty()).collect::<Vec<_>>())
 }
 
 #[cfg(test)]

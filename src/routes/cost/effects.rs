@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use super::clock::{Timing, batch, check_budget, sample};
-use crate::mapped::mapped;
 use crate::number::Number;
 use crate::problem::{Parameters, Problem, Run, Speed, Start, Top};
 use crate::routes::route::{run_engine, run_planned};
@@ -130,7 +129,7 @@ fn in_turns(
         });
         pair = began.elapsed().as_secs_f64();
     }
-    let of = |part: fn(&[f64; 2]) -> f64| Timing::of(&mut mapped(&pairs, part));
+    let of = |part: fn(&[f64; 2]) -> f64| Timing::of(&mut pairs.iter().map(part).collect::<Vec<_>>());
     let (with, without, costs) = (of(|pair| pair[0]), of(|pair| pair[1]), of(|pair| pair[0] - pair[1]));
     Ok(Difference { effect: None, called: true, with, without, costs })
 }

@@ -1,6 +1,5 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
-use crate::mapped::CollectVec;
 use crate::quantity::Quantity;
 use crate::routes::long;
 use crate::routes::quantity::Question;
@@ -110,7 +109,7 @@ fn in_doubles(
         let expected = if k == 0 { first } else { growth };
         Candidate { family, route, setting, digits: DOUBLE, expected, chosen: false }
     };
-    settings.into_iter().enumerate().map(step).collect_vec()
+    settings.into_iter().enumerate().map(step).collect()
 }
 
 /// Settings in long numbers, with so many digits to spare; none in a build without such numbers.
@@ -160,7 +159,7 @@ fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
         Numbers::Certified(digits) => Some(digits),
         _ => None,
     };
-    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect_vec();
+    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect();
     settings.sort_unstable();
     settings.dedup();
     let candidate = |(k, digits): (usize, u32)| Candidate {
@@ -175,5 +174,5 @@ fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
         },
         chosen: chosen == Some(digits),
     };
-    settings.into_iter().enumerate().map(candidate).collect_vec()
+    settings.into_iter().enumerate().map(candidate).collect()
 }

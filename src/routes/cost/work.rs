@@ -4,7 +4,6 @@ use std::time::{Duration, Instant};
 
 use super::clock::{Timing, check_budget, repeat};
 use super::ladder::{Candidate, Family, Ladder, ladders};
-use crate::mapped::{CollectVec, mapped};
 use crate::number::Number;
 use crate::order::ascending;
 use crate::quantity::Quantity;
@@ -79,10 +78,11 @@ pub(crate) fn work_precision(
     let (all, without) = ladders(question, plan);
     let count: usize = all.iter().map(Vec::len).sum();
     let slot = SHARE * seconds / count.max(1) as f64;
-    let mut left_out: Vec<LeftOut> = mapped(without, |(family, why)| LeftOut { family, setting: None, why });
+    let mut left_out: Vec<LeftOut> =
+        without.into_iter().map(|(family, why)| LeftOut { family, setting: None, why }).collect();
     let mut taken: Vec<(Candidate, usize, Value, Timing)> = Vec::with_capacity(count);
     // The next setting last.
-    let mut waiting: Vec<Ladder> = mapped(all, |ladder| ladder.into_iter().rev().collect_vec());
+    let mut waiting: Vec<Ladder> = all.into_iter().map(|ladder| ladder.into_iter().rev().collect()).collect();
     while let Some((candidate, ladder)) = cheapest(&mut waiting) {
         observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
         // Rows of long numbers make the truth as dear as they are.
@@ -131,14 +131,17 @@ pub(crate) fn work_precision(
             Err(error) => return Err(error),
         }
     };
-    let rows: Vec<Row> = mapped(taken, |(candidate, ladder, value, timing)| Row {
-        family: candidate.family,
-        ladder,
-        setting: candidate.setting,
-        log10_error: truth.log10_error(&value),
-        timing,
-        chosen: candidate.chosen,
-    });
+    let rows: Vec<Row> = taken
+        .into_iter()
+        .map(|(candidate, ladder, value, timing)| Row {
+            family: candidate.family,
+            ladder,
+            setting: candidate.setting,
+            log10_error: truth.log10_error(&value),
+            timing,
+            chosen: candidate.chosen,
+        })
+        .collect();
     // Settings stay in the order of their ladder.
     let rows = ascending(ascending(rows, |row| row.ladder as f64), |row| f64::from(row.family as u8));
     let left_out = ascending(left_out, |item| f64::from(item.family as u8));

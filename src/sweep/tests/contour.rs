@@ -17,10 +17,10 @@ fn loops_part_what_is_inside_from_what_is_not() {
         let edges = crossed(size, &inside);
         let lines = loops(&edges, &inside);
         assert_eq!(lines.iter().map(Vec::len).sum::<usize>(), edges.len());
-        let middle = |[a, b]: &Edge| [a[0] + b[0], a[1] + b[1]].map_each(|twice| twice as f64 / 2.0);
+        let middle = |[a, b]: &Edge| [a[0] + b[0], a[1] + b[1]].map(|twice| twice as f64 / 2.0);
         for line in &lines {
             for k in 0..line.len() {
-                let [from, to] = [k, (k + 1) % line.len()].map_each(|k| middle(&line[k]));
+                let [from, to] = [k, (k + 1) % line.len()].map(|k| middle(&line[k]));
                 assert!((from[0] - to[0]).abs() <= 1.0 && (from[1] - to[1]).abs() <= 1.0, "{from:?} {to:?}");
             }
         }
@@ -31,7 +31,7 @@ fn loops_part_what_is_inside_from_what_is_not() {
                 let mut winding = 0;
                 for line in &lines {
                     for k in 0..line.len() {
-                        let [from, to] = [k, (k + 1) % line.len()].map_each(|k| middle(&line[k]));
+                        let [from, to] = [k, (k + 1) % line.len()].map(|k| middle(&line[k]));
                         let share = (height - from[1]) / (to[1] - from[1]);
                         let right = from[0] + share * (to[0] - from[0]) > column as f64;
                         let upwards = [from[1] < height && to[1] > height, to[1] < height && from[1] > height];

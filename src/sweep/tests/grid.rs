@@ -27,7 +27,7 @@ fn the_last_axis_varies_fastest() {
     let axes = ["rod.damping=1,2", "impact.speed=3,4,5"].map(|text| text.parse().unwrap());
     let grid = Grid::new(Problem::uniform(1.into(), 1.into(), 1.into(), 1.into()), axes.into()).unwrap();
     assert_eq!(grid.len(), 6);
-    let values = |k| grid.values(k).iter().map(|x| x.to_f64()).collect::<Vec<_>>();
+    let values = |k| grid.values(k).iter().map(|x| x.to_f64()).collect();
     assert_eq!((values(0), values(2), values(3)), (vec![1.0, 3.0], vec![1.0, 5.0], vec![2.0, 3.0]));
     assert_eq!(grid.problem(5).unwrap().rod.damping.unwrap().to_f64(), 2.0);
 }
