@@ -28,17 +28,17 @@ help:
 
 demo:
 	@echo "building the command without the C libraries; a minute or two where nothing is built yet"
-	$(CARGO) run --profile demo --no-default-features --features cli -- solve doyen-ern-piperno
+	$(CARGO) run --profile demo --package dalembert-cli --no-default-features -- solve doyen-ern-piperno
 	@echo "make demo-exact solves the same scene in fractions"
 
 demo-exact:
-	$(CARGO) run --profile demo --no-default-features --features cli -- solve doyen-ern-piperno --exact
+	$(CARGO) run --profile demo --package dalembert-cli --no-default-features -- solve doyen-ern-piperno --exact
 
 test: m4
 	$(CARGO) test --no-fail-fast
 
 docs: m4
-	REBUILD_GUIDE=1 $(CARGO) test --test suite guide::
+	REBUILD_GUIDE=1 $(CARGO) test --package dalembert-cli --test suite guide::
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce
@@ -46,14 +46,13 @@ explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --test suite -- --ignored near_thresholds near_coincidences derivatives asked_times certified_damped any_scene
 
 WASM = wasm32-unknown-unknown
-PACKED = --manifest-path web/Cargo.toml --target-dir target/web
+PACKED = --package dalembert-web --profile page --target $(WASM) --target-dir target/web
 
 page:
 	@rustc --print target-libdir --target $(WASM) | xargs test -d || rustup target add $(WASM)
-	$(CARGO) build $(PACKED) --release --target $(WASM) --lib
+	$(CARGO) build $(PACKED) --lib
 	@mkdir -p target/page
-	$(CARGO) run --quiet $(PACKED) --package pack -- \
-		target/web/$(WASM)/release/dalembert_web.wasm web/page target/page/dalembert.html
+	$(CARGO) run --quiet --package pack -- target/web/$(WASM)/page/dalembert_web.wasm web/page target/page/dalembert.html
 
 page-test: page chromium web/test/node_modules
 	$(CARGO) $(BUILD)

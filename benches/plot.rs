@@ -5,8 +5,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dalembert::plot::Drawing;
 use dalembert::{Problem, Units};
+use dalembert_plot::Drawing;
 
 fn plot(criterion: &mut Criterion) {
     for (name, damping) in [("undamped", "0"), ("damped", "0.01")] {

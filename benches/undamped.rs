@@ -32,7 +32,7 @@ fn first_contact(c: &mut Criterion) {
     group.bench_function("closed form of the bounce time, f64", |b| {
         b.iter(|| {
             let rod = dalembert::Parameters::<f64>::of(black_box(&scene.problem), &()).unwrap();
-            dalembert::paper::UndampedContact::new(&rod).unwrap().bounce_time()
+            dalembert_verify::paper::UndampedContact::new(&rod).unwrap().bounce_time()
         });
     });
     #[cfg(feature = "mp")]

@@ -8,5 +8,5 @@ pub use crate::lattice::{
 };
 pub use crate::modal::Modal;
 pub use crate::motion::{
-    Course, Motion, Pair, Passing, RayRegister, Scales, Stretch, WavePiece, Waves, reflection, unobserved,
+    Course, Motion, Pair, Passing, RayRegister, Scales, Stretch, WavePiece, Waves, reflection, straight, unobserved,
 };

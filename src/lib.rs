@@ -57,44 +57,20 @@
 //! the wheel), `svg` (pictures), `npz` (data in NumPy's files) and `plot` (pictures as PNG and PDF) only add to each
 //! other.
 
-#[macro_use]
-mod named;
-
-#[cfg(feature = "compare")]
-mod aligned;
 mod cells;
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
-#[cfg(feature = "compare")]
-pub mod compare;
-#[cfg(feature = "svg")]
-mod draw;
 pub mod engine;
 mod error;
-#[cfg(feature = "cli")]
-mod figures;
 mod first_contact;
 mod lattice;
 mod modal;
 mod motion;
 pub mod number;
-mod order;
-#[cfg(feature = "cli")]
-mod output;
-pub mod paper;
-#[cfg(feature = "svg")]
-pub mod plot;
 pub mod problem;
 pub mod quantity;
 pub mod reason;
-#[cfg(feature = "cli")]
-mod routes;
 mod scene;
 pub mod solve;
 pub mod special;
-#[cfg(feature = "cli")]
-mod sweep;
 mod threads;
 
 pub use error::Error;
@@ -108,8 +84,6 @@ pub use reason::{Reason, Warning};
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
 pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution};
-#[cfg(feature = "cli")]
-pub use sweep::{Cell, sweep};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

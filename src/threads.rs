@@ -16,12 +16,6 @@ impl Default for Threads {
 }
 
 impl Threads {
-    /// So many; without a number, or with zero, one for each core.
-    #[cfg(feature = "cli")]
-    pub(crate) fn of(count: Option<usize>) -> Self {
-        count.and_then(NonZero::new).map_or_else(Threads::default, Threads)
-    }
-
     pub(crate) fn count(self) -> usize {
         self.0.get()
     }
@@ -76,16 +70,6 @@ impl Threads {
 /// What is kept is replaced whole: what a panic left behind is as good as any.
 pub(crate) fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
     kept.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// `one` on this thread, while `other` is done on another.
-#[cfg(feature = "cli")]
-pub(crate) fn beside(other: &mut (dyn FnMut() + Send), one: &mut dyn FnMut()) {
-    // A panic of the other is one of both.
-    std::thread::scope(|scope| {
-        scope.spawn(other);
-        one();
-    });
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dalembert::Units;
-use dalembert::compare::data::{DataErrorKind, Source};
-use dalembert::compare::{Axis, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
+use dalembert_compare::data::{DataErrorKind, Source};
+use dalembert_compare::{Axis, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

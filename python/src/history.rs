@@ -5,10 +5,10 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::Motion;
 use dalembert::number::{Answer, Scalar, show};
-use dalembert::plot::Drawing;
 use dalembert::quantity::{Needs, Slice, Table, slices};
 use dalembert::solve::Derivatives;
 use dalembert::{Derivative, Error, Number, Parameter, Problem, Quantity, Side, Solution, Units};
+use dalembert_plot::Drawing;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;

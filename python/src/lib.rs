@@ -83,7 +83,7 @@ mod _core {
     /// The command `dalembert`: `arguments` with the name of the program first; its exit code.
     #[pyfunction]
     fn main(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-        let code = py.detach(|| dalembert::cli::main(arguments));
+        let code = py.detach(|| dalembert_cli::main(arguments));
         [0, 1].into_iter().find(|known| code == std::process::ExitCode::from(*known)).unwrap_or(2)
     }
 

@@ -49,7 +49,7 @@ pub(crate) fn sweep(
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        dalembert::sweep(count, &problem, &quantities, time.as_ref(), numbers, &go_on)
+        dalembert_cli::sweep::sweep(count, &problem, &quantities, time.as_ref(), numbers, &go_on)
     })?;
     let column = |j: usize| {
         let value = cells.iter().map(|cells| cells[j].value().unwrap_or(f64::NAN));

@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
+use crate::motion::partition;
 use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
-use crate::order::partition;
 use crate::problem::Top;
 
 /// `intercept + slope·f` at age `f`.

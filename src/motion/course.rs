@@ -7,29 +7,55 @@ use serde::Serialize;
 use crate::number::Scalar;
 use crate::reason::{Near, Reason, Warning};
 
-named! {
-    /// Which of two values at a jump: the limit from earlier or from later times.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-    #[serde(rename_all = "snake_case")]
-    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-    pub enum Side {
-        /// The limit from earlier times, `t⁻`; at the start the given data.
-        Left = "left",
-        /// The limit from later times, `t⁺`.
-        #[default]
-        Right = "right",
+/// Which of two values at a jump: the limit from earlier or from later times.
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    strum::Display,
+    strum::EnumMessage,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The limit from earlier times, `t⁻`; at the start the given data.
+    #[strum(serialize = "left")]
+    Left,
+    /// The limit from later times, `t⁺`.
+    #[default]
+    #[strum(serialize = "right")]
+    Right,
+}
+
+impl Side {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
-named! {
-    /// What happens to the ground end.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-    #[serde(rename_all = "snake_case")]
-    pub enum EventKind {
-        /// It lands: contact begins.
-        Impact = "impact",
-        /// It leaves: contact ends.
-        Release = "release",
+/// What happens to the ground end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// It lands: contact begins.
+    #[strum(serialize = "impact")]
+    Impact,
+    /// It leaves: contact ends.
+    #[strum(serialize = "release")]
+    Release,
+}
+
+impl EventKind {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
@@ -147,14 +173,14 @@ impl<S> Energy<S> {
         Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
 
-    pub(crate) fn numbers(&self) -> [&S; 3] {
+    pub fn numbers(&self) -> [&S; 3] {
         [&self.total, &self.translational, &self.vibrational]
     }
 }
 
 impl<S> StressPiece<S> {
     /// Where pieces begin and end, and the values there.
-    pub(crate) fn numbers(pieces: &[Self]) -> Vec<&S> {
+    pub fn numbers(pieces: &[Self]) -> Vec<&S> {
         pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect()
     }
 
@@ -304,13 +330,12 @@ pub enum Ending {
 
 impl Ending {
     /// Whether the history may be shorter than what was asked for, because what follows is not known.
-    pub(crate) fn is_open(&self) -> bool {
+    pub fn is_open(&self) -> bool {
         matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce | Ending::Unproved { .. })
     }
 
     /// The reason with the time that it holds for: `ends at t = 12: …`.
-    #[cfg(feature = "cli")]
-    pub(crate) fn at(&self, end: &str) -> String {
+    pub fn at(&self, end: &str) -> String {
         match self {
             Ending::ExactnessEnds { .. } => self.to_string(),
             reason => format!("ends at t = {end}: {reason}"),

@@ -3,16 +3,16 @@
 mod at_start;
 mod course;
 pub(crate) mod moments;
+mod partition;
 mod query;
 mod register;
-#[cfg(feature = "svg")]
 mod straight;
 mod wave;
 
 pub(crate) use at_start::{AtStart, Datum, Segment};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
+pub(crate) use partition::partition;
 pub use query::{Motion, Pair, Scales, unobserved};
 pub use register::{Passing, RayRegister};
-#[cfg(feature = "svg")]
-pub(crate) use straight::straight;
+pub use straight::straight;
 pub use wave::{Field, Ray, Stretch, WavePiece, Waves, reflection};

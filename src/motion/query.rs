@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
+use crate::motion::partition;
 use crate::number::Scalar;
-use crate::order::partition;
 use crate::problem::Parameters;
 use crate::reason::Warning;
 
@@ -28,7 +28,7 @@ pub struct Scales<S> {
 
 impl<S: Scalar> Scales<S> {
     /// Those of a rod that lands with its impact speed.
-    pub(crate) fn of(rod: &Parameters<S>) -> Self {
+    pub fn of(rod: &Parameters<S>) -> Self {
         let Parameters { length, wave_speed, gravity, speed, .. } = rod.clone();
         Scales { time: rod.round_trip(), velocity: speed, length, wave_speed, gravity }
     }

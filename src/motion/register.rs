@@ -2,7 +2,6 @@
 
 use super::{Event, EventKind, Motion, Scales};
 use crate::number::Scalar;
-use crate::order::ascending;
 
 /// The rays of a motion, by the times at which they leave the ground, modulo round trips.
 ///
@@ -90,8 +89,8 @@ impl<S: Scalar> RayRegister<S> {
     fn with(motion: &dyn Motion<S>, found: Vec<(S, bool)>) -> Self {
         let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
-        let found = ascending(ascending(found, |ray| ray.0.to_f64()), |ray| fraction(&ray.0));
-        let phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
+        let mut phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
+        phases.sort_by(|(a, (at_a, _)), (b, (at_b, _))| a.total_cmp(b).then(at_a.to_f64().total_cmp(&at_b.to_f64())));
         let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
         let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
         let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new(), widest };
@@ -105,7 +104,7 @@ impl<S: Scalar> RayRegister<S> {
             }
         }
         for phase in &mut rays.known {
-            phase.rays = ascending(std::mem::take(&mut phase.rays), |ray| ray.0.to_f64());
+            phase.rays.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
         }
         rays
     }
@@ -203,7 +202,7 @@ impl<S: Scalar> RayRegister<S> {
                 }
             }
         }
-        let mut found = ascending(found, |ray| ray.time.to_f64());
+        found.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
         found.dedup_by(|b, a| {
             let apart = b.time.clone() - &a.time;
             let one = apart.to_f64() <= NEAR * trip && apart.vanishes() != Ok(false);

@@ -12,7 +12,7 @@ use crate::number::Scalar;
 /// 64th of it, and no piece is halved more than [`MOST_HALVINGS`] times.
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
-pub(crate) fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
+pub fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
     let ends = pieces.iter().flat_map(|piece| [&piece.left, &piece.right]);
     let greatest = ends.fold(0.0, |most: f64, strain| most.max(strain.to_f64().abs()));
     let mut parts = Vec::new();

@@ -22,7 +22,7 @@ impl<S> Field<S> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
-    pub(crate) fn numbers(&self) -> [&S; 3] {
+    pub fn numbers(&self) -> [&S; 3] {
         [&self.displacement, &self.velocity, &self.strain]
     }
 }
@@ -176,12 +176,12 @@ impl<S: Scalar> Waves<S> {
         self.pieces[begun.max(1) - 1].at(s)
     }
 
-    pub(crate) fn numbers(&self) -> Vec<&S> {
+    pub fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
         [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect()
     }
 
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
         let piece = |piece: WavePiece<S>| WavePiece {
             from: f(piece.from),
             sum: f(piece.sum),

@@ -9,7 +9,7 @@ const MOST: u32 = 10_000_000;
 
 /// Numbers, or equally spaced ones that are worked out when they are needed.
 #[derive(Clone, Debug)]
-pub(crate) enum List {
+pub enum List {
     Numbers(Vec<Number>),
     /// So many numbers from one to another, both included.
     Range(Number, Number, u32),
@@ -19,13 +19,13 @@ pub(crate) enum List {
 
 impl List {
     /// The numbers that `0.1,1/3` or `0..2:5` spells.
-    pub(crate) fn equally_spaced(text: &str) -> Result<List, String> {
+    pub fn equally_spaced(text: &str) -> Result<List, String> {
         Ok(List::read(text, false)?.0)
     }
 
     /// The numbers that `V1,V2,…`, `A..B:N` or, only where a `geometric` progression makes sense, `A..B:N:log` spells,
     /// and whether it is such a progression.
-    pub(crate) fn read(text: &str, geometric: bool) -> Result<(List, bool), String> {
+    pub fn read(text: &str, geometric: bool) -> Result<(List, bool), String> {
         let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
         let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
         let Some((from, rest)) = text.split_once("..") else {
@@ -47,7 +47,7 @@ impl List {
     }
 
     /// The multiples of `step` from 0 to `to`.
-    pub(crate) fn steps(step: &Number, to: &Number) -> Result<List, String> {
+    pub fn steps(step: &Number, to: &Number) -> Result<List, String> {
         if step.to_f64() <= 0.0 || to.to_f64() < 0.0 {
             return Err(format!("found steps of {step} up to {to}, expected a step above 0 and an end from 0 on"));
         }
@@ -64,14 +64,14 @@ impl List {
         }
     }
 
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         match self {
             List::Numbers(numbers) => numbers.len(),
             List::Range(_, _, count) | List::Steps(_, count) => *count as usize,
         }
     }
 
-    pub(crate) fn greatest(&self) -> Option<Number> {
+    pub fn greatest(&self) -> Option<Number> {
         match self {
             List::Numbers(numbers) => numbers.iter().rev().max_by(|a, b| a.compare(b)).cloned(),
             List::Range(from, to, _) => [to, from].into_iter().max_by(|a, b| a.compare(b)).cloned(),
@@ -81,7 +81,7 @@ impl List {
         }
     }
 
-    pub(crate) fn least(&self) -> Option<Number> {
+    pub fn least(&self) -> Option<Number> {
         match self {
             List::Numbers(numbers) => numbers.iter().min_by(|a, b| a.compare(b)).cloned(),
             List::Range(from, to, _) => [from, to].into_iter().min_by(|a, b| a.compare(b)).cloned(),
@@ -89,7 +89,7 @@ impl List {
         }
     }
 
-    pub(crate) fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
+    pub fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
         self.lift_part(0..self.len(), precision)
     }
 
@@ -97,7 +97,7 @@ impl List {
     ///
     /// **Accuracy**: *correctly rounded* where the fraction of integers that each is has both below 2⁵³; otherwise
     /// within three roundings. The ends of a range are met exactly: the last is where the history ends.
-    pub(crate) fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
+    pub fn lift_part<S: Scalar>(&self, part: Range<usize>, precision: &S::Precision) -> Vec<S> {
         let lift = |number: &Number| S::spelling(number, precision);
         if let List::Numbers(numbers) = self {
             return numbers[part].iter().map(lift).collect();
@@ -119,7 +119,7 @@ impl List {
     }
 
     /// All numbers as they would be written; `None` where one is too long to be read again.
-    pub(crate) fn numbers(&self) -> Option<Vec<Number>> {
+    pub fn numbers(&self) -> Option<Vec<Number>> {
         match self {
             List::Numbers(numbers) => Some(numbers.clone()),
             _ => self.lift(&()).iter().map(Number::of_rational).collect(),

@@ -143,7 +143,7 @@ impl FromStr for Number {
 }
 
 /// A text for a message: on one line, at most 40 characters.
-pub(crate) fn short(text: &str) -> String {
+pub fn short(text: &str) -> String {
     const MOST: usize = 40;
     let mut shown = String::new();
     for c in text.chars().take(MOST) {

@@ -43,7 +43,6 @@ mod float;
 mod fraction;
 #[cfg(feature = "mp")]
 mod interval;
-#[cfg(feature = "cli")]
 mod list;
 mod literal;
 #[cfg(feature = "mp")]
@@ -67,16 +66,11 @@ pub(crate) use float::{down, up};
 pub(crate) use fraction::spelled_as;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
-#[cfg(feature = "cli")]
-pub(crate) use list::List;
-pub(crate) use literal::short;
+pub use list::List;
+pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;
 #[cfg(feature = "mp")]
 pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
-#[doc(hidden)]
-pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, show};
-#[doc(hidden)]
-#[cfg(feature = "cli")]
-pub(crate) use text::{bound_json, double_bound, number_json, shown_bound};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, shown_bound};

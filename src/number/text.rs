@@ -39,14 +39,12 @@ fn shown_digits<S: Scalar>(x: &S, digits: u32) -> Option<u32> {
 
 /// `log₂` of the bound of the error of the shortest text that reads as the same double, which may be half a unit of the
 /// last bit off that double.
-#[cfg(any(feature = "cli", all(test, feature = "mp")))]
-pub(crate) fn double_bound<S: Scalar>(x: &S) -> f64 {
+pub fn double_bound<S: Scalar>(x: &S) -> f64 {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
 /// `log₂` of the bound of the error of [`show`]'s text, with the rounding to its digits.
-#[cfg(any(feature = "cli", all(test, feature = "mp")))]
-pub(crate) fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
+pub fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
     let size = x.to_f64().abs();
     let rounding = shown_digits(x, digits).map_or(size.log2(), |digits| {
         // A power of ten whose logarithm is rounded down keeps its decade.
@@ -58,7 +56,6 @@ pub(crate) fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
 }
 
 /// The bound of `x` and of a rounding of the size `2^rounding` together.
-#[cfg(any(feature = "cli", all(test, feature = "mp")))]
 fn with_rounding<S: Scalar>(x: &S, rounding: f64) -> f64 {
     let own = x.log2_error();
     if own.is_infinite() {
@@ -82,38 +79,6 @@ pub fn bound_of_log2(log2: f64) -> String {
     match tenths >= 100.0 {
         true => format!("1e{}", exponent + 1.0),
         false => format!("{}e{exponent}", tenths / 10.0),
-    }
-}
-
-/// A number that carries its bound as a JSON value: a number for a double (null if not finite),
-/// `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an enclosure, a string otherwise.
-#[cfg(feature = "cli")]
-pub(crate) fn number_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
-    let text = show(x, if digits == 0 { DOUBLE_DIGITS } else { digits });
-    match (x.as_double(), x.ends(digits)) {
-        (Some(value), _) if !value.is_finite() => serde_json::Value::Null,
-        (Some(_), _) if text == "0" => 0.0.into(),
-        (Some(value), _) => value.into(),
-        (None, Some([lo, hi])) => serde_json::json!({"value": text, "lo": lo, "hi": hi}),
-        (None, None) => text.into(),
-    }
-}
-
-/// The bound of the error of a number as it is printed, as a JSON value: a number where a double holds it, a string
-/// otherwise; `null` for an enclosure, which has it in itself.
-#[cfg(feature = "cli")]
-pub(crate) fn bound_json<S: Scalar>(x: &S, digits: u32) -> serde_json::Value {
-    if x.ends(1).is_some() {
-        return serde_json::Value::Null;
-    }
-    let log2 = match x.as_double() {
-        Some(_) if show(x, DOUBLE_DIGITS) != "0" => double_bound(x),
-        _ => shown_bound(x, if digits == 0 { DOUBLE_DIGITS } else { digits }),
-    };
-    let text = bound_of_log2(log2);
-    match text.parse::<f64>() {
-        Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
-        _ => text.into(),
     }
 }
 

@@ -29,7 +29,7 @@ const EXCLUSIVE: [&[&str]; 4] = [
 macro_rules! setters {
     ($($(#[$doc:meta])* $setter:ident => $path:literal),* $(,)?) => {
         /// The names of the setters, and the paths in a scene file.
-        pub(crate) const NUMBERS: &[(&str, &str)] = &[$((stringify!($setter), $path)),*];
+        pub const NUMBERS: &[(&str, &str)] = &[$((stringify!($setter), $path)),*];
         $(
         $(#[$doc])*
         #[must_use]
@@ -133,8 +133,7 @@ impl Builder {
     }
 
     /// The value at a path of a scene file, one of [`Builder::NUMBERS`].
-    #[cfg(feature = "cli")]
-    pub(crate) fn at(mut self, path: &'static str, value: &Number) -> Self {
+    pub fn at(mut self, path: &'static str, value: &Number) -> Self {
         self.draft.numbers.insert(path, value.into());
         self.base.from_scene = true;
         self

@@ -1,7 +1,6 @@
 //! A problem with other values: what a derivative is taken by, and what a fit turns.
 
 use super::{Material, Parameters, Problem, Profile, Rod, Speed, Start};
-#[cfg(feature = "compare")]
 use super::{ProblemError, given::Given};
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
@@ -63,7 +62,6 @@ impl Parameter {
     }
 
     /// The step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
-    #[cfg(feature = "compare")]
     fn step_to(self, problem: &Problem, value: f64) -> Option<Rational> {
         let value = format!("{value:e}").parse::<Number>().ok()?.to_rational();
         let now = self.value_in::<Rational>(problem, &()).ok()?;
@@ -120,8 +118,7 @@ impl Parameter {
     }
 
     /// Its value in `problem`; `None` where that has none.
-    #[cfg(feature = "compare")]
-    pub(crate) fn value(self, problem: &Problem) -> Option<f64> {
+    pub fn value(self, problem: &Problem) -> Option<f64> {
         self.find(problem, &()).ok().flatten()
     }
 
@@ -226,8 +223,7 @@ impl Parameter {
     /// `problem` with `value` in place of its own.
     ///
     /// **Errors**: a value that no problem has.
-    #[cfg(feature = "compare")]
-    pub(crate) fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {
+    pub fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {
         if matches!(problem.start, Start::Profile(_))
             && (self == Parameter::Length || self.list(problem).is_some())
             && let Some(problem) = self.step_to(problem, value).and_then(|step| self.moved(problem, &step))

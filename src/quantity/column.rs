@@ -75,7 +75,7 @@ pub fn columns<S: Scalar>(
 
 /// The values of `quantities` along the rod: for every time a row for each point, of nothing
 /// for one beyond the rod or for a time beyond the end.
-pub(crate) fn along<S: Scalar>(
+pub fn along<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantities: &[Quantity],

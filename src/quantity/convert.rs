@@ -10,7 +10,7 @@ struct Unit {
 
 /// What a number in one unit is multiplied with to be in another: `factor · 10^ten`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Conversion {
+pub struct Conversion {
     factor: f64,
     ten: i32,
 }
@@ -93,11 +93,11 @@ impl Unit {
 
 impl Conversion {
     /// Of a number that is in its unit.
-    pub(crate) const NONE: Self = Conversion { factor: 1.0, ten: 0 };
+    pub const NONE: Self = Conversion { factor: 1.0, ten: 0 };
 
     /// From the unit `found` to the unit `expected`, nothing being a unit without dimension; `None` where either is not
     /// known, or they do not measure the same.
-    pub(crate) fn between(found: &str, expected: &str) -> Option<Self> {
+    pub fn between(found: &str, expected: &str) -> Option<Self> {
         let (from, to) = (Unit::parse(found)?, Unit::parse(if expected.is_empty() { "1" } else { expected })?);
         let conversion = Conversion { factor: from.size / to.size, ten: from.ten - to.ten };
         (from.powers == to.powers).then_some(conversion)
@@ -106,7 +106,7 @@ impl Conversion {
     /// The number in the other unit.
     ///
     /// **Accuracy**: one rounding between units of the same system up to `10^22`, two otherwise.
-    pub(crate) fn apply(self, value: f64) -> f64 {
+    pub fn apply(self, value: f64) -> f64 {
         let size = 10f64.powi(self.ten.abs());
         let value = value * self.factor;
         if self.ten < 0 { value / size } else { value * size }

@@ -72,7 +72,7 @@ pub(crate) fn values<S: Scalar>(
 
 /// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
 /// there is none.
-pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
+pub fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
     let mut all: Vec<Row<S>> = Vec::new();
     // Neighbours have one source.
     for quantities in quantities.chunk_by(|a, b| a.source().0 == b.source().0) {
@@ -86,8 +86,7 @@ pub(crate) fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -
 }
 
 /// The value of `quantity` of a contact or a flight, counted from 0, in units of the problem, or why it has none.
-#[cfg(feature = "cli")]
-pub(crate) fn of_contact<S: Scalar>(
+pub fn of_contact<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantity: Quantity,
@@ -108,7 +107,7 @@ pub(crate) fn of_contact<S: Scalar>(
 }
 
 /// The answers to one question for one contact, event, flight or piece.
-pub(crate) type Row<S> = Vec<Result<S, Undefined>>;
+pub type Row<S> = Vec<Result<S, Undefined>>;
 
 impl Source {
     /// Its answers for every contact, event, flight or piece.

@@ -12,26 +12,26 @@ use crate::problem::Run;
 
 /// A quantity, and what it needs: one number is asked for.
 #[derive(Clone, Debug)]
-pub(crate) struct One {
-    pub(crate) quantity: Quantity,
+pub struct One {
+    pub quantity: Quantity,
     /// `x`, for a quantity along the rod.
-    pub(crate) point: Option<Number>,
+    pub point: Option<Number>,
     /// `t`, for a quantity at a time, where `None` stands for the end of the first contact; for the beginning and the
     /// end of a contact a time next to it, where `None` stands for the first contact.
-    pub(crate) time: Option<Number>,
-    pub(crate) side: Side,
+    pub time: Option<Number>,
+    pub side: Side,
 }
 
 /// Why there is no number.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Missing {
+pub struct Missing {
     /// Whether that is left undecided, and not known.
-    pub(crate) open: bool,
-    pub(crate) why: String,
+    pub open: bool,
+    pub why: String,
 }
 
 impl Missing {
-    pub(crate) fn none(why: impl std::fmt::Display) -> Self {
+    pub fn none(why: impl std::fmt::Display) -> Self {
         Missing { open: false, why: why.to_string() }
     }
 }
@@ -59,13 +59,13 @@ impl Quantity {
 
 impl One {
     /// `quantity`, at `time` if it is one at a time.
-    pub(crate) fn new(quantity: Quantity, time: Option<Number>) -> Self {
+    pub fn new(quantity: Quantity, time: Option<Number>) -> Self {
         One { quantity, point: None, time, side: Side::Right }
     }
 
     /// The number, in units of the problem, whose run is `run`; and the same as the motion has it, without a unit.
     /// What there is not has the reason in its place.
-    pub(crate) fn of<S: Scalar>(
+    pub fn of<S: Scalar>(
         &self,
         motion: &dyn Motion<S>,
         units: &Units,

@@ -47,7 +47,7 @@ impl<S> Restitution<S> {
     }
 
     /// Every number in it.
-    pub(crate) fn numbers(&self) -> Vec<&S> {
+    pub fn numbers(&self) -> Vec<&S> {
         self.momentum.iter().chain(&self.energy_squared).collect()
     }
 }
@@ -87,7 +87,7 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&
 /// energy that is left moves the centre of mass, and `E(to)/E(from)`, what part damping leaves.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
-pub(crate) fn energy_shares<S: Scalar>(
+pub fn energy_shares<S: Scalar>(
     history: &dyn Motion<S>,
     (from, to): (&S, Option<&S>),
 ) -> Result<[Result<S, Undefined>; 2], Error> {

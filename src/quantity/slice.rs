@@ -8,8 +8,20 @@ use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 
 /// How the field is given on a grid.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    strum::Display,
+    strum::EnumMessage,
+    strum::EnumString,
+    strum::IntoStaticStr,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Slice {
     /// The values at the points
     #[default]
@@ -21,7 +33,7 @@ pub enum Slice {
 }
 
 /// The columns of a slice.
-pub(crate) const SLICE: [Quantity; 6] = [
+pub const SLICE: [Quantity; 6] = [
     Quantity::Time,
     Quantity::Side,
     Quantity::Point,

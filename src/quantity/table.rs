@@ -334,7 +334,7 @@ impl Quantity {
     }
 
     /// Whether what has happened before is part of it.
-    pub(crate) fn is_of_past(self) -> bool {
+    pub fn is_of_past(self) -> bool {
         matches!(self, Quantity::Contact | Quantity::Impulse)
     }
 
@@ -344,8 +344,7 @@ impl Quantity {
     }
 
     /// Whether it jumps where a ray passes, or contact begins or ends.
-    #[cfg(feature = "compare")]
-    pub(crate) fn jumps(self) -> bool {
+    pub fn jumps(self) -> bool {
         match self.source() {
             (Source::Strain | Source::Contact, _) => true,
             (Source::End | Source::Top, answer) => answer == 1,
@@ -386,7 +385,7 @@ impl Quantity {
     }
 
     /// What the answer is multiplied with; `None` where it is the value itself.
-    pub(crate) fn factor<S: Scalar>(self, scales: &Scales<S>, units: &Units) -> Option<S> {
+    pub fn factor<S: Scalar>(self, scales: &Scales<S>, units: &Units) -> Option<S> {
         let square = scales.wave_speed.square();
         let factor = |measure| units.factor(measure, &square.precision());
         match self.measure()? {
@@ -401,7 +400,7 @@ impl Quantity {
     }
 
     /// A number of [`Quantity::source`] in its unit.
-    pub(crate) fn in_unit<S: Scalar>(self, value: S, scales: &Scales<S>, units: &Units) -> S {
+    pub fn in_unit<S: Scalar>(self, value: S, scales: &Scales<S>, units: &Units) -> S {
         match self.factor(scales, units) {
             Some(factor) => value * factor,
             None => value,

@@ -3,31 +3,43 @@
 use serde::Serialize;
 
 use crate::number::{Number, Scalar};
-#[cfg(feature = "svg")]
 use crate::problem::Parameters;
 use crate::problem::{Material, Problem};
 
-named! {
-    /// What a number measures.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-    #[serde(rename_all = "snake_case")]
-    pub enum Measure {
-        /// A time.
-        Time = "time",
-        /// A displacement, or the place of the centre of mass.
-        Length = "length",
-        /// A velocity.
-        Velocity = "velocity",
-        /// `v_x`: a strain.
-        Strain = "strain",
-        /// `E v_x`: a stress, negative in compression.
-        Stress = "stress",
-        /// `−E S v_x(0,t)`: the force of the ground on the rod, positive upwards.
-        Force = "force",
-        /// `−E S ∫ v_x(0,t) dt`: momentum from the ground.
-        Impulse = "impulse",
-        /// An energy.
-        Energy = "energy",
+/// What a number measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// A time.
+    #[strum(serialize = "time")]
+    Time,
+    /// A displacement, or the place of the centre of mass.
+    #[strum(serialize = "length")]
+    Length,
+    /// A velocity.
+    #[strum(serialize = "velocity")]
+    Velocity,
+    /// `v_x`: a strain.
+    #[strum(serialize = "strain")]
+    Strain,
+    /// `E v_x`: a stress, negative in compression.
+    #[strum(serialize = "stress")]
+    Stress,
+    /// `−E S v_x(0,t)`: the force of the ground on the rod, positive upwards.
+    #[strum(serialize = "force")]
+    Force,
+    /// `−E S ∫ v_x(0,t) dt`: momentum from the ground.
+    #[strum(serialize = "impulse")]
+    Impulse,
+    /// An energy.
+    #[strum(serialize = "energy")]
+    Energy,
+}
+
+impl Measure {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
@@ -149,8 +161,7 @@ impl Units {
     }
 
     /// `c`, `t₁`, `R` and `M` of a problem to six digits, each with its symbol; those that it has.
-    #[cfg(feature = "svg")]
-    pub(crate) fn parameters(&self, problem: &Problem, time: impl Fn(f64) -> String) -> Vec<String> {
+    pub fn parameters(&self, problem: &Problem, time: impl Fn(f64) -> String) -> Vec<String> {
         let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return Vec::new() };
         let speed = format!("{} {}", rod.wave_speed.decimal(6), self.name(Measure::Velocity));
         let mut known = vec![format!("c = {}", speed.trim_end()), format!("t₁ = {}", time(rod.round_trip()))];

@@ -7,34 +7,50 @@ use crate::number::Number;
 use crate::problem::written::short;
 use crate::problem::{Material, Problem, Run, Start, Top};
 
-named! {
-    /// An effect that the solver knows. One that a scene does not call for costs it nothing.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-    #[serde(rename_all = "snake_case")]
-    #[non_exhaustive]
-    pub enum Effect {
-        /// `g > 0`.
-        Gravity = "gravity",
-        /// `r > 0`.
-        Damping = "damping",
-        /// The ground pushes and never pulls: in every scene.
-        UnilateralContact = "unilateral_contact",
-        /// More than one contact.
-        RepeatedImpacts = "repeated_impacts",
-        /// The top does not move.
-        FixedTop = "fixed_top",
-        /// The undeformed rod starts above the ground.
-        InitialGap = "initial_gap",
-        /// The rod starts deformed or above the ground, by a profile.
-        InitialStrain = "initial_strain",
-        /// The rod starts with a velocity of its own at every point.
-        InitialVelocity = "initial_velocity",
-        /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
-        SiForces = "si_forces",
-        /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
-        FieldEnergies = "field_energies",
-        /// Fractions or more bits than doubles have: what digits and fractions take.
-        ArbitraryPrecision = "arbitrary_precision",
+/// An effect that the solver knows. One that a scene does not call for costs it nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, strum::Display, strum::IntoStaticStr)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Effect {
+    /// `g > 0`.
+    #[strum(serialize = "gravity")]
+    Gravity,
+    /// `r > 0`.
+    #[strum(serialize = "damping")]
+    Damping,
+    /// The ground pushes and never pulls: in every scene.
+    #[strum(serialize = "unilateral_contact")]
+    UnilateralContact,
+    /// More than one contact.
+    #[strum(serialize = "repeated_impacts")]
+    RepeatedImpacts,
+    /// The top does not move.
+    #[strum(serialize = "fixed_top")]
+    FixedTop,
+    /// The undeformed rod starts above the ground.
+    #[strum(serialize = "initial_gap")]
+    InitialGap,
+    /// The rod starts deformed or above the ground, by a profile.
+    #[strum(serialize = "initial_strain")]
+    InitialStrain,
+    /// The rod starts with a velocity of its own at every point.
+    #[strum(serialize = "initial_velocity")]
+    InitialVelocity,
+    /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
+    #[strum(serialize = "si_forces")]
+    SiForces,
+    /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
+    #[strum(serialize = "field_energies")]
+    FieldEnergies,
+    /// Fractions or more bits than doubles have: what digits and fractions take.
+    #[strum(serialize = "arbitrary_precision")]
+    ArbitraryPrecision,
+}
+
+impl Effect {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
@@ -86,7 +102,7 @@ impl Scene {
         self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
-    pub(crate) fn effect(&self, effect: Effect) -> EffectUse {
+    pub fn effect(&self, effect: Effect) -> EffectUse {
         let Problem { rod, start, gravity, run } = &self.problem;
         let shown = |key: &str, number: &Number| format!("{key} = {}", short(&number.to_string()));
         let profile = match start {

@@ -31,16 +31,24 @@ pub enum Derivative<S> {
     },
 }
 
-named! {
-    /// Why there is no derivative from a side.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum NoDerivative {
-        /// Difference quotients grow without bound as steps get smaller, slower than their inverse: as next to a touch.
-        Infinite = "infinite",
-        /// The number jumps, or is one of another event.
-        Jumps = "jumps",
-        /// The numbers that were tried do not settle it; in fractions, first order does not.
-        Unsettled = "not settled",
+/// Why there is no derivative from a side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
+pub enum NoDerivative {
+    /// Difference quotients grow without bound as steps get smaller, slower than their inverse: as next to a touch.
+    #[strum(serialize = "infinite")]
+    Infinite,
+    /// The number jumps, or is one of another event.
+    #[strum(serialize = "jumps")]
+    Jumps,
+    /// The numbers that were tried do not settle it; in fractions, first order does not.
+    #[strum(serialize = "not settled")]
+    Unsettled,
+}
+
+impl NoDerivative {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 

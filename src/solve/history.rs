@@ -56,7 +56,7 @@ pub struct History<S: Target> {
 }
 
 impl<S: Target> History<S> {
-    pub(crate) fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
+    pub fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
         let ladder = Ladder { problem, plan, observe: &observe };
         let ask_events = plan.settles_events;
         let query = |engine: &dyn Motion<S::Carried>| {
@@ -136,7 +136,7 @@ impl<S: Target> History<S> {
     }
 
     /// An error of a question, with why the history ends before the time that was asked for.
-    pub(crate) fn explained(&self, error: Error) -> Error {
+    pub fn explained(&self, error: Error) -> Error {
         let Error::TimeOutside { found, end } = error else { return error };
         let (found, end) = told_apart(found, end);
         let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
@@ -199,7 +199,7 @@ impl<S: Target> History<S> {
         Units::of(&self.problem, UnitSystem::default())
     }
 
-    pub(crate) fn problem(&self) -> &Problem {
+    pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
@@ -350,7 +350,7 @@ impl<S: Target> History<S> {
     }
 
     /// [`History::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
-    pub(crate) fn ask_slices(
+    pub fn ask_slices(
         &self,
         slice: Slice,
         side: Option<Side>,
@@ -520,7 +520,7 @@ impl Problem {
         self.answer(&Question::first_contact(Numbers::default()))
     }
 
-    pub(crate) fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {
+    pub fn answer<S: Target>(&self, question: &Question) -> Result<History<S>, Error> {
         History::solve(self, &Plan::of(self, question)?, unobserved())
     }
 }

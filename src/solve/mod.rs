@@ -17,7 +17,6 @@ mod plan;
 mod planned;
 mod question;
 mod rates;
-#[cfg(feature = "cli")]
 mod sensitivity;
 mod solution;
 
@@ -25,9 +24,7 @@ pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::History;
 pub use ladder::Target;
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
-#[cfg(feature = "cli")]
-pub(crate) use question::unobserved;
+pub use question::unobserved;
 pub use question::{Numbers, Observer, Question, Want};
-#[cfg(feature = "cli")]
-pub(crate) use sensitivity::Sensitivity;
+pub use sensitivity::Sensitivity;
 pub use solution::{ExactnessEnd, Solution, Visitor};

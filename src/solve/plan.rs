@@ -102,19 +102,28 @@ pub struct CellLimits {
     pub marched_trips: [f64; 2],
 }
 
-named! {
-    /// The engine that a plan chooses.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-    #[serde(rename_all = "snake_case")]
-    pub enum Engine {
-        /// The undamped rod, event by event on the characteristic lattice.
-        Lattice = "characteristic lattice, event by event, without a time step",
-        /// The damped first contact in closed form, and nothing after it.
-        ClosedForm = "closed form of the first contact",
-        /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
-        ClosedFormThenCells = "closed form of the first contact, then strips of characteristic cells",
-        /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
-        Cells = "strips of characteristic cells",
+/// The engine that a plan chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// The undamped rod, event by event on the characteristic lattice.
+    #[strum(serialize = "characteristic lattice, event by event, without a time step")]
+    Lattice,
+    /// The damped first contact in closed form, and nothing after it.
+    #[strum(serialize = "closed form of the first contact")]
+    ClosedForm,
+    /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
+    #[strum(serialize = "closed form of the first contact, then strips of characteristic cells")]
+    ClosedFormThenCells,
+    /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
+    #[strum(serialize = "strips of characteristic cells")]
+    Cells,
+}
+
+impl Engine {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 

@@ -117,6 +117,6 @@ pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::motion::unobserved));
 
-pub(crate) fn unobserved() -> Observer {
+pub fn unobserved() -> Observer {
     UNOBSERVED.clone()
 }

@@ -10,7 +10,7 @@ use crate::quantity::Quantity;
 ///
 /// **Accuracy**: *estimate*: the greatest of both sides, and the mean growth from the first event to the last.
 #[derive(Debug, serde::Serialize)]
-pub(crate) struct Sensitivity {
+pub struct Sensitivity {
     by: &'static str,
     /// How many events after t = 0 it was measured over.
     events: usize,
@@ -26,7 +26,7 @@ const MEASURED: u32 = 10;
 impl Sensitivity {
     /// By the first of speed, gravity and length that it has; `None` where fewer than two events have
     /// derivatives.
-    pub(crate) fn of(problem: &Problem) -> Option<Self> {
+    pub fn of(problem: &Problem) -> Option<Self> {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::Speed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
         let value = by.value_in::<f64>(problem, &()).ok()?;

@@ -1,5 +1,7 @@
 //! What several test files share: reference files, problems made from them, and how far apart two numbers are.
 
+#![allow(dead_code, reason = "the tests of the command use a part of it")]
+
 use std::cell::Cell;
 use std::fmt::Debug;
 
@@ -107,13 +109,9 @@ pub(crate) fn bounce_time(history: &History<f64>) -> Option<(f64, f64)> {
 }
 
 /// Numbers that look random, the same on every machine (splitmix64).
-#[cfg(any(feature = "mp", feature = "cli"))]
 pub(crate) struct Random(pub(crate) u64);
-
-#[cfg(any(feature = "mp", feature = "cli"))]
 impl Random {
     /// What `make explore` draws from.
-    #[cfg(feature = "mp")]
     pub(crate) fn explored() -> u64 {
         std::env::var("PROPTEST_RNG_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1)
     }
@@ -127,26 +125,48 @@ impl Random {
     }
 
     /// Four digits, so that a failure can be typed.
-    #[cfg(feature = "mp")]
     pub(crate) fn typed(&mut self, low: f64, high: f64) -> f64 {
         format!("{:.3e}", self.between(low, high)).parse().unwrap()
     }
 
     /// Between powers of ten, in five digits.
-    #[cfg(feature = "mp")]
     pub(crate) fn size(&mut self, low: f64, high: f64) -> String {
         format!("{:.4e}", 10f64.powf(self.between(low, high)))
     }
 
     /// Whether something of this probability happens.
-    #[cfg(feature = "mp")]
     pub(crate) fn is(&mut self, probability: f64) -> bool {
         self.between(0.0, 1.0) < probability
     }
 
     /// One of them.
-    #[cfg(feature = "mp")]
     pub(crate) fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.between(0.0, list.len() as f64) as usize]
     }
+}
+
+/// Where rays are in the rod, its ends included.
+#[cfg(feature = "mp")]
+pub(crate) fn cuts(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> Vec<Rational> {
+    let length = rod.rod.length.to_rational();
+    let trip = history.rays(0).unwrap()[0].clone();
+    let c = length.clone() * 2 / (trip.to.clone() - trip.from);
+    let mut cuts = vec![Rational::new(), length.clone()];
+    let trips: Rational = time.clone() * &c / (length.clone() * 2);
+    let trips = trips.to_f64() as usize;
+    for ray in (trips.saturating_sub(1)..=trips).flat_map(|trip| history.rays(trip).unwrap()) {
+        cuts.extend([(time.clone() - ray.from) * &c, (ray.to - time.clone()) * &c]);
+    }
+    // What the start sends: its own corners go up and down from t = 0.
+    if let dalembert::Start::Profile(profile) = &rod.start {
+        for (x, _) in profile.displacement.iter().chain(&profile.velocity) {
+            let x = x.to_rational();
+            let way = time.clone() * &c;
+            cuts.extend([x.clone() + &way, x.clone() - &way, length.clone() * 2 - &x - &way, way - &x]);
+        }
+    }
+    cuts.retain(|x| *x >= 0 && *x <= length);
+    cuts.sort();
+    cuts.dedup();
+    cuts
 }

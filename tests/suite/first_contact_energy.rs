@@ -2,9 +2,9 @@
 
 use dalembert::engine::FirstContact;
 use dalembert::number::Answer;
-use dalembert::paper::UndampedContact;
 use dalembert::special::RoundedSpecial;
 use dalembert::{Estimate, Number, Parameters};
+use dalembert_verify::paper::UndampedContact;
 use serde_json::Value;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> FirstContact<Estimate<f64>> {

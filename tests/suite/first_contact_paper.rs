@@ -1,8 +1,8 @@
 //! The closed forms against the paper's own integrals, done by quadrature that shares no code with them.
 
 use dalembert::engine::FirstContact;
-use dalembert::paper::Printed;
 use dalembert::{Estimate, Parameters, Side};
+use dalembert_verify::paper::Printed;
 
 fn known(x: f64) -> Estimate<f64> {
     Estimate::exact(x)

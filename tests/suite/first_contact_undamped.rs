@@ -2,8 +2,8 @@
 
 use crate::common::fraction as q;
 use dalembert::number::Scalar;
-use dalembert::paper::UndampedContact;
 use dalembert::{Parameters, Rational, Side};
+use dalembert_verify::paper::UndampedContact;
 use proptest::prelude::*;
 
 fn parameters(l: Rational, c: Rational, g: Rational, mu: Rational) -> Parameters<Rational> {

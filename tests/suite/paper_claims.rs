@@ -2,8 +2,8 @@
 //! stand in the catalogue of `check`.
 
 use dalembert::engine::{Bounce, BounceKind, FirstContact, Modal};
-use dalembert::paper::UndampedContact;
 use dalembert::{Estimate, Parameters, Side};
+use dalembert_verify::paper::UndampedContact;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {
     Parameters { length: 1.0, wave_speed: 1.0, damping, gravity, speed }

@@ -6,7 +6,8 @@
 use crate::common::{fraction as q, uniform};
 use dalembert::engine::{Motion, Undamped};
 use dalembert::number::Scalar;
-use dalembert::{Ending, Error, Parameters, Problem, Rational, Run, Scene, Side, StressHistory, Top, builtin, paper};
+use dalembert::{Ending, Error, Parameters, Problem, Rational, Run, Scene, Side, StressHistory, Top, builtin};
+use dalembert_verify::paper;
 
 type Exact = Undamped<Rational>;
 

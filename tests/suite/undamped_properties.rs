@@ -5,7 +5,8 @@ use crate::stripped::undamped;
 use dalembert::engine::{Motion, Undamped, reflection};
 use dalembert::number::Scalar;
 use dalembert::quantity::{flights, restitution};
-use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top, paper};
+use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top};
+use dalembert_verify::paper;
 use proptest::prelude::*;
 use rug::{Float, Rational};
 

@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
-use dalembert::plot::{Canvas, Drawing, Drawn, Pose, Sizes};
 use dalembert::quantity::restitution;
 use dalembert::{
     Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
     Units, Warning,
 };
+use dalembert_plot::{Canvas, Drawing, Drawn, Pose, Sizes};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]

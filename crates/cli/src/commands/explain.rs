@@ -1,0 +1,88 @@
+//! `dalembert explain`.
+
+use clap::Args;
+use serde_json::json;
+
+use crate::args::{NumberArgs, OutputArgs};
+use crate::failure::Failure;
+use crate::file::{self, Format};
+use crate::output::{WIDTH, wrapped};
+use crate::source;
+use dalembert::solve::{Numbers, Plan, Question, Sensitivity};
+use dalembert::{Effect, EffectUse, Scene};
+use dalembert_compare::aligned::table;
+
+#[derive(Args, Debug)]
+pub(crate) struct Explain {
+    /// A scene file, `-`, or a built-in scene
+    scene: String,
+    #[command(flatten)]
+    numbers: NumberArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl Explain {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
+        let effects = effects(&scene, &plan);
+        match self.output.format()? {
+            Format::Json => self.output.write(&file::json(&json!({
+                "schema": 1,
+                "title": scene.title,
+                "effects": effects,
+                "engine": plan.engine,
+                "number": plan.numbers.to_string(),
+                "first_attempt": plan.rung.to_string(),
+                "reach": plan.reach.to_string(),
+                "reasons": plan.reasons(),
+                "limits": plan.limits(),
+                "sensitivity": Sensitivity::of(&scene.problem),
+                "plan": plan,
+                "warnings": scene.problem.neglected().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
+            }))),
+            Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
+            _ => Err(failure!("found --format csv, expected table or json: a plan is no list of numbers")),
+        }
+    }
+
+    fn text(&self, scene: &Scene, effects: &[EffectUse], plan: &Plan) -> String {
+        let fold = |text: &str, left: usize| match self.output.wide {
+            true => text.to_string(),
+            false => wrapped(text, WIDTH - left, ""),
+        };
+        let rows = effects.iter().map(|used| {
+            let line = used.line.map_or_else(|| "–".to_string(), |line| line.to_string());
+            let because = fold(&used.because, BECAUSE);
+            vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, because]
+        });
+        let mut out = scene.title.as_ref().map_or_else(String::new, |title| fold(title, 0) + "\n\n");
+        out += &(table(&["effect", "called", "line", "because"], rows.collect(), 4) + "\n\n");
+        let number = format!("{}, at first in {}", plan.numbers, plan.rung);
+        let lines = [("engine:", plan.engine.to_string()), ("reach:", plan.reach.to_string()), ("numbers:", number)];
+        let reasons = plan.reasons().into_iter().map(|reason| ("", reason));
+        let limits = plan.limits().into_iter().enumerate();
+        let limits = limits.map(|(k, limit)| (if k == 0 { "limits:" } else { "" }, limit));
+        let measured = Sensitivity::of(&scene.problem).map(|measured| ("measured:", measured.to_string()));
+        let warnings = scene.problem.neglected().into_iter().map(|neglected| ("warning:", neglected.to_string()));
+        for (name, text) in lines.into_iter().chain(reasons).chain(limits).chain(measured).chain(warnings) {
+            out += &(format!("{name:10}") + &fold(&text, 10).replace('\n', "\n          ") + "\n");
+        }
+        out
+    }
+}
+
+/// Characters to the left of the reasons in the table.
+const BECAUSE: usize = 40;
+
+/// The effects of the scene, and those that the question calls for.
+fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {
+    let mut precision = scene.effect(Effect::ArbitraryPrecision);
+    if let Numbers::Double(_) = plan.numbers {
+        precision.because += "; --digits and --exact do";
+    } else {
+        (precision.called, precision.because) = (true, format!("{} asked for", plan.numbers));
+    }
+    [scene.effects(), vec![scene.effect(Effect::FieldEnergies), precision]].concat()
+}

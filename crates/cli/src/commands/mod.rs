@@ -1,0 +1,14 @@
+//! The subcommands, one file each.
+
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod cost;
+pub(crate) mod explain;
+pub(crate) mod figures;
+pub(crate) mod plot;
+pub(crate) mod reference;
+pub(crate) mod regimes;
+pub(crate) mod sample;
+pub(crate) mod scenes;
+pub(crate) mod solve;
+pub(crate) mod sweep;

@@ -1,0 +1,96 @@
+//! `dalembert scenes`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use crate::args::OutputArgs;
+use crate::failure::{Failure, cannot};
+use crate::file::{self, Format};
+use crate::output::targets_data;
+use crate::source;
+use dalembert::builtin;
+use dalembert_compare::aligned::table;
+use dalembert_verify::Published;
+
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json\n  \
+    dalembert scenes my_scenes/ --targets\n\nWith --targets the exit code is 1 where a value differs by more than \
+    its `within`, or by more than half a unit of its last digit."
+)]
+pub(crate) struct Scenes {
+    /// The scene to print; with --targets also a scene file, `-`, or a folder with scene files
+    name: Option<String>,
+    /// Print the published values of the scene, its [[target]]s, beside ours; without a scene those of all built-in
+    /// ones
+    #[arg(long)]
+    targets: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl Scenes {
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        if self.targets {
+            return self.published();
+        }
+        if self.output.format.is_some_and(|format| format != Format::Table) {
+            return Err(failure!("found --format, expected it with --targets: a list of scenes is a text"));
+        }
+        let text = match &self.name {
+            None => {
+                let rows = builtin::ALL.iter().map(|scene| vec![scene.name.to_string(), scene.summary.to_string()]);
+                table(&["scene", "what it shows"], rows.collect(), 2) + "\n"
+            }
+            Some(name) => match builtin::get(name) {
+                Some(scene) => scene.source.to_string(),
+                None => {
+                    let failure = failure!("found no built-in scene called `{name}`");
+                    return Err(failure.help("expected one of the names that `dalembert scenes` lists"));
+                }
+            },
+        };
+        self.output.write(text.as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The published values of a scene, of the scenes in a folder, or of all that are built in; 1 where one differs.
+    fn published(&self) -> Result<ExitCode, Failure> {
+        let all = match &self.name {
+            None => Published::builtin()?,
+            Some(name) => scene_files(name)?
+                .into_iter()
+                .map(|name| {
+                    let found = Published::of(&name, &source::read(&name)?);
+                    found.map_err(|error| failure!("{name}: {error}"))
+                })
+                .collect::<Result<Vec<_>, _>>()?,
+        };
+        for published in &all {
+            for warning in &published.warnings {
+                eprintln!("warning: {}: {warning}", published.scene);
+            }
+        }
+        self.output.write(&file::rows(&targets_data(&all, self.output.wide), self.output.format()?)?)?;
+        let (count, agreed) = Published::count(&all);
+        Ok(if agreed < count { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+}
+
+/// The scene itself, or the scene files of a folder in the order of their names.
+fn scene_files(name: &str) -> Result<Vec<String>, Failure> {
+    if !Path::new(name).is_dir() {
+        return Ok(vec![name.to_string()]);
+    }
+    let entries = std::fs::read_dir(name).map_err(cannot(&format!("read {name}")))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let scenes = paths.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    let mut names: Vec<String> = scenes.map(|path| path.display().to_string()).collect();
+    names.sort();
+    if names.is_empty() {
+        return Err(failure!("found no .toml in the folder {name}, expected scene files"));
+    }
+    Ok(names)
+}

@@ -1,0 +1,148 @@
+//! The catalogue as a page, a table or JSON.
+
+use serde_json::{Value, json};
+
+use super::cost::duration;
+use super::target::{published_json, published_page, targets_data};
+use dalembert_compare::aligned::table;
+use dalembert_verify::Published;
+use dalembert_verify::check::{Checked, CheckedQuestion, Group};
+
+fn digits(right: Option<f64>) -> String {
+    match right {
+        None => "–".into(),
+        Some(f64::INFINITY) => "all".into(),
+        Some(digits) => format!("{digits:.1}"),
+    }
+}
+
+pub(crate) type Groups = [(Group, Vec<Checked>)];
+
+/// How many cases came to each verdict, in the order of their first appearance.
+fn count(groups: &Groups) -> String {
+    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for checked in &cases {
+        let name = checked.verdict.name();
+        match counts.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((name, 1)),
+        }
+    }
+    let counts: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    format!("{} cases: {}", cases.len(), counts.join(", "))
+}
+
+/// For a person: every route with its answer, the digits that are right, and what it took.
+pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
+    let mut out = String::new();
+    for (group, cases) in groups {
+        out += &format!("{}\n\n", group.title);
+        for checked in cases {
+            let case = checked.case;
+            out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
+                let rows = rows.iter().map(|row| {
+                    let (found, right) = (row.found(), digits(row.digits));
+                    let outcome = row.outcome.name().to_string();
+                    vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
+                });
+                out += &format!("  {what} = {}\n", truth);
+                let header = ["route", "promises", "", "answers", "digits", "time"];
+                let text = table(&header, rows.collect(), 3);
+                out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
+            }
+            out += "\n";
+        }
+    }
+    out + &below(groups, published)
+}
+
+/// The published values, and the counts.
+fn below(groups: &Groups, published: &[Published]) -> String {
+    let mut out = String::new();
+    if Published::count(published).0 > 0 {
+        out += &targets_data(published, true).table();
+    }
+    if !groups.is_empty() {
+        out += &(count(groups) + "\n");
+    }
+    out
+}
+
+pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String {
+    let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
+    let rows = cases.map(|(group, checked)| {
+        vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
+    });
+    let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
+    if groups.is_empty() { below(groups, published) } else { cases + &below(groups, published) }
+}
+
+/// For the repository: nothing in it depends on the machine.
+pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
+    let mut out = String::from(
+        "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
+         of several routes that share as little as they can, and each route is held to what it promises. The truth \
+         stands in the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. \
+         `dalembert check` shows the answers, how many of their digits are right, and what each took on your \
+         machine.\n\n",
+    );
+    if !groups.is_empty() {
+        out += &format!("**{}.**\n\n", count(groups));
+    }
+    for (group, cases) in groups {
+        out += &format!("## {}\n\n{}\n\n", group.title, group.lesson);
+        for checked in cases {
+            let case = checked.case;
+            out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
+            for CheckedQuestion { what, truth, rows } in &checked.asked {
+                // A jump at a point, `[v_x](0, t₁)`, is no link.
+                let what = what.replace("](", "]\\(");
+                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
+                for row in rows {
+                    out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
+                }
+                out += "\n";
+            }
+        }
+    }
+    if !published.is_empty() {
+        out += &published_page(published);
+    }
+    out.trim_end().to_string() + "\n"
+}
+
+/// Schema 1.
+pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
+    let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
+    let cases = cases.map(|(group, checked)| {
+        let asked = checked.asked.iter().map(|asked| {
+            let rows = asked.rows.iter().map(|row| {
+                let right = match row.digits {
+                    Some(f64::INFINITY) => json!("all"),
+                    digits => json!(digits),
+                };
+                json!({
+                    "route": row.route,
+                    "promise": row.promise.to_string(),
+                    "outcome": row.outcome.name(),
+                    "found": row.found(),
+                    "digits": right,
+                    "seconds": row.seconds,
+                })
+            });
+            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
+        });
+        let case = checked.case;
+        json!({
+            "name": case.name,
+            "group": group.name,
+            "source": case.source,
+            "about": case.about,
+            "verdict": checked.verdict.name(),
+            "questions": asked.collect::<Vec<_>>(),
+        })
+    });
+    json!({ "schema": 1, "cases": cases.collect::<Vec<_>>(), "targets": published_json(published) })
+}

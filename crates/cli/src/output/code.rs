@@ -1,0 +1,104 @@
+//! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
+
+use super::reference::Preamble;
+use dalembert::engine::{WavePiece, Waves};
+use dalembert::number::{Scalar, bound_of_log2};
+use dalembert::problem::Top;
+
+/// A language of functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Language {
+    /// A module without dependencies; in fractions where the numbers are
+    Python,
+    /// A function file
+    Matlab,
+    /// A header with static functions, C99
+    C,
+}
+
+/// What every such function says of itself.
+const FORMULA: &[&str] = &[
+    "u(x,t) = (P(t - x/c) + sign P(t + x/c - 2L/c))/2 + a + b x + d x^2, d'Alembert's waves, with a",
+    "piecewise quadratic function P: each row of the table is from, P, P', P'' there.",
+    "d = 0 gives the displacement u, d = 1 the strain du/dx, d = 2 the velocity du/dt; at a jump the limit from",
+    "later times, or within rounding of it either one. Times from 0 to the end of the table's history, which like",
+    "the length may be passed by a few roundings.",
+];
+
+/// The length and the end may be passed by this factor: steps that add up to them are some roundings off.
+const NEAR: &str = "1 + 2e-15";
+
+/// The function `uExact(x, t, d)` of `waves`, which reach to `end`.
+pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, preamble: &Preamble<'_>) -> String {
+    // Fractions stay fractions where the language has them.
+    let exact = language == Language::Python && end.bits().is_none() && end.ends(1).is_none();
+    let number = |x: &S| match exact {
+        true => format!("F(\"{}\")", x.text()),
+        false => format!("{:?}", x.to_f64() + 0.0),
+    };
+    let sign = if waves.top == Top::Free { "1" } else { "-1" };
+    let constants = [
+        ("LENGTH", &waves.length),
+        ("WAVE_SPEED", &waves.wave_speed),
+        ("ROUND_TRIP", &waves.round_trip),
+        ("END", end),
+        ("A", &waves.constant),
+        ("B", &waves.linear),
+        ("D", &waves.quadratic),
+    ]
+    .map(|(name, value)| (name, number(value)));
+    let mut rows: Vec<[String; 4]> = Vec::with_capacity(waves.pieces.len());
+    for WavePiece { from, sum, rate, slope } in &waves.pieces {
+        rows.push([number(from), number(sum), number(rate), number(slope)]);
+    }
+    let mut error = f64::NEG_INFINITY;
+    for number in waves.numbers() {
+        error = error.max(number.log2_error());
+    }
+    written((constants, rows, error), (language, exact, sign), preamble)
+}
+
+/// The numbers as texts: constants by their names, pieces, and `log₂` of the greatest bound.
+type Numbers = ([(&'static str, String); 7], Vec<[String; 4]>, f64);
+
+/// The function with these numbers; its sign is that of the wave that comes back from the top.
+fn written(
+    (constants, rows, error): Numbers,
+    (language, exact, sign): (Language, bool, &str),
+    preamble: &Preamble<'_>,
+) -> String {
+    let worth = match exact {
+        true => "The coefficients are exact.".to_string(),
+        false => format!("Each coefficient is within {} before it is rounded to a double.", bound_of_log2(error)),
+    };
+    let lines = preamble.lines().chain(FORMULA.iter().map(|line| line.to_string())).chain([worth]);
+    let (mark, template) = match language {
+        Language::Python => ("#", include_str!("code/uExact.py")),
+        Language::Matlab => ("%", include_str!("code/uExact.m")),
+        Language::C => ("//", include_str!("code/uExact.h")),
+    };
+    let remarks: String = lines.map(|line| format!("{mark} {line}\n")).collect();
+    let assigned = constants.iter().map(|(name, value)| format!("{name} = {value}"));
+    let constants: String = match language {
+        Language::Python => assigned.map(|line| line + "\n").collect(),
+        Language::Matlab => assigned.map(|line| line + ";\n").collect(),
+        Language::C => assigned.collect::<Vec<_>>().join(", "),
+    };
+    let row = |row: &[String; 4]| match language {
+        Language::Python => format!("    ({}),\n", row.join(", ")),
+        Language::Matlab => format!("        {}\n", row.join(" ")),
+        Language::C => format!("    {{{}}},\n", row.join(", ")),
+    };
+    let parts = [
+        ("@FRACTIONS@", if exact { "from fractions import Fraction as F\n".into() } else { String::new() }),
+        ("@KIND@", if exact { "object".into() } else { "float".into() }),
+        ("@CONSTANTS@", constants),
+        ("@SIGN@", sign.into()),
+        ("@COUNT@", rows.len().to_string()),
+        ("@ROWS@", rows.iter().map(row).collect::<Vec<_>>().concat()),
+        ("@NEAR@", NEAR.into()),
+        // Last, because a title may hold anything.
+        ("@REMARKS@", remarks),
+    ];
+    parts.iter().fold(template.to_string(), |text, (mark, part)| text.replace(mark, part))
+}

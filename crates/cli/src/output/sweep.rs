@@ -1,0 +1,83 @@
+//! Sweeps: a row for each point.
+
+use serde_json::{Map, Value, json};
+
+use super::dataset::{Cell, Column, Dataset};
+use super::table::{WIDTH, wrapped};
+use crate::sweep::{self, Point, Sweep};
+use dalembert::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
+
+/// What is said of the numbers of a point, each once.
+fn notes(point: &Point) -> String {
+    let mut notes: Vec<&str> = Vec::new();
+    for note in point.cells.iter().filter_map(|cell| cell.note.as_deref()) {
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    notes.join("; ")
+}
+
+/// No digit of a double beyond its uncertainty.
+fn shown(cell: &sweep::Cell) -> Cell {
+    match (cell.value.as_f64(), cell.uncertainty.as_f64()) {
+        (Some(value), Some(bound)) => show(&Estimate::new(value, bound / value.unit()), DOUBLE_DIGITS).into(),
+        _ if cell.value.is_null() => "".into(),
+        _ => cell.value.clone().into(),
+    }
+}
+
+/// A row for each point; a table has the notes below it, each once.
+pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
+    let mut columns = vec![Column::new("point")];
+    columns.extend(sweep.grid.axes.iter().map(|axis| Column::new(axis.path).keyed(format!("at/{}", axis.path))));
+    for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
+        let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
+        columns.extend([
+            Column::table(head),
+            Column::data(name).keyed(format!("values/{name}")).with_unit(unit),
+            Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")).with_unit(unit),
+            Column::json(format!("notes/{name}")),
+        ]);
+    }
+    let noted = points.iter().any(|point| !notes(point).is_empty());
+    columns.extend([Column::csv("note").text()].into_iter().chain(noted.then(|| Column::table("note"))));
+    let mut below: Vec<String> = Vec::new();
+    let mut row = |point: &Point| {
+        let mut row: Vec<Cell> = vec![point.index.into()];
+        row.extend(sweep.grid.values(point.index).iter().map(|value| value.to_string().into()));
+        for cell in &point.cells {
+            let [value, uncertainty] = [&cell.value, &cell.uncertainty].map(|value| value.clone().into());
+            row.extend([shown(cell), value, uncertainty, cell.note.clone().into()]);
+        }
+        let note = notes(point);
+        let known = below.iter().position(|other| *other == note).unwrap_or(below.len());
+        let mark = if note.is_empty() { String::new() } else { format!("[{}]", known + 1) };
+        if known == below.len() && !note.is_empty() {
+            below.push(note.clone());
+        }
+        row.extend([note.into(), mark.into()]);
+        row
+    };
+    let rows = points.iter().map(&mut row).collect();
+    let below = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
+    let below: String = below.collect();
+    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
+    let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
+    Dataset {
+        header: vec![
+            ("schema", 1.into()),
+            ("title", title.into()),
+            ("number", sweep.asked.numbers.to_string().into()),
+            ("time", json!(sweep.asked.time)),
+            ("units", units.collect::<Map<_, _>>().into()),
+            ("vary", vary.collect::<Value>()),
+        ],
+        list: "points",
+        columns,
+        rows,
+        around: [String::new(), if noted { format!("\n\n{below}") } else { "\n".into() }],
+        shape: sweep.grid.axes.iter().map(|axis| axis.values.len()).collect(),
+        ..Dataset::default()
+    }
+}

@@ -1,0 +1,99 @@
+//! Published values beside ours.
+
+use serde_json::{Value, json};
+
+use super::dataset::{Cell, Column, Dataset};
+use dalembert::Target;
+use dalembert::number::{Estimate, Scalar, show};
+use dalembert_verify::Published;
+
+/// Significant digits of a difference in a table.
+const DIFFERENCE_DIGITS: u32 = 3;
+
+/// A row for each; a table has below it where each value was published, and how many agree.
+pub(crate) fn targets_data(all: &[Published], wide: bool) -> Dataset {
+    let several = all.len() > 1;
+    let mut sources: Vec<&str> = Vec::new();
+    let mut rows = Vec::new();
+    for (published, reached) in all.iter().flat_map(|published| published.reached.iter().map(move |r| (published, r))) {
+        let (target, unit) = (&reached.target, reached.target.quantity.unit(&published.units));
+        let place = sources.iter().position(|source| *source == target.source).unwrap_or_else(|| {
+            sources.push(&target.source);
+            sources.len() - 1
+        });
+        let time = target.time.as_ref().map(|time| Estimate::<f64>::from_number(time, &()));
+        let (label, spelled) = (target.label(), target.time.as_ref().map(ToString::to_string));
+        let mut row: Vec<Cell> = if several { vec![published.scene.clone().into()] } else { Vec::new() };
+        row.extend([
+            if unit.is_empty() { label.clone() } else { format!("{label}, {unit}") }.into(),
+            label.into(),
+            unit.into(),
+            spelled.into(),
+            Cell::optional(time.as_ref()),
+            target.published.to_string().into(),
+            Cell::number(&reached.published),
+            Cell::number(&reached.ours),
+            show(&reached.difference(), DIFFERENCE_DIGITS).into(),
+            Cell::number(&reached.difference()),
+            target.tolerance().into(),
+            format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
+            reached.agrees().into(),
+            target.source.clone().into(),
+        ]);
+        rows.push(row);
+    }
+    let listed: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
+    let title = all.first().filter(|_| !several).and_then(|published| published.title.as_ref());
+    let (count, agreed) = Published::count(all);
+    let below = match count {
+        0 => "the scene lists no published value: it has no [[target]]\n".into(),
+        _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
+    };
+    let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
+    let mut columns = if several { vec![Column::new("scene").text()] } else { Vec::new() };
+    columns.extend([
+        Column::table("quantity").text(),
+        Column::data("quantity").text(),
+        Column::csv("unit").text(),
+        Column::table("t").named("time"),
+        Column::json("time"),
+        Column::table("published").named("published"),
+        Column::json("published"),
+        Column::new("ours"),
+        Column::table("difference"),
+        Column::data("difference"),
+        Column::data("within"),
+        Column::table("agrees").text(),
+        Column::data("agrees"),
+        Column::data("source"),
+    ]);
+    let keys = (!wide && !several).then_some(1);
+    Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
+}
+
+/// The same for the repository's page.
+pub(crate) fn published_page(published: &[Published]) -> String {
+    let mut out = String::from(
+        "## Published values of other programs\n\nEach value that a built-in scene lists as published, \
+         and whether ours rounds to it (or is within what the scene says it may be off).\n\n\
+         | scene | quantity | t | published | | source |\n|---|---|---|---|---|---|\n",
+    );
+    for Published { scene, reached, .. } in published {
+        for reached in reached {
+            let Target { time, published, source, .. } = &reached.target;
+            let time = time.as_ref().map_or_else(|| "–".into(), ToString::to_string);
+            let verdict = if reached.agrees() { "agrees" } else { "DIFFERS" };
+            let label = reached.target.label();
+            out += &format!("| `{scene}` | {label} | {time} | {published} | {verdict} | {source} |\n");
+        }
+    }
+    out
+}
+
+pub(crate) fn published_json(published: &[Published]) -> Value {
+    let scene = |published: &Published| {
+        let values = targets_data(std::slice::from_ref(published), false).objects();
+        json!({ "scene": published.scene, "values": values })
+    };
+    published.iter().map(scene).collect::<Vec<_>>().into()
+}

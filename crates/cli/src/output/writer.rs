@@ -1,0 +1,141 @@
+//! Rows as JSON, CSV and NPZ.
+
+use std::io::{self, Cursor};
+
+use serde_json::{Map, Value};
+
+use super::dataset::{Cell, Column, Dataset};
+use super::npz::Npz;
+use dalembert::number::DOUBLE_DIGITS;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Table,
+    Json,
+    Csv,
+    Npz,
+    Markdown,
+    Svg,
+    Png,
+    Pdf,
+}
+
+/// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
+pub(crate) const SCHEMA: &str = include_str!("schema.json");
+
+/// Where the bounds of numbers stand in a row, each under the key of its number.
+const UNCERTAINTY: &str = "uncertainty";
+/// Where numbers may stand apart from the keys of a row; their bounds do without it.
+const VALUES: &str = "values/";
+
+impl Dataset {
+    /// The header, and an object for each row; without a header the list of these.
+    pub(crate) fn json(&self) -> Value {
+        if self.header.is_empty() {
+            return self.objects().into();
+        }
+        let header = self.header.iter().map(|(key, value)| ((*key).to_string(), value.clone()));
+        header.chain([(self.list.to_string(), self.objects().into())]).collect()
+    }
+
+    pub(super) fn objects(&self) -> Vec<Value> {
+        self.rows.iter().map(|row| object(self, row)).collect()
+    }
+
+    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and
+    /// the notes in comments above, which readers of CSV skip.
+    pub(crate) fn csv(&self) -> Result<String, csv::Error> {
+        let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
+        let named = |column: &&Column| column.name.is_some();
+        let with_unit = |column: &Column, suffix: &str| {
+            let name = column.name.as_deref().unwrap_or_default();
+            if column.unit.is_empty() { format!("{name}{suffix}") } else { format!("{name}{suffix} [{}]", column.unit) }
+        };
+        let bounded = || self.columns.iter().filter(named).filter(|column| column.is_bounded);
+        let names = self.columns.iter().filter(named).map(|column| with_unit(column, ""));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(names.chain(bounded().map(|column| with_unit(column, "_uncertainty"))))?;
+        for row in &self.rows {
+            let cells = || self.columns.iter().zip(row).filter(|(column, _)| named(column));
+            for (_, cell) in cells() {
+                writer.write_field(cell.text(digits, ""))?;
+            }
+            for (_, cell) in cells().filter(|(column, _)| column.is_bounded) {
+                writer.write_field(match cell {
+                    Cell::Plain(_) => String::new(),
+                    Cell::Number(x) => x.printed_bound(digits),
+                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
+                })?;
+            }
+            writer.write_record(None::<&[u8]>)?;
+        }
+        let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+        let comments: String = self.notes.iter().map(|note| format!("# {note}\n")).collect::<Vec<_>>().concat();
+        Ok(comments + &String::from_utf8_lossy(&bytes))
+    }
+
+    /// Whole numbers where all are, doubles otherwise, not a number where there is none; and the shape of the grid.
+    pub(crate) fn npz(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Cursor::new(Vec::new());
+        let mut npz = Npz::new(&mut bytes, true);
+        let count = &[self.rows.len()];
+        if !self.shape.is_empty() {
+            npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
+        }
+        for (k, column) in self.columns.iter().enumerate() {
+            let (Column { name: Some(name), is_text: false, .. }, cells) =
+                (column, self.rows.iter().map(|row| &row[k]))
+            else {
+                continue;
+            };
+            let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
+            match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
+                Some(whole) => npz.add(name, count, whole)?,
+                None => npz.add(name, count, cells.map(Cell::double).collect())?,
+            }
+        }
+        npz.finish()?;
+        Ok(bytes.into_inner())
+    }
+}
+
+fn object(data: &Dataset, row: &[Cell]) -> Value {
+    let (mut object, mut bounds) = (Map::new(), Map::new());
+    for (column, cell) in data.columns.iter().zip(row) {
+        let Some(key) = column.key.as_deref() else { continue };
+        if column.is_optional && cell.is_empty() {
+            continue;
+        }
+        let (value, bound) = match cell {
+            Cell::Plain(value) => (value.clone(), Value::Null),
+            Cell::Number(x) => (x.json(data.digits), x.json_bound(data.digits)),
+            Cell::Numbers(all) => {
+                let (values, bounds) = (
+                    all.iter().map(|x| x.json(data.digits)).collect::<Vec<_>>(),
+                    all.iter().map(|x| x.json_bound(data.digits)).collect::<Vec<_>>(),
+                );
+                (values.into(), bounds.into())
+            }
+        };
+        insert(&mut object, key, value);
+        if column.is_bounded {
+            insert(&mut bounds, key.trim_start_matches(VALUES), bound);
+        }
+    }
+    if !bounds.is_empty() {
+        object.insert(UNCERTAINTY.into(), bounds.into());
+    }
+    object.into()
+}
+
+/// Puts `value` under `key`, which names the objects that it is in before a `/`.
+fn insert(object: &mut Map<String, Value>, key: &str, value: Value) {
+    match key.split_once('/') {
+        None => drop(object.insert(key.into(), value)),
+        Some((outer, inner)) => {
+            if let Value::Object(object) = object.entry(outer).or_insert_with(|| Map::new().into()) {
+                insert(object, inner, value);
+            }
+        }
+    }
+}

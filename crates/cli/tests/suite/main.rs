@@ -1,0 +1,37 @@
+//! All tests of the command, one program: it is linked once, and what several files need is compiled once.
+//!
+//! `cargo test -p dalembert-cli --test suite compare` runs the tests whose path holds that word.
+#![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
+
+mod check_catalogue;
+mod command;
+mod command_data;
+#[cfg(feature = "mp")]
+mod command_ends;
+mod command_errors;
+mod command_samples;
+#[path = "../../../../tests/suite/common.rs"]
+mod common;
+mod compare_command;
+mod compare_contacts;
+mod compare_fits;
+mod compare_peers;
+mod compare_reading;
+mod compare_verdicts;
+mod cost_measured;
+#[cfg(feature = "mp")]
+mod derivatives;
+#[cfg(feature = "mp")]
+mod derivatives_at;
+mod endings;
+#[cfg(all(feature = "mp", target_os = "linux"))]
+mod guide;
+mod peers;
+mod pictures;
+#[cfg(feature = "mp")]
+mod reference;
+mod scene_errors;
+mod schema;
+mod sweep;
+#[cfg(target_os = "linux")]
+mod terminal;

@@ -1,0 +1,274 @@
+//! From data to a report: what may be said of them, the run that they call for, and what comes of it.
+
+use super::agree::Agreement;
+use super::data::{DataError, Source};
+use super::fit::{Fit, FitError};
+use super::limit::{Limit, Order, Outcome, orders, outcomes};
+use super::map::{Map, MapError};
+use super::options::Options;
+use super::ours::Ours;
+use super::samples::Samples;
+use super::unfitted::Judgement;
+use super::verdict::judged;
+use dalembert::Error;
+use dalembert::number::Number;
+use dalembert::problem::{Parameters, Problem, Run};
+use dalembert::quantity::{Quantity, Units};
+use dalembert::reason::Warning;
+use dalembert::solve::{History, Numbers, Observer, Plan, Question};
+
+/// Data that cannot be compared, and why; the message says what was found and what was expected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "each case is described by its message")]
+pub enum CompareError {
+    #[error(transparent)]
+    Data(#[from] DataError),
+    #[error("{file}: {error}")]
+    Map { file: String, error: MapError },
+    #[error("found {found}, expected {expected}")]
+    Option { key: &'static str, found: String, expected: String },
+    #[error(
+        "{file}: found times up to {last}, expected times of the scene's own run, which ends at t = {end}: are they \
+         in {unit}? For a run as long, say so in the scene: time = {last} in [run]"
+    )]
+    Span { file: String, last: f64, end: f64, unit: &'static str },
+    #[error("{file}: {error}")]
+    Fit { file: String, error: FitError },
+    #[error(transparent)]
+    History(#[from] Error),
+}
+
+impl CompareError {
+    /// The key of [`Options`] that mends it.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            CompareError::Map { error: MapError::NoTime { .. } | MapError::TwoTimes, .. } => Some("dt"),
+            CompareError::Map { .. } => Some("map"),
+            CompareError::Option { key, .. } => Some(key),
+            CompareError::Fit { .. } => Some("fit"),
+            _ => None,
+        }
+    }
+}
+
+impl Options {
+    /// Refuses what cannot be meant of `count` sources.
+    fn check(&self, count: usize) -> Result<(), CompareError> {
+        let refuse = |key, found: String, expected: String| Err(CompareError::Option { key, found, expected });
+        if !self.widths.is_empty() && self.widths.len() != count {
+            return refuse("widths", format!("{} widths", self.widths.len()), format!("{count}, one for each file"));
+        }
+        if self.t0.is_some() && self.dt.is_none() {
+            return refuse("dt", "t0 without dt".into(), "both, or a column of times".into());
+        }
+        let named =
+            [("dt", &self.dt), ("window", &self.window), ("energy_scale", &self.energy_scale), ("to", &self.to)];
+        let lengths = named.into_iter().flat_map(|(name, number)| number.iter().map(move |number| (name, number)));
+        for (name, number) in lengths.chain(self.widths.iter().map(|width| ("widths", width))) {
+            if number.to_f64() <= 0.0 {
+                return refuse(name, format!("{name} {number}"), "more than zero".into());
+            }
+        }
+        Ok(())
+    }
+
+    /// How far the data should go: `to`, or the end of the scene's own run, where that is a time or soon found.
+    fn until(&self, problem: &Problem) -> Option<f64> {
+        match (&self.to, &problem.run) {
+            (Some(to), _) => Some(to.to_f64()),
+            (None, Run::Time(time)) => Some(time.to_f64()),
+            (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
+                problem.solve().ok()?.contacts().last().and_then(|contact| contact.to)
+            }
+            (None, Run::Impacts(_)) => None,
+        }
+    }
+
+    fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
+        let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
+        let counted = self.dt.is_some();
+        let sized = source.head.is_sized;
+        let guess = (sized && self.map.is_none() && !counted && source.head.names.is_empty() && source.head.width > 3)
+            .then_some(PLAIN);
+        let map =
+            Map::of(guess.or(self.map.as_deref()), &source.head.names, source.head.width, counted).and_then(|map| {
+                let names = if self.map.is_none() { source.head.names.as_slice() } else { &[] };
+                let (conversions, converted) = map.conversions(names, units)?;
+                Ok((map, conversions, converted))
+            });
+        let (map, conversions, converted) = map.map_err(|error| {
+            let error = match (error, source.head.misnamed) {
+                (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.head.width },
+                (error, _) => error,
+            };
+            CompareError::Map { file: source.file.clone(), error }
+        })?;
+        let clock = counted.then(|| (of(&self.t0), of(&self.dt)));
+        let places: Vec<usize> = map.columns.iter().map(|(_, place)| *place).collect();
+        let mut columns = source.columns(&places, map.place(Quantity::Side))?;
+        for (values, conversion) in columns.values.iter_mut().zip(conversions) {
+            values.iter_mut().for_each(|value| *value = conversion.apply(*value));
+        }
+        let mut samples = Samples::of(columns, &map, clock, of(&self.shift), length)?;
+        samples.notes.extend((!converted.is_empty()).then(|| format!("units: {converted}")));
+        samples.notes.extend(sized.then(|| "the first line holds the numbers of rows and columns: skipped".into()));
+        samples.notes.extend(guess.map(|guess| format!("the columns have no names: taken as {guess}")));
+        Ok(samples)
+    }
+}
+
+/// Data that are read, and the run that they call for.
+#[derive(Debug)]
+pub struct Prepared {
+    problem: Problem,
+    /// What the run will be.
+    pub plan: Plan,
+    data: Vec<(String, Samples)>,
+    until: Option<f64>,
+    options: Options,
+}
+
+/// What a comparison has found: a table, JSON, and samples beside ours.
+#[derive(Debug)]
+pub struct Comparison {
+    /// One for each source, in their order.
+    pub files: Vec<ComparedFile>,
+    pub(crate) orders: Vec<Order>,
+    /// Those of our own run.
+    pub warnings: Vec<Warning>,
+}
+
+/// One source beside our history.
+#[derive(Debug)]
+pub struct ComparedFile {
+    pub file: String,
+    pub agreement: Agreement,
+    pub(crate) judgement: Judgement,
+    /// The values that explain it best, and what comes of it with them.
+    pub(crate) fit: Option<(Fit, Agreement)>,
+}
+
+/// What the columns of a file without names are taken for that begins with their number, as Siconos' own are.
+const PLAIN: &str = "t=0,u=1,v=2,force=3";
+/// A run of more impacts is not solved to see whether data break off before its end.
+const MOST_IMPACTS: u32 = 1000;
+/// Data that go so many times as far as the scene's own run are in another unit of time.
+const FAR: f64 = 100.0;
+
+/// Where the scene's own run ends. A run of impacts is solved for that only where the data go on for more than [`FAR`]
+/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not
+/// refused.
+fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
+    match &problem.run {
+        Run::Time(time) => Some(time.to_f64()),
+        Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
+        Run::Impacts(_) => problem.solve().ok().map(|history| *history.end()),
+    }
+}
+
+/// What times may be in that go so many times as far as the run.
+fn unit_of_time(times: f64) -> &'static str {
+    match (times.log10() / 3.0).round() {
+        ..=1.0 => "milliseconds",
+        2.0 => "microseconds",
+        _ => "another unit of time",
+    }
+}
+
+impl Prepared {
+    /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is
+    /// followed as far as its own run and the data go.
+    ///
+    /// **Errors**: [`CompareError`].
+    pub fn new(
+        problem: &Problem,
+        units: &Units,
+        accuracy: Option<f64>,
+        sources: Vec<Source>,
+        options: &Options,
+    ) -> Result<Self, CompareError> {
+        options.check(sources.len())?;
+        let rod = Parameters::<f64>::of(problem, &())?;
+        let read = |source: Source| Ok((source.file.clone(), options.samples(source, rod.length, units)?));
+        let data = sources.into_iter().map(read).collect::<Result<Vec<_>, CompareError>>()?;
+        let last = data.iter().filter_map(|(_, samples)| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
+        for (file, samples) in &data {
+            let last = samples.grid.times.last().copied().unwrap_or(0.0);
+            let end = own_end(problem, rod.round_trip(), last);
+            if let Some(end) = end.filter(|end| *end > 0.0 && last > FAR * end) {
+                let unit = unit_of_time(last / end);
+                return Err(CompareError::Span { file: file.clone(), last, end, unit });
+            }
+        }
+        // A round trip more shows a contact that begins in the data a little too early.
+        let last = last + rod.round_trip();
+        let until = options.until(problem);
+        let problem = match until {
+            Some(time) if time >= last => problem.clone(),
+            _ => problem.to_builder().time(last).build().map_err(Error::from)?,
+        };
+        let plan = Plan::of(&problem, &Question::run(Numbers::Double(accuracy)))?;
+        Ok(Prepared { problem, plan, data, until, options: options.clone() })
+    }
+
+    /// Solves the run and compares.
+    ///
+    /// **Errors**: those of the history, and of a fit.
+    pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
+        let Prepared { problem, plan, data, until, options } = self;
+        let history = History::<f64>::solve(&problem, &plan, observer)?;
+        let mut files = Vec::new();
+        for (file, samples) in data {
+            let ours = Ours::of(&history)?;
+            let again = (!options.fit.is_empty()).then(|| samples.clone());
+            let agreement = Agreement::of(&ours, samples, &options, until)?;
+            let judgement = judged(&ours, &agreement)?;
+            let mut fit = None;
+            if let Some(samples) = again {
+                let found = Fit::of(&ours, &agreement, &options.fit)?;
+                let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
+                let ours = Ours::of(&found.history)?;
+                let then = Agreement::of(&ours, samples, &options, until)?;
+                fit = Some((found, then));
+            }
+            files.push(ComparedFile { file, agreement, judgement, fit });
+        }
+        let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
+        let widths: Vec<f64> = match options.widths.as_slice() {
+            [] => compared.iter().map(|file| file.step).collect(),
+            widths => widths.iter().map(Number::to_f64).collect(),
+        };
+        let orders = orders(&compared, &widths);
+        Ok(Comparison { orders, warnings: history.warnings(), files })
+    }
+}
+
+impl Comparison {
+    /// What comes of `limits`, for each source. A run that breaks off before the end of that of the scene fails.
+    ///
+    /// **Errors**: what the data do not have.
+    pub fn outcomes(&self, limits: &[Limit]) -> Result<Vec<Outcome>, String> {
+        let files: Vec<_> = self.files.iter().map(|file| (file.file.as_str(), &file.agreement)).collect();
+        outcomes(&files, &self.orders, limits)
+    }
+}
+
+impl std::fmt::Display for Outcome {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: expected {}", self.file, self.expected)?;
+        self.failure.iter().try_for_each(|found| write!(f, ", found {found}"))
+    }
+}
+
+impl ComparedFile {
+    /// Every sample, by name: `t`, `x` of a field, and for each quantity ours and theirs.
+    pub fn columns(&self) -> impl Iterator<Item = (String, &[f64])> {
+        let Agreement { grid, quantities, .. } = &self.agreement;
+        let own = [("t", Some(&grid.times)), ("x", grid.points.as_ref())];
+        let own = own.into_iter().filter_map(|(name, values)| Some((name.to_string(), values?.as_slice())));
+        own.chain(quantities.iter().flat_map(|compared| {
+            let name = |whose: &str| format!("{}_{whose}", compared.what.name());
+            [(name("ours"), compared.ours.as_slice()), (name("theirs"), compared.theirs.as_slice())]
+        }))
+    }
+}

@@ -1,0 +1,51 @@
+//! Other people's data held against a history: the same quantities at the same times, and what follows from them.
+//!
+//! ```
+//! use dalembert::compare::data::Source;
+//! use dalembert::compare::{Limit, Options, Prepared};
+//! use dalembert::quantity::UnitSystem;
+//! use dalembert::{Problem, Units, engine};
+//!
+//! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(1.5).build()?;
+//! // Corollary 1 has the strain −(3 + t) until t = 2; these are one percent more.
+//! let times = vec![0.5, 1.0, 1.5];
+//! let strain = times.iter().map(|t| -1.01 * (3.0 + t)).collect();
+//! let names = vec!["t".to_string(), "strain".to_string()];
+//! let source = Source::arrays("mine", names, vec![Ok(times), Ok(strain)]);
+//! let units = Units::of(&rod, UnitSystem::Si);
+//! let prepared = Prepared::new(&rod, &units, None, vec![source], &Options::default())?;
+//! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;
+//! let limits: Vec<Limit> = vec!["strain.linf=0.0101".parse()?, "strain.linf=0.0099".parse()?];
+//! let failed = found.outcomes(&limits)?.into_iter().filter(|outcome| outcome.failure.is_some());
+//! assert_eq!(failed.map(|outcome| outcome.expected).collect(), ["strain.linf ≤ 9.9e-3"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod agree;
+pub mod aligned;
+mod audit;
+mod comparison;
+pub mod data;
+mod fit;
+mod limit;
+mod map;
+mod model;
+mod norms;
+mod options;
+mod ours;
+mod report;
+mod samples;
+mod touch;
+mod unfitted;
+mod verdict;
+mod wording;
+
+pub use agree::{Agreement, Coverage};
+pub use comparison::{CompareError, ComparedFile, Comparison, Prepared};
+pub use fit::FitError;
+pub use limit::{Limit, Outcome};
+pub use map::MapError;
+pub use norms::Compared;
+pub use norms::{Grid, norms, order};
+pub use options::{Axis, Compression, Options, Origin};
+pub use report::LEGEND;

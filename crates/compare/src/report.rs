@@ -1,0 +1,341 @@
+//! Other people's data beside ours, as a table and JSON.
+
+use serde_json::{Value, json};
+
+use super::agree::{Agreement, Coverage};
+use super::audit::Extreme;
+use super::comparison::{ComparedFile, Comparison};
+use super::fit::{Fit, FittedValue};
+use super::limit::Order;
+use super::norms::{Compared, NORMS, Norm};
+use super::touch::Touch;
+use super::unfitted::ToldFrom;
+use crate::aligned::table;
+use dalembert::number::Scalar;
+use dalembert::quantity::{Quantity, Units};
+
+const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
+
+/// What the words of the table mean.
+pub const LEGEND: &str = "\
+norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
+                    trapezoidal rule; relative to the same norm of ours
+off jumps           over samples further from a jump of ours than the window: 0.02 round trips or two
+                    steps, whichever is more, where nothing else is said
+sample on a jump    compared with the nearer of the two limits, or the one that its row names
+impulse             ∫ F dt over the contact
+centroid            ∫ t F dt / ∫ F dt: the mean time of the force
+peak                the greatest F
+gaps closed         separations within a contact shorter than a quarter of the round trip, and of
+                    our shortest flight: the contact chatters, and they count as part of it
+penetration         the deepest the end is below the ground
+tension in contact  the greatest pull of the ground
+∫|v F| dt           gap times force, zero where contact and gap exclude each other; in units of
+                    energy times time, such as J s
+energy              how much more the energy of theirs has changed than that of ours
+momentum            what is left of P′ + 2rP = F − weight over all samples, P the momentum
+missed, invented    contacts of ours without one of theirs, and the other way round
+below the step      such contacts that are shorter than two steps: samples need not show them
+not covered         times of the run without samples
+hint                one number that explains most of what differs in all that it concerns, up to the
+                    second impact, with its standard error
+no hint             no such number; spread: the width of a ramp that is as far from a jump as theirs
+one would be told   the sizes from which on a wrong number stands out of what differs, and is found
+                    within a fifth
+";
+
+fn number(x: f64) -> String {
+    x.decimal(6)
+}
+
+/// `peak, N`.
+fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
+    match what.unit(units) {
+        "" => name.to_string(),
+        unit => format!("{name}, {unit}"),
+    }
+}
+
+/// `1 gap`, `2 gaps`.
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
+/// `12.34`, `1.234e-5`, or `–`.
+fn size(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if (1e-3..1e5).contains(&x.abs()) => x.decimal(4),
+        Some(x) => format!("{x:.3e}"),
+    }
+}
+
+/// `0.12 %`, or `–`.
+fn share(x: Option<f64>) -> String {
+    match x {
+        None => "–".into(),
+        Some(0.0) => "0".into(),
+        Some(x) if x < 1e-6 => format!("{x:.1e}"),
+        Some(x) => format!("{} %", (100.0 * x).decimal(3)),
+    }
+}
+
+fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
+    let ComparedFile { file, agreement, judgement, fit } = compared;
+    let times = &agreement.grid.times;
+    let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
+    let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
+    let (count, step) = (times.len(), number(agreement.step));
+    out += &format!("{file}: {count} samples from t = {} to {}, step {step}\n", number(first), number(last));
+    let Coverage { time: [_, end], contacts: [contacts, of], breaks_off } = agreement.coverage;
+    let share = (100.0 * agreement.coverage.share()).decimal(4);
+    let broken = if breaks_off { ": THE RUN BREAKS OFF, unless a time to go to says so" } else { "" };
+    out += &format!("covers {share} % of the run to t = {}, {contacts} of {of} contacts{broken}\n", number(end));
+    agreement.notes.iter().for_each(|note| out += &format!("{note}\n"));
+    if agreement.outside > 0 {
+        out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
+    }
+    out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
+    if !agreement.contacts.is_empty() {
+        out += &format!("\n{}\n", contacts_table(&agreement.contacts, units));
+    }
+    if agreement.grid.points.is_none() {
+        out += &format!("\n{}", audit_lines(agreement, units));
+    }
+    out.push('\n');
+    for hint in &judgement.hints {
+        out += &format!("hint: {}\n", hint.text);
+    }
+    if judgement.hints.is_empty() {
+        let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
+        let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
+        out += "no hint: no single wrong number explains what differs";
+        if !chatter.is_empty() {
+            let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
+            out += &format!("; the contact chatters: {gaps} closed in {contacts}");
+        } else if let Some(width) = judgement.spread {
+            let steps = width / agreement.step;
+            out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
+        }
+        out.push('\n');
+        out += &told_line(&judgement.told_from);
+    }
+    if let Some((fit, then)) = fit {
+        out += &format!("\n{}\n", fit_table(fit, agreement, then));
+    }
+    out
+}
+
+/// From what size on a wrong number would have been said, of those that are about all columns.
+fn told_line(told_from: &[ToldFrom]) -> String {
+    let one = |told: &ToldFrom| match told.kind {
+        kind @ "time_shift" => format!("{kind} {}", told.value.decimal(2)),
+        kind => format!("{kind} {} %", (100.0 * told.value).decimal(2)),
+    };
+    let all: Vec<String> = told_from.iter().filter(|told| told.quantity == "all").map(one).collect();
+    if all.is_empty() { String::new() } else { format!("one would be told from: {}\n", all.join(", ")) }
+}
+
+/// What was fitted, what remains of each column, and how the contacts then agree.
+fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
+    let row = |value: &FittedValue| {
+        vec![value.name.clone(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
+    };
+    let values = table(&["fitted", "scene", "value", "standard error"], fit.values.iter().map(row).collect(), 1);
+    let column = |(now, then): (&Compared, &Compared)| {
+        let of = |norm: Norm| norm.relative.map_or_else(|| size(Some(norm.absolute)), |relative| share(Some(relative)));
+        vec![now.what.name().into(), of(now.norms.l2), of(then.norms.l2)]
+    };
+    let columns = now.quantities.iter().zip(&then.quantities).map(column).collect();
+    let columns = table(&["L2 of", "scene", "fitted"], columns, 1);
+    let contact = |(k, (ours, theirs)): (usize, &(Option<Touch>, Option<Touch>))| {
+        let texts = match (ours, theirs) {
+            (Some(a), Some(b)) => a.apart(b)[..4].iter().map(|x| size(*x)).collect(),
+            _ => vec!["unpaired".into()],
+        };
+        [vec![(k + 1).to_string()], texts].concat()
+    };
+    let contacts: Vec<_> = then.contacts.iter().enumerate().map(contact).collect();
+    let contacts = match contacts.is_empty() {
+        true => String::new(),
+        false => format!("\n\n{}", table(&["theirs − fitted", "from", "to", "impulse", "centroid"], contacts, 1)),
+    };
+    let end = if fit.settled { "" } else { "; it had not settled" };
+    format!("{values}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
+}
+
+fn norms_table(agreement: &Agreement, units: &Units) -> String {
+    let mut rows = Vec::new();
+    for Compared { what, norms, .. } in &agreement.quantities {
+        let name = with_unit(what.name(), *what, units);
+        let on_jumps = match norms.on_jumps {
+            0 => String::new(),
+            1 => "1 sample on a jump".to_string(),
+            count => format!("{count} samples on jumps"),
+        };
+        let names = [name, on_jumps, String::new(), String::new()];
+        let shown = if what.jumps() { 4 } else { 3 };
+        for (name, (_, title, norm)) in names.into_iter().zip(NORMS).take(shown) {
+            let norm = norm(norms);
+            let point = norm.and_then(|norm| norm.point).map_or_else(String::new, |x| format!(", x = {}", number(x)));
+            let at = norm.and_then(|norm| norm.time).map_or_else(String::new, |time| number(time) + &point);
+            let absolute = size(norm.map(|norm| norm.absolute));
+            rows.push(vec![name, title.into(), absolute, share(norm.and_then(|norm| norm.relative)), at]);
+        }
+    }
+    table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
+}
+
+fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
+    let row = |name: &str, whose: String, values: [Option<f64>; 5]| {
+        let numbers = values.map(|value| value.map_or_else(|| "–".into(), number));
+        [&[name.to_string(), whose][..], &numbers].concat()
+    };
+    let mut rows = Vec::new();
+    for (k, (ours, theirs)) in contacts.iter().enumerate() {
+        let name = &(k + 1).to_string();
+        let whose = match theirs.as_ref().map_or(0, |touch| touch.merged) {
+            0 => "theirs".to_string(),
+            count => format!("theirs, {} closed", counted(count, "gap")),
+        };
+        match (ours, theirs) {
+            (Some(a), Some(b)) => {
+                rows.push(row(name, "ours".into(), a.numbers()));
+                rows.push(row("", whose, b.numbers()));
+                rows.push(row("", "difference".into(), a.apart(b)));
+            }
+            (Some(a), None) => {
+                let why = if a.below_step { "below their step" } else { "missing in theirs" };
+                rows.push(row(name, format!("ours, {why}"), a.numbers()));
+            }
+            (None, Some(b)) => {
+                let why = if b.below_step { "below the step" } else { "not in ours" };
+                rows.push(row(name, format!("{whose}, {why}"), b.numbers()));
+            }
+            (None, None) => {}
+        }
+    }
+    let impulse = with_unit("impulse", Quantity::Impulse, units);
+    let peak = with_unit("peak", Quantity::Force, units);
+    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
+}
+
+fn audit_lines(agreement: &Agreement, units: &Units) -> String {
+    let audit = &agreement.audit;
+    let with = |value: f64, unit: &str| format!("{} {unit}", size(Some(value))).trim_end().to_string();
+    let at = |extreme: &Extreme, unit: &str| match extreme.value {
+        0.0 => "none".to_string(),
+        value => format!("{} at t = {}", with(value, unit), number(extreme.time)),
+    };
+    let or = |text: Option<String>, needs: &str| text.unwrap_or_else(|| format!("– (needs {needs})"));
+    let [length, force, impulse, joule] =
+        [Quantity::EndDisplacement, Quantity::Force, Quantity::Impulse, Quantity::Energy]
+            .map(|column| column.unit(units));
+    // A length and a force over a time; without a material all of it is per ρS.
+    let action = if units.has_material() && !joule.is_empty() { format!("{joule} s") } else { joule.to_string() };
+    let energy = audit.energy_change.as_ref().map(|energy| {
+        let of_ours =
+            energy.relative.map_or_else(String::new, |share| format!(" ({} of ours)", self::share(Some(share.abs()))));
+        let way = if energy.change < 0.0 { "lost" } else { "gained" };
+        let change = with(energy.change.abs(), joule);
+        let (gain, loss) = (at(&energy.gain, joule), at(&energy.loss, joule));
+        format!("{change} {way} in all{of_ours}\n{:20}most gained: {gain}; most lost: {loss}", "")
+    });
+    let covered: Vec<String> =
+        audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
+    let below = if audit.below_step > 0 { format!(", {} below the step", audit.below_step) } else { String::new() };
+    let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
+    let lines = [
+        ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
+        ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
+        ("∫|v F| dt", or(audit.complementarity.map(|x| with(x, &action)), "u_end and force")),
+        ("energy", or(energy, "E_total")),
+        ("momentum", or(momentum, "force, h_rate and a free top")),
+        ("contacts", format!("{} missed, {} invented{below}", audit.missed, audit.invented)),
+        ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
+    ];
+    lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
+}
+
+/// The orders of convergence that several files show, one row for each pair of neighbours.
+fn orders_table(orders: &[Order]) -> String {
+    let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
+    let rows = orders.iter().map(|row| {
+        let widths = format!("{} → {}", number(row.widths[0]), number(row.widths[1]));
+        let order = |x: Option<f64>| order(x.filter(|_| row.meaningless.is_none()));
+        [row.quantity.into(), widths].into_iter().chain(row.orders.values().map(|x| order(*x))).collect()
+    });
+    let header = [&["observed order", "width"][..], &NORMS.map(|norm| norm.1)].concat();
+    let mut out = table(&header, rows.collect(), 2) + "\n";
+    for Order { quantity, widths, meaningless, .. } in orders {
+        let said =
+            |why: &&str| format!("no order of {quantity} from {} to {}: {why}\n", number(widths[0]), number(widths[1]));
+        out += &meaningless.as_ref().map(said).unwrap_or_default();
+    }
+    out
+}
+
+fn fit_json(fit: &Fit, then: &Agreement) -> Value {
+    let norms = then.quantities.iter().map(|compared| json!({"name": compared.what.name(), "l2": compared.norms.l2}));
+    let contacts = then.contacts.iter().map(|(ours, theirs)| json!({"fitted": ours, "theirs": theirs}));
+    json!({
+        "values": fit.values,
+        "steps": fit.steps,
+        "settled": fit.settled,
+        "quantities": norms.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+    })
+}
+
+/// An object with the members of another one too.
+fn joined(mut value: Value, more: Value) -> Value {
+    if let (Some(object), Value::Object(more)) = (value.as_object_mut(), more) {
+        object.extend(more);
+    }
+    value
+}
+
+fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, units: &Units) -> Value {
+    let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
+        joined(json!({"name": what.name(), "unit": what.unit(units)}), json!(norms))
+    });
+    let contacts = agreement.contacts.iter().map(|(ours, theirs)| json!({"ours": ours, "theirs": theirs}));
+    json!({
+        "file": file,
+        "weights": WEIGHTS,
+        "step": agreement.step,
+        "window": agreement.window,
+        "outside": agreement.outside,
+        "notes": agreement.notes,
+        "coverage": agreement.coverage,
+        "quantities": quantities.collect::<Vec<_>>(),
+        "contacts": contacts.collect::<Vec<_>>(),
+        "audit": agreement.audit,
+        "hints": judgement.hints,
+        "told_from": judgement.told_from,
+        "spread": judgement.spread,
+        "fit": fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
+    })
+}
+
+impl Comparison {
+    /// The report as text, values in these `units`.
+    pub fn table(&self, title: Option<&str>, units: &Units) -> String {
+        let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
+        tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
+        tables.join("\n")
+    }
+
+    /// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
+    pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
+        let found = match self.files.as_slice() {
+            [one] => file_json(one, units),
+            files => {
+                let files: Vec<Value> = files.iter().map(|file| file_json(file, units)).collect();
+                json!({"files": files, "orders": self.orders})
+            }
+        };
+        joined(json!({"schema": 1, "title": title}), found)
+    }
+}

@@ -1,0 +1,140 @@
+//! Samples: the rows of a file at times of ours.
+
+use super::data::{Columns, DataError, DataErrorKind};
+use super::map::Map;
+use super::norms::Grid;
+use dalembert::Side;
+use dalembert::quantity::Quantity;
+
+/// The rows from `t = 0` on.
+#[derive(Clone, Debug)]
+pub(crate) struct Samples {
+    pub(crate) grid: Grid,
+    /// In the conventions of the file.
+    pub(crate) quantities: Vec<(Quantity, Vec<f64>)>,
+    pub(crate) step: f64,
+    /// How many rows lie before `t = 0`.
+    pub(crate) outside: usize,
+    pub(crate) notes: Vec<String>,
+    pub(crate) rounding: Rounding,
+    /// Which limit each row holds at a jump, where that is known.
+    pub(crate) sides: Vec<Option<Side>>,
+}
+
+/// How far a time may be from what is meant by it: half a unit of its last written digit, and what adding up steps
+/// one by one may lose, but never a quarter of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rounding {
+    /// Decimals after the point that the times have, and digits in all: the most that any of them needs.
+    decimals: i32,
+    digits: i32,
+    rows: f64,
+    pub(crate) most: f64,
+}
+
+/// So many times are looked at for their digits.
+const LOOKED_AT: usize = 1000;
+
+impl Rounding {
+    fn of(times: &[f64], step: f64) -> Self {
+        let (mut decimals, mut digits) = (0, 1);
+        for time in times.iter().step_by(times.len().div_ceil(LOOKED_AT).max(1)).filter(|time| **time != 0.0) {
+            // The shortest text that is this double: what a file with fewer digits has written.
+            let text = format!("{time:e}");
+            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+            let written = mantissa.chars().filter(char::is_ascii_digit).count() as i32;
+            digits = digits.max(written);
+            decimals = decimals.max(written - 1 - exponent.parse::<i32>().unwrap_or(0));
+        }
+        Rounding { decimals, digits, rows: times.len() as f64, most: step / 4.0 }
+    }
+
+    /// How far `time` may be off.
+    pub(crate) fn at(&self, time: f64) -> f64 {
+        let place = time.abs().log10().floor().max(-300.0) as i32 + 1 - self.digits;
+        let unit = 10f64.powi(place.max(-self.decimals));
+        (unit / 2.0 + self.rows * f64::EPSILON * time.abs()).min(self.most)
+    }
+}
+
+impl Samples {
+    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours; where the times are not in
+    /// the file they are `start + k step`. Two rows at one time are the limits of a jump, the earlier first; a field
+    /// needs the column of sides for that.
+    pub(crate) fn of(
+        mut columns: Columns,
+        map: &Map,
+        counted: Option<(f64, f64)>,
+        shift: f64,
+        length: f64,
+    ) -> Result<Self, DataError> {
+        let rows = columns.rows();
+        if rows == 0 {
+            return Err(columns.whole(DataErrorKind::Empty));
+        }
+        let mut values = std::mem::take(&mut columns.values).into_iter();
+        let mut of = |what| map.place(what).and_then(|_| values.next());
+        let mut times: Vec<f64> = match (of(Quantity::Time), counted) {
+            (Some(times), _) => times,
+            (None, Some((start, step))) => (0..rows).map(|k| start + k as f64 * step).collect(),
+            (None, None) => Vec::new(),
+        };
+        let (points, said) = (of(Quantity::Point), of(Quantity::Side));
+        let refuse = |row: usize, what: Quantity, kind| Err(columns.refuse(row, map.place(what).unwrap_or(0), kind));
+        let mut sides = vec![None; times.len()];
+        for (k, found) in said.iter().flatten().enumerate() {
+            sides[k] = match *found {
+                -1.0 => Some(Side::Left),
+                0.0 => None,
+                1.0 => Some(Side::Right),
+                other => return refuse(k, Quantity::Side, DataErrorKind::Side(other.to_string())),
+            };
+        }
+        let limits = [Some(Side::Left), Some(Side::Right)];
+        for k in 1..times.len() {
+            let (before, found) = (times[k - 1], times[k]);
+            if found == before && points.is_none() && said.is_none() && sides[k - 1].is_none() {
+                sides[k - 1..=k].copy_from_slice(&limits);
+            }
+            let follows = found > before || (found == before && (points.is_some() || sides[k - 1..=k] == limits));
+            if !follows {
+                return Err(columns.refuse(k, map.columns[0].1, DataErrorKind::NotIncreasing { before, found }));
+            }
+        }
+        times.iter_mut().for_each(|time| *time += shift);
+        for (k, found) in points.iter().flatten().enumerate() {
+            if !(0.0..=length).contains(found) {
+                return refuse(k, Quantity::Point, DataErrorKind::PointOutside { found: *found, length });
+            }
+            let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
+            let before = k.checked_sub(1).filter(same);
+            if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
+                return refuse(k, Quantity::Point, DataErrorKind::PointsNotIncreasing { before, found: *found });
+            }
+        }
+        let from = times.partition_point(|time| *time < 0.0);
+        let last = times.last().copied().unwrap_or(0.0);
+        if last <= 0.0 {
+            return Err(columns.whole(DataErrorKind::NoOverlap { last }));
+        }
+        if points.is_none() && times[from] == last {
+            return Err(columns.whole(DataErrorKind::OneTime(last)));
+        }
+        let cut = |mut values: Vec<f64>| values.split_off(from);
+        let (times, points, sides) = (cut(times), points.map(&cut), sides.split_off(from));
+        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+        let middle = steps.len() / 2;
+        let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let rounding = Rounding::of(&times, step);
+        let whats = map.columns.iter().map(|(what, _)| *what);
+        let is_place = |what: &Quantity| matches!(what, Quantity::Time | Quantity::Point | Quantity::Side);
+        let quantities = whats.skip_while(|what| is_place(what)).zip(values.map(&cut)).collect();
+        let unused = map.unused.join(", ");
+        let notes = (!unused.is_empty()).then(|| format!("not used: {unused}")).into_iter().collect();
+        Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, notes, rounding, sides })
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/samples.rs"]
+mod tests;

@@ -1,0 +1,191 @@
+//! Every route that can answer a question, at every setting, the cheapest first.
+
+use crate::long;
+use crate::quantity::Question;
+use crate::route::{Numbers, Route, within_first_contact};
+use dalembert::quantity::Quantity;
+use dalembert::solve::{Engine, Plan};
+
+/// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::Display, strum::IntoStaticStr)]
+pub enum Family {
+    #[strum(serialize = "closed form")]
+    ClosedForm,
+    /// The lattice: undamped, from event to event.
+    #[strum(serialize = "lattice")]
+    Lattice,
+    /// What the plan of a damped scene does: the closed form of the first contact, then cells.
+    #[strum(serialize = "closed form, then cells")]
+    ContactThenCells,
+    /// Characteristic cells from the start.
+    #[strum(serialize = "cells")]
+    Cells,
+    #[strum(serialize = "modal sum")]
+    Modes,
+    /// The paper's integrals by adaptive quadrature.
+    #[strum(serialize = "printed integrals")]
+    Printed,
+    /// Finite differences at CFL = 1.
+    #[strum(serialize = "finite differences")]
+    Differences,
+    /// Intervals with ends rounded outwards.
+    #[strum(serialize = "enclosures")]
+    Enclosures,
+}
+
+impl Family {
+    /// The name in output.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+}
+
+pub struct Candidate {
+    pub family: Family,
+    pub route: Route,
+    pub setting: String,
+    /// Decimal digits that the numbers of this setting hold.
+    pub digits: u32,
+    /// Seconds that it is expected to take; how many times as long as the setting before it until that has run.
+    pub expected: f64,
+    /// Whether this is what the plan does.
+    pub chosen: bool,
+}
+
+/// Settings of one route, the cheapest first.
+pub type Ladder = Vec<Candidate>;
+
+const DOUBLE: u32 = 17;
+const LONG: [u32; 4] = [50, 100, 300, 1000];
+
+/// Every route that can answer, and why the others cannot.
+pub fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, String)>) {
+    let (mut ladders, mut left_out) = (Vec::new(), Vec::new());
+    let mut take = |family: Family, ladder: Result<Ladder, String>| match ladder {
+        Ok(ladder) => ladders.push(ladder),
+        Err(why) => left_out.push((family, why)),
+    };
+    let first = within_first_contact(question);
+    take(Family::ClosedForm, first.clone().map(|()| closed_form()));
+    let family = match plan.engine {
+        Engine::Lattice => Family::Lattice,
+        Engine::ClosedForm => Family::ClosedForm,
+        Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
+    };
+    let damped = question.problem.rod.damping.is_some();
+    if damped {
+        take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
+    } else {
+        take(Family::ContactThenCells, Err(format!("the scene has no damping: the plan takes the {}", family.name())));
+    }
+    match plan.numbers {
+        Numbers::Certified(_) => take(family, Err("the plan takes enclosures".into())),
+        // In longer numbers the plan takes the lattice.
+        numbers if !damped && family == Family::ClosedForm => {
+            let doubles = [("double".into(), Route::Lattice(Numbers::Double(None)))];
+            let mut lattice = in_doubles(Family::Lattice, [1e-6, 1.0], doubles);
+            let mut planned = by_plan(Family::Lattice, question, numbers);
+            take(family, Ok(vec![Candidate { family, ..planned.remove(0) }]));
+            lattice.extend(planned);
+            take(Family::Lattice, Ok(lattice));
+        }
+        numbers => take(family, Ok(by_plan(family, question, numbers))),
+    }
+    let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
+    take(Family::Cells, Ok(in_doubles(Family::Cells, [1e-4, 1.5], cells)));
+    let whole = match question.one.quantity {
+        Quantity::VibrationalEnergy => Err("gives the whole energy; E_z would be the difference of two".into()),
+        _ => first.clone(),
+    };
+    let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));
+    take(Family::Modes, whole.clone().map(|()| in_doubles(Family::Modes, [1e-4, 4.0], modes)));
+    let whole =
+        if damped { whole } else { whole.and(Err("without damping the paper itself has done its integrals".into())) };
+    let printed = [1, 2, 4, 6, 8, 10, 12, 14]
+        .map(|digits| (format!("tolerance 1e-{digits}"), Route::PrintedIntegrals(10f64.powi(-digits))));
+    take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
+    let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
+    take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
+    if long::AVAILABLE {
+        take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
+    }
+    (ladders, left_out)
+}
+
+/// Settings in doubles: the seconds of the first, and how many times as long as the one before each other takes.
+fn in_doubles(
+    family: Family,
+    [first, growth]: [f64; 2],
+    settings: impl IntoIterator<Item = (String, Route)>,
+) -> Ladder {
+    let step = |(k, (setting, route)): (usize, (String, Route))| {
+        let expected = if k == 0 { first } else { growth };
+        Candidate { family, route, setting, digits: DOUBLE, expected, chosen: false }
+    };
+    settings.into_iter().enumerate().map(step).collect()
+}
+
+/// Settings in long numbers, with so many digits to spare; none in a build without such numbers.
+fn in_digits(
+    family: Family,
+    growths: [f64; 4],
+    spare: u32,
+    route: fn(Numbers) -> Route,
+) -> impl Iterator<Item = Candidate> {
+    LONG.into_iter().zip(growths).filter(|_| long::AVAILABLE).map(move |(digits, expected)| {
+        let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
+        Candidate { family, route, setting, digits: digits + spare, expected, chosen: false }
+    })
+}
+
+fn closed_form() -> Ladder {
+    let double = [("double".into(), Route::ClosedForm(Numbers::Double(None)))];
+    let mut ladder = in_doubles(Family::ClosedForm, [1e-6, 1.0], double);
+    ladder.extend(in_digits(Family::ClosedForm, [30.0, 3.0, 10.0, 35.0], 6, Route::ClosedForm));
+    ladder
+}
+
+fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
+    let (route, setting) = (Route::Planned(system), system.to_string());
+    let digits = match system {
+        Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => digits + 8,
+        _ => DOUBLE,
+    };
+    let mut ladder = vec![Candidate { family, route, setting, digits, expected: 0.0, chosen: true }];
+    let fractions = Route::Lattice(Numbers::Exact);
+    if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
+        ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
+    }
+    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more
+    // for long numbers.
+    let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
+    let others = in_digits(family, growths, 8, Route::Planned);
+    ladder.extend(others.filter(|other| system != Numbers::Digits(other.digits - 8)));
+    ladder
+}
+
+/// Enclosures, where they reach: an answer that is wrong by more than it says is impossible.
+///
+/// Several contacts of a damped rod are proved by its cells, in some twentieth of a second for each few.
+fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
+    let chosen = match plan.numbers {
+        Numbers::Certified(digits) => Some(digits),
+        _ => None,
+    };
+    let mut settings: Vec<u32> = LONG.into_iter().chain([15]).chain(chosen).collect();
+    settings.sort_unstable();
+    settings.dedup();
+    let candidate = |(k, digits): (usize, u32)| Candidate {
+        family: Family::Enclosures,
+        route: Route::Planned(Numbers::Certified(digits)),
+        setting: format!("{digits} digits"),
+        digits: digits + 9,
+        expected: match k {
+            0 if first_contact => 1e-3,
+            0 => 5e-2,
+            _ => 4.0,
+        },
+        chosen: chosen == Some(digits),
+    };
+    settings.into_iter().enumerate().map(candidate).collect()
+}

@@ -1,7 +1,0 @@
-//! The `dalembert` command.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    dalembert::cli::main(std::env::args_os())
-}
