@@ -9,7 +9,7 @@ use dalembert::{
     Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
     Units, Warning,
 };
-use dalembert_plot::{Canvas, Drawing, Drawn, Pose, Sizes};
+use dalembert_plot::{Canvas, Drawing, DrawnSvg, RodPicture, RunExtremes};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -60,7 +60,7 @@ fn optional<S: Scalar>(x: Option<&S>) -> String {
 pub struct Run {
     scene: Scene,
     history: History<f64>,
-    sizes: Sizes,
+    extremes: RunExtremes,
 }
 
 #[wasm_bindgen]
@@ -80,8 +80,8 @@ impl Run {
         });
         match plan.solve(&scene.problem, observe) {
             Ok(Solution::Double(history)) => {
-                let sizes = Sizes::of(&history).map_err(failed)?;
-                Ok(Run { scene, history, sizes })
+                let extremes = RunExtremes::new(&history).map_err(failed)?;
+                Ok(Run { scene, history, extremes })
             }
             Ok(_) => Err(refuse("found numbers other than doubles")),
             Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
@@ -179,13 +179,13 @@ impl Run {
         enlarged: Option<f64>,
         greatest: f64,
     ) -> Result<String, JsError> {
-        let pose = Pose { width, height, letters, enlarged, greatest };
-        pose.draw(&self.history, &self.scene.problem, &self.sizes, time).map_err(failed)
+        let picture = RodPicture { width, height, letters, enlarged, color_limit: greatest };
+        picture.draw(&self.history, &self.scene.problem, &self.extremes, time).map_err(failed)
     }
 
     /// The greatest `|v_x(0,t)|`.
     pub fn strain(&self) -> f64 {
-        self.sizes.strain
+        self.extremes.strain
     }
 
     /// The first and the last time of what shows the first contacts.
@@ -208,8 +208,8 @@ impl Run {
     fn picture(&self, span: Option<[f64; 2]>, canvas: Canvas) -> Result<Picture, JsError> {
         let drawing = Drawing { title: self.scene.title.clone(), span, canvas };
         let units = Units::of(&self.scene.problem, self.scene.units);
-        let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(failed)?;
-        Ok(Picture { svg, greatest })
+        let DrawnSvg { svg, color_limit } = drawing.draw(&self.history, &self.scene.problem, units).map_err(failed)?;
+        Ok(Picture { svg, greatest: color_limit })
     }
 }
 
