@@ -5,11 +5,11 @@
 //! use dalembert::{Problem, Side};
 //!
 //! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-//! let history = rod.doubles()?; // in doubles; rod.exact()?, rod.digits(50)?, rod.certified(50)? alike
-//! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-//! assert_eq!(history.contacts()[0].to, Some(2.0));
+//! let history = rod.solve()?;
 //! // Until the wave comes back, v_x(0,t) = −(μ + g t)/c.
-//! assert_eq!(history.strain(1.0, Side::Right)?, -4.0);
+//! assert_eq!(history.strain(1, Side::Right)?, -4.0);
+//! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+//! assert_eq!(rod.exact()?.contacts()[0].to, Some(2.into()));
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
