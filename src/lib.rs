@@ -7,7 +7,7 @@
 //! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
 //! let history = rod.solve()?; // in doubles; rod.exact()?, rod.digits(50)?, rod.certified(50)? alike
 //! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-//! assert_eq!(history.contacts()[0].to, Some(2.0));
+//! assert_eq!(history.contacts()[0].release, Some(2.0));
 //! // Until the wave comes back, v_x(0,t) = −(μ + g t)/c.
 //! assert_eq!(history.strain(1.0, Side::Right)?, -4.0);
 //! # Ok::<(), dalembert::Error>(())
@@ -64,6 +64,7 @@ mod first_contact;
 mod lattice;
 mod modal;
 mod motion;
+mod names;
 pub mod number;
 pub mod problem;
 pub mod quantity;
@@ -76,6 +77,7 @@ mod threads;
 pub use error::Error;
 pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
+pub use names::{UnknownName, nearest};
 pub use number::{Estimate, Float, Interval, Number, Rational};
 pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use quantity::{Quantity, Units};
