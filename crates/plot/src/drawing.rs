@@ -1,9 +1,9 @@
 //! A scene as one SVG.
 
 use dalembert::Error;
-use dalembert::problem::{Parameters, Problem};
+use dalembert::problem::Parameters;
 use dalembert::quantity::Units;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 
 use crate::draw::{Canvas, Size};
 use crate::picture::Picture;
@@ -36,18 +36,18 @@ impl Drawing {
         Request { pictures: pictures.to_vec(), from, to, ..Request::default() }
     }
 
-    /// Draws a history of a problem.
+    /// Draws a history.
     ///
     /// **Accuracy**: that of the history, and a hundredth of a millimetre.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
-    pub fn draw<S: Target>(&self, history: &History<S>, problem: &Problem, units: Units) -> Result<DrawnSvg, Error> {
+    pub fn draw<S: Target>(&self, history: &TypedHistory<S>, units: Units) -> Result<DrawnSvg, Error> {
         let request = self.request(match self.canvas {
             Canvas::Page => &Picture::SHEET,
             Canvas::Screen { .. } => &[Picture::SpaceTime, Picture::Stress, Picture::Energy],
         });
-        let scene = request.gather(String::new(), problem, units, history)?;
-        let title = scene.heading(self.title.as_deref(), problem, &request);
+        let scene = request.gather(String::new(), units, history)?;
+        let title = scene.heading(self.title.as_deref(), history.problem(), &request);
         let color_limit = scene.field.as_ref().map_or(0.0, |field| field.color_limit);
         // One scene has one set of units.
         let svg = request.sheet(&[scene], title).map_or_else(
@@ -63,7 +63,7 @@ impl Drawing {
     /// Returns the first and the last time that are drawn.
     ///
     /// **Errors**: as [`Drawing::draw`].
-    pub fn drawn_span<S: Target>(&self, history: &History<S>, problem: &Problem) -> Result<[f64; 2], Error> {
-        self.request(&[]).span(history, Parameters::<f64>::of(problem, &())?.round_trip())
+    pub fn drawn_span<S: Target>(&self, history: &TypedHistory<S>) -> Result<[f64; 2], Error> {
+        self.request(&[]).span(history, Parameters::<f64>::of(history.problem(), &())?.round_trip())
     }
 }

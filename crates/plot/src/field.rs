@@ -2,7 +2,7 @@
 
 use dalembert::number::Scalar;
 use dalembert::problem::Parameters;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 use dalembert::{Error, Field, Side};
 use glam::DVec2;
 
@@ -59,7 +59,7 @@ impl FieldMap {
     /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and
     /// a cell is one polygon. Between the rays of a damped rod they are smooth, and a cell is divided.
     pub(crate) fn new<S: Target>(
-        history: &History<S>,
+        history: &TypedHistory<S>,
         quantity: FieldQuantity,
         factor: f64,
         extent: &Extent,
@@ -110,7 +110,7 @@ pub(crate) fn settled<S: Scalar>(x: &S) -> f64 {
 
 /// Returns the field at points `(t, x)`.
 fn values_at<S: Target>(
-    history: &History<S>,
+    history: &TypedHistory<S>,
     quantity: FieldQuantity,
     extent: &Extent,
     points: &[DVec2],
@@ -131,7 +131,7 @@ fn values_at<S: Target>(
 }
 
 /// Returns the field at the middles of the grid's cells, row by row from the ground up.
-fn grid<S: Target>(history: &History<S>, quantity: FieldQuantity, extent: &Extent) -> Result<Vec<f64>, Error> {
+fn grid<S: Target>(history: &TypedHistory<S>, quantity: FieldQuantity, extent: &Extent) -> Result<Vec<f64>, Error> {
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
     if !extent.is_damped() {
         let point = |k: usize| extent.point(middle(k % COLUMNS, COLUMNS), middle(k / COLUMNS, ROWS));

@@ -217,11 +217,11 @@ fn symbol(quantity: Quantity) -> &'static str {
 /// Returns the curves of the stress at the ground, or of the strain if there is no modulus.
 fn stress(scene: &SceneData) -> Vec<Curve> {
     let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
-    let values = scene.stress.iter().flat_map(|piece| [piece.left, piece.right]);
+    let values = scene.stress.iter().flat_map(|piece| [piece.strain_start, piece.strain_end]);
     let smallest = SMALLEST_JUMP * factor * values.fold(0.0, |greatest, value| f64::max(greatest, value.abs()));
     let mut curves: Vec<Curve> = Vec::new();
     for piece in &scene.stress {
-        let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])]
+        let [from, to] = [piece.start.max(scene.span[0]), piece.end.min(scene.span[1])]
             .map(|time| DVec2::new(time, factor * piece.eval(&time)));
         match curves.last_mut() {
             Some(last) if last.last().is_some_and(|end| (end.y - from.y).abs() <= smallest) => last.push(to),

@@ -2,9 +2,9 @@
 
 use dalembert::engine::Motion;
 use dalembert::number::Scalar;
-use dalembert::problem::{Problem, Top};
+use dalembert::problem::Top;
 use dalembert::quantity::flights;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 use dalembert::{Error, Side};
 use glam::DVec2;
 
@@ -33,16 +33,16 @@ impl RunExtremes {
     /// Asks a history for its greatest values.
     ///
     /// **Errors**: those of the history.
-    pub fn new<S: Target>(history: &History<S>) -> Result<Self, Error> {
+    pub fn new<S: Target>(history: &TypedHistory<S>) -> Result<Self, Error> {
         let query = |motion: &dyn Motion<S::Carried>| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
             for flight in flights(motion)? {
-                rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
+                rise = flight.top.iter().map(|height| height.to_f64()).fold(rise, f64::max);
             }
             let mut energy = [0.0f64; 2];
             for contact in motion.contacts().iter().take(CONTACTS) {
-                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
+                let (from, to) = (contact.impact.to_f64(), contact.release.as_ref().unwrap_or(&motion.end()).to_f64());
                 let inner = (0..TIMES).map(|k| from + (to - from) * (k as f64 + 0.5) / TIMES as f64);
                 for time in [from].into_iter().chain(inner) {
                     let found = motion.energy(&motion.end().double(time))?;
@@ -92,12 +92,12 @@ impl RodPicture {
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a time that it does not reach.
     pub fn draw<S: Target>(
         &self,
-        history: &History<S>,
-        problem: &Problem,
+        history: &TypedHistory<S>,
         extremes: &RunExtremes,
         time: f64,
     ) -> Result<String, Error> {
-        let length = problem.rod.length.to_f64();
+        let rod = &history.problem().rod;
+        let length = rod.length.to_f64();
         let query = |motion: &dyn Motion<S::Carried>| {
             let time = motion.end().double(time);
             let points: Vec<_> = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect();
@@ -111,7 +111,7 @@ impl RodPicture {
             })
         };
         let state = history.ask(query, |_| Vec::new())?;
-        Ok(self.svg(&state, extremes, length, problem.rod.top == Top::Fixed))
+        Ok(self.svg(&state, extremes, length, rod.top == Top::Fixed))
     }
 
     fn svg(&self, state: &State, extremes: &RunExtremes, length: f64, fixed: bool) -> String {

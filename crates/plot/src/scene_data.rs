@@ -5,7 +5,7 @@ use dalembert::number::Scalar;
 use dalembert::problem::{Parameters, Problem};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 use dalembert::{Error, EventKind, Side, StressPiece};
 use glam::DVec2;
 
@@ -114,18 +114,13 @@ impl Request {
     /// Asks a history for all that the pictures show.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
-    pub fn gather<S: Target>(
-        &self,
-        name: String,
-        problem: &Problem,
-        units: Units,
-        history: &History<S>,
-    ) -> Result<SceneData, Error> {
-        let rod = Parameters::<f64>::of(problem, &())?;
+    pub fn gather<S: Target>(&self, name: String, units: Units, history: &TypedHistory<S>) -> Result<SceneData, Error> {
+        let rod = Parameters::<f64>::of(history.problem(), &())?;
         let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
         let contacts = history.contacts().iter();
-        let contacts = contacts.map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)]);
+        let contacts =
+            contacts.map(|contact| [contact.impact.to_f64(), contact.release.as_ref().map_or(end, Scalar::to_f64)]);
         let extent = Extent { rod: rod.clone(), span };
         let rays = rays(history, &extent)?;
         let mut data = SceneData {
@@ -144,14 +139,14 @@ impl Request {
         };
         if self.pictures.contains(&Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
-            let inside = pieces.filter(|piece| meets_span(&[piece.from, piece.to]));
+            let inside = pieces.filter(|piece| meets_span(&[piece.start, piece.end]));
             data.stress = straight(&inside.collect::<Vec<_>>(), STRESS_ERROR);
         }
         if self.pictures.contains(&Picture::Restitution) {
             let value = |x: Result<S, _>| x.ok().map(|x| x.to_f64());
             let pair = |contact| {
                 let found = history.restitution(contact)?;
-                Ok([value(found.momentum), value(found.energy_squared)])
+                Ok([value(found.e_p), value(found.e_e2)])
             };
             data.restitution = (0..data.all_contacts.min(MAX_CONTACTS)).map(pair).collect::<Result<_, Error>>()?;
         }
@@ -165,9 +160,9 @@ impl Request {
     }
 
     /// Returns the span to be drawn: the one asked for, or a part of the history that shows its first contacts.
-    pub(crate) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
+    pub(crate) fn span<S: Target>(&self, history: &TypedHistory<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = settled_until(history);
-        let events: Vec<_> = history.events().iter().map(|event| (event.time.to_f64(), event.kind)).collect();
+        let events: Vec<_> = history.events().iter().map(|event| (event.t.to_f64(), event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
@@ -187,7 +182,7 @@ impl Request {
 
     fn gather_quantities<S: Target>(
         &self,
-        history: &History<S>,
+        history: &TypedHistory<S>,
         extent: &Extent,
         rays: &[Ray],
     ) -> Result<Vec<(Quantity, Vec<Curve>)>, Error> {
@@ -218,7 +213,7 @@ impl Request {
 }
 
 /// Returns the end of the history, or the time from which its events are not settled.
-fn settled_until<S: Target>(history: &History<S>) -> f64 {
+fn settled_until<S: Target>(history: &TypedHistory<S>) -> f64 {
     let unsettled = history.warnings().into_iter().filter_map(|warning| match warning {
         Warning::EventsOverlap { from } | Warning::NotDetermined { from } => Some(from),
         _ => None,
@@ -227,7 +222,7 @@ fn settled_until<S: Target>(history: &History<S>) -> f64 {
 }
 
 /// Returns every ray that is in the rod during the span, in the order in which they leave the ground.
-fn rays<S: Target>(history: &History<S>, extent: &Extent) -> Result<Vec<Ray>, Error> {
+fn rays<S: Target>(history: &TypedHistory<S>, extent: &Extent) -> Result<Vec<Ray>, Error> {
     let ([from, to], trip, damping) = (extent.span, extent.trip(), extent.rod.damping);
     if damping == 0.0 {
         let waves = history.waves()?.map(|x| x.to_f64());
@@ -275,7 +270,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, extent: &Extent, rays: &[Ray]) -> Re
     let count = if rays.len() > MAX_RAY_POINTS { DENSE_POINTS } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The engine's own numbers meet the rays, at which values from the left and from the right may differ.
-    let mut exact: Vec<S> = motion.events().iter().map(|event| event.time.clone()).collect();
+    let mut exact: Vec<S> = motion.events().iter().map(|event| event.t.clone()).collect();
     if rays.len() <= MAX_RAY_POINTS {
         let scales = motion.scales();
         match motion.waves() {
@@ -304,7 +299,11 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, extent: &Extent, rays: &[Ray]) -> Re
 }
 
 /// Returns points along the rod, each with its displacement over time.
-fn world_lines<S: Target>(history: &History<S>, extent: &Extent, rays: &[Ray]) -> Result<Vec<(f64, Curve)>, Error> {
+fn world_lines<S: Target>(
+    history: &TypedHistory<S>,
+    extent: &Extent,
+    rays: &[Ray],
+) -> Result<Vec<(f64, Curve)>, Error> {
     let shares: Vec<f64> = (0..WORLD_LINES).map(|k| k as f64 / (WORLD_LINES - 1) as f64).collect();
     let found = history.ask(
         |motion| {

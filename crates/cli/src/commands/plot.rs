@@ -15,7 +15,7 @@ use crate::source;
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::solve::{History, Numbers, Question, Target};
+use dalembert::solve::{Numbers, Question, Target, TypedHistory};
 use dalembert_plot::draw::Size;
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData, UnknownPicture};
 
@@ -130,7 +130,7 @@ impl Plot {
             None => Question::run(numbers),
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
-        let gather = Gather { name: file, scene, request, found: RefCell::new(None) };
+        let gather = Gather { name: file, request, found: RefCell::new(None) };
         solve(scene, &question, &gather)?;
         gather.found.into_inner().ok_or_else(|| failure!("found no history of {name}"))
     }
@@ -159,14 +159,18 @@ fn told_apart(scenes: &mut [SceneData]) {
 /// Asks a history for what the pictures show.
 struct Gather<'a> {
     name: &'a str,
-    scene: &'a Scene,
     request: &'a Request,
     found: RefCell<Option<SceneData>>,
 }
 
 impl Visit for Gather<'_> {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let found = self.request.gather(self.name.into(), &self.scene.problem, head.units.clone(), history)?;
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
+        let found = self.request.gather(self.name.into(), head.units.clone(), history)?;
         drop(progress);
         warned(Head { warnings: history.warnings(), ..head }, false);
         let ([from, to], end) = (found.span, found.end);
