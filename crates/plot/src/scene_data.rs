@@ -153,7 +153,7 @@ impl Request {
         if self.pictures.contains(&Picture::SpaceTime) && self.deformed {
             data.world_lines = world_lines(history, &extent, &rays)?;
         } else if self.pictures.contains(&Picture::SpaceTime) {
-            let factor = data.units.factor::<f64>(self.field.label(&data.units).measure, &()).unwrap_or(1.0);
+            let factor = data.units.factor::<f64>(self.field.measure(&data.units), &()).unwrap_or(1.0);
             data.field = Some(FieldMap::new(history, self.field, factor, &extent, rays)?);
         }
         Ok(data)
