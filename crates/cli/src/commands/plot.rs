@@ -16,7 +16,7 @@ use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
 use dalembert::solve::{Numbers, Question, Target, TypedHistory};
-use dalembert_plot::draw::Size;
+use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData, UnknownPicture};
 
 #[derive(Args, Debug)]
@@ -109,7 +109,10 @@ impl Plot {
             }
             _ => {
                 told_apart(&mut gathered);
-                Vec::new()
+                let part = |scene: &SceneData| {
+                    Some(format!("{}: {}", without_subscripts(&scene.name), scene.shown_part(&request)?))
+                };
+                gathered.iter().filter_map(part).collect()
             }
         };
         let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
