@@ -1,111 +1,79 @@
-//! From a scene and a question to what is printed of the history.
+//! Solving a scene for a question, with its progress and its notes.
 
-use std::io::IsTerminal as _;
-
-use super::args::OutputArgs;
-use super::failure::Failure;
-use super::file::Format;
-use super::source;
-use crate::output::{Head, Shown};
-use dalembert::Ending;
-use dalembert::Error;
+use crate::failure::Failure;
+use crate::output::{RunInfo, Shown};
+use crate::progress::Progress;
+use crate::terminal;
 use dalembert::engine::Motion;
 use dalembert::number::{DOUBLE_DIGITS, Scalar as _};
 use dalembert::quantity::{Measure, Units};
 use dalembert::solve::{History, Plan, Question, Target, Visitor};
-use dalembert::{Effect, Scene};
+use dalembert::{Effect, Ending, Error, Scene};
 
-fn head(scene: &Scene, plan: &Plan) -> Head {
+fn run_info(scene: &Scene, plan: &Plan) -> RunInfo {
     let units = Units::of(&scene.problem, scene.units);
     let time = |time: f64| format!("{} {}", time.decimal(6), units.name(Measure::Time)).trim_end().to_string();
-    Head {
+    RunInfo {
         title: scene.title.clone(),
         number: plan.numbers.to_string(),
         effects: scene.called_effects().into_iter().map(Effect::name).collect(),
         // `c`, `t₁`, `R` and `M` to six digits.
         parameters: units.parameters(&scene.problem, time).join("    "),
         units,
-        ..Head::default()
+        ..RunInfo::default()
     }
 }
 
-/// What is done with a history, in any number system.
-pub(crate) trait Visit {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
+/// An output made of a history in any number system.
+pub(crate) trait UseHistory {
+    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure>;
 }
 
-/// Prints what `bytes` makes of an answer, below the warnings of `head`.
-pub(crate) fn print(
-    output: &OutputArgs,
-    head: Head,
-    progress: source::Progress,
-    bytes: impl FnOnce(&Head, Format) -> Result<Vec<u8>, Failure>,
-) -> Result<(), Failure> {
-    let format = output.format()?;
-    let head = progress.aside(|| warned(head, output.output.is_none() && format == Format::Table));
-    progress.stage("text of the answer");
-    let bytes = bytes(&head, format)?;
-    // Nothing else stands on a terminal while the answer is printed.
-    let progress = (output.output.is_some() || !std::io::stdout().is_terminal()).then_some(progress);
-    output.write(&bytes)?;
-    drop(progress);
-    Ok(())
-}
-
-/// What `gather` asks of the history: data, whatever the numbers, and every number in them.
+/// Returns the data that `gather` takes from the history, once every number in them is settled.
 pub(crate) fn gathered<S: Target, T>(
     history: &History<S>,
-    progress: &source::Progress,
+    progress: &Progress,
     gather: impl Fn(&dyn Motion<S::Carried>) -> Result<(T, Vec<S::Carried>), Error>,
 ) -> Result<T, Error> {
-    progress.stage("values of the answer");
+    progress.set_stage("values of the answer");
     Ok(history.ask(gather, |(_, numbers)| numbers.iter().collect())?.0)
 }
 
-/// The head, whose warnings are printed.
-pub(crate) fn warned(head: Head, shown: bool) -> Head {
-    // A table on the screen has them below it.
-    if !shown {
-        head.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
-    }
-    head
-}
-
-/// Why the history ends where it does, which is printed where that may be before what was asked for.
-pub(crate) fn noted_end(ending: &Ending, end: &dyn Shown, digits: u32) -> String {
+/// Returns the reason why the history ends, and prints it as a note if the end may be before what was requested.
+pub(crate) fn note_end(ending: &Ending, end: &dyn Shown, digits: u32) -> String {
     if ending.is_open() {
-        eprintln!("note: {}", ending.at(&end.printed(DOUBLE_DIGITS)));
+        terminal::note(ending.at(&end.printed(DOUBLE_DIGITS)));
     }
     ending.at(&end.printed(if digits == 0 { DOUBLE_DIGITS } else { digits }))
 }
 
-/// Solves `scene` for `question`, and hands the history over.
-pub(crate) fn solve(scene: &Scene, question: &Question, visit: &impl Visit) -> Result<(), Failure> {
+/// Solves `scene` for `question`, and makes an output of the history.
+pub(crate) fn solve(scene: &Scene, question: &Question, output: &impl UseHistory) -> Result<(), Failure> {
     let plan = Plan::of(&scene.problem, question)?;
-    let head = head(scene, &plan);
-    let progress = source::Progress::of(scene, &plan);
+    let info = run_info(scene, &plan);
+    let progress = Progress::new(scene, &plan);
     let solution = plan.solve(&scene.problem, progress.observer())?;
-    let n = solution.digits();
-    let head = match solution.exactness_end() {
-        None => Head { digits: n, ..head },
+    let digits = solution.digits();
+    let info = match solution.exactness_end() {
+        None => RunInfo { digits, ..info },
         Some(end) => {
-            eprintln!("note: {end}; what follows is in {n} digits");
-            Head { digits: n, number: format!("{n} digits"), exact_until: Some(end.clone()), ..head }
+            terminal::note(format!("{end}; what follows is in {digits} digits"));
+            RunInfo { digits, number: format!("{digits} digits"), exact_until: Some(end.clone()), ..info }
         }
     };
-    solution.visit(Visited { visit, head, progress })
+    solution.visit(Apply { output, info, progress })
 }
 
-struct Visited<'a, V> {
-    visit: &'a V,
-    head: Head,
-    progress: source::Progress,
+struct Apply<'a, V> {
+    output: &'a V,
+    info: RunInfo,
+    progress: Progress,
 }
 
-impl<V: Visit> Visitor for Visited<'_, V> {
+impl<V: UseHistory> Visitor for Apply<'_, V> {
     type Output = Result<(), Failure>;
 
     fn visit<S: Target>(self, history: &History<S>) -> Result<(), Failure> {
-        self.visit.visit(history, self.head, self.progress)
+        self.output.apply(history, self.info, self.progress)
     }
 }

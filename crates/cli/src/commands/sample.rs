@@ -1,108 +1,493 @@
-//! `dalembert sample`.
+//! `dalembert sample`, and `dalembert reference`: the same with the defaults of a golden file, and functions.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::answer::{Visit, gathered, print, solve};
-use crate::args::words;
-use crate::args::{NumberArgs, OutputArgs};
-use crate::failure::Failure;
-use crate::file;
-use crate::output::{Head, Quantity, Samples, samples, samples_data, shared};
-use crate::source;
-use dalembert::Error;
+use crate::answer::{UseHistory, note_end, solve};
+use crate::args::{NumberArgs, OutputArgs, list, words};
+use crate::failure::{Failure, cannot};
+use crate::file::{Destination, Format, formats, write_all};
+use crate::output::{Cell, Column, Header, Kind, Language, RowWriter, RunInfo, TableLayout, code, derivative_table};
+use crate::progress::Progress;
+use crate::quantities::{NameParser, Scope, has_material};
+use crate::{source, terminal};
 use dalembert::engine::Motion;
-use dalembert::number::{List, Scalar};
+use dalembert::number::{List, Number, Scalar};
 use dalembert::problem::Parameter;
-use dalembert::solve::{History, Question, Target};
-use dalembert::{Ending, Side};
+use dalembert::quantity::{Quantity, SLICE, Slice};
+use dalembert::solve::{Derivatives, History, Question, Target};
+use dalembert::{Ending, Error, Scene, Side};
 
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \
+#[command(after_help = "Without times, the rows are the start, every impact and release, and the end.\n\n\
+    Examples:\n  dalembert sample paper-strong --quantity strain --times 0.3,1.2,2 --side left\n  \
     dalembert sample doyen-ern-piperno --quantity end,energy --times 0..16/3:9 --exact\n  \
     dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
-    dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives speed,damping"
-)]
+    dalembert sample figure-4-r02 --quantity strain --times 0.1,0.3 --derivatives speed,damping\n  \
+    dalembert sample rod.toml --quantity u_end,force --dt 0.001 --to 5 -o values.npz")]
 pub(crate) struct Sample {
-    /// A scene file, `-`, or a built-in scene. It is followed as far as the last time, whatever its own run says
+    #[command(flatten)]
+    args: SampleArgs,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "The same as `dalembert sample`, with the defaults of a golden file: CSV, all quantities, and \
+    both limits where a jump passes.\n\n\
+    Examples:\n  dalembert reference doyen-ern-piperno --dt 0.001 --to 5 -o golden.csv\n  \
+    my_code --print-times | dalembert reference rod.toml --times-from - --quantity t,u_end,force\n  \
+    dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz\n  \
+    dalembert reference getfem-dynamic-contact --as python -o golden.py")]
+pub(crate) struct Reference {
+    #[command(flatten)]
+    args: SampleArgs,
+    /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
+    #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
+    #[arg(conflicts_with_all = ["when", "quantity", "points", "side", "derivatives", "uncertainty", "format", "bare"])]
+    language: Option<Language>,
+}
+
+#[derive(Args, Debug)]
+struct SampleArgs {
+    /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
-    /// What to sample: one, or several over time with commas between them, whose columns are then named as in reference
-    #[arg(long, value_enum, value_delimiter = ',', required = true)]
-    quantity: Vec<Quantity>,
+    /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a golden
+    /// file has the columns as they are listed, by default all
+    #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
+    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []))]
+    quantity: Vec<String>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
-    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
-    times: List,
-    /// Points of the rod for the field, in the same form; by default its two ends and its middle
-    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
+    times: Option<List>,
+    /// Times from a file, `-` for standard input: one a line, `#` begins a comment
+    #[arg(long, value_name = "FILE", group = "when")]
+    times_from: Option<PathBuf>,
+    /// Times 0, DT, 2 DT … up to --to
+    #[arg(long, value_name = "DT", requires = "to", group = "when", allow_hyphen_values = true)]
+    dt: Option<Number>,
+    /// The last time of --dt
+    #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is both
+    /// ends and the middle
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
-    /// Which limit where there are two
-    #[arg(long, value_parser = words::<Side>(), default_value_t)]
-    side: Side,
+    /// Meaning of the field on the grid of the points
+    #[arg(long, value_parser = words::<Slice>(), default_value_t, requires = "points")]
+    field: Slice,
+    /// Limit where a jump passes: from earlier times, from later ones, or both in two rows; right by default, both in a
+    /// golden file
+    #[arg(long, value_enum)]
+    side: Option<SideArg>,
     /// Derivatives of the values by values of the scene, as with solve; time and point stay where they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
+    /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
+    #[arg(long)]
+    uncertainty: bool,
     #[command(flatten)]
     numbers: NumberArgs,
+    /// Format of the output; by default that of the ending of FILE, or a table, or CSV for a golden file
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
+    /// Keep each row of a table on one line, however wide
+    #[arg(long)]
+    wide: bool,
+    /// Leave out the comments above a CSV
+    #[arg(long)]
+    bare: bool,
+}
+
+/// The formats of values over time; those of a golden file begin with CSV.
+const FORMATS: &[Format] = &[Format::Table, Format::Csv, Format::Json, Format::Npz];
+const GOLDEN_FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz, Format::Table];
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum SideArg {
+    /// The limit from earlier times
+    Left,
+    /// The limit from later times
+    Right,
+    /// Two rows where the limits differ, the limit from earlier times first
+    Both,
 }
 
 impl Sample {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = source::read(&self.scene)?;
-        let (Some(first), Some(last)) = (self.times.least(), self.times.greatest()) else {
-            return Err(failure!("found no times, expected at least one"));
-        };
-        let of_field = self.quantity.contains(&Quantity::Field);
-        if self.points.is_some() && !of_field {
-            return Err(failure!("found --points, expected them with --quantity field only"));
-        }
-        if of_field && self.quantity.len() > 1 {
-            return Err(failure!(
-                "found field beside others, expected it alone: its rows are points, theirs are times"
-            ));
-        }
-        if let Some(k) = (1..self.quantity.len()).find(|k| self.quantity[..*k].contains(&self.quantity[*k])) {
-            return Err(failure!("found --quantity {} twice, expected each once", self.quantity[k].name()));
-        }
-        if last.to_f64() < 0.0 {
-            return Err(failure!("found time {last}, expected times from 0 on"));
-        }
-        solve(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), self)
-    }
-
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Samples, Vec<S>), Error> {
-        let length = history.scales().length;
-        let precision = length.precision();
-        let points = match &self.points {
-            Some(points) => points.lift::<S>(&precision),
-            None => vec![length.zero(), length.clone() / length.int(2), length],
-        };
-        samples(history, &self.quantity, (&self.times.lift(&precision), &points), self.side, head)
+        self.args.run(false)
     }
 }
 
-impl Visit for Sample {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let head = Head { wide: self.output.wide, ..head };
-        let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
-        for by in self.derivatives.iter().copied() {
-            let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };
-            let points = match (&self.points, &self.quantity[..]) {
-                (Some(points), _) => points.numbers(),
-                (None, [Quantity::Field]) => List::Range(0.into(), history.problem().rod.length.clone(), 3).numbers(),
-                (None, _) => Some(Vec::new()),
-            };
-            let (times, points) = self.times.numbers().zip(points).ok_or_else(too_long)?;
-            let found = history.derivatives_at(by, &samples.quantities, &times, &points, self.side)?;
-            samples.derivatives.push((by, shared(found)));
+impl Reference {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let Some(language) = self.language else { return self.args.run(true) };
+        let scene = source::read(&self.args.scene)?;
+        let question = Question::run(self.args.numbers.numbers(&scene));
+        let destinations = self.args.output.destinations(Some(Format::Table), FORMATS)?;
+        solve(&scene, &question, &Function { scene: &scene, language, destinations })
+    }
+}
+
+impl SampleArgs {
+    fn run(&self, is_golden: bool) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
+        let destinations = self.output.destinations(self.format, known)?;
+        if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
+            return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
-        let head = Head { warnings: history.warnings(), ..head };
-        print(&self.output, head, progress, |head, format| file::rows(&samples_data(samples, head), format))?;
-        // Where that is not for the time asked for, as at rest.
-        if !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
-            eprintln!("note: {}", history.ending());
+        let times = self.times()?;
+        let mut points = self.points.clone();
+        if points.is_none() && self.quantity.iter().any(|name| name == "field") {
+            points = Some(List::Range(0.into(), scene.problem.rod.length.clone(), 3));
+        }
+        let quantities = self.quantities(&scene, points.is_some(), is_golden)?;
+        let side = match (self.side, is_golden && self.derivatives.is_empty()) {
+            (Some(SideArg::Left), _) => Some(Side::Left),
+            (Some(SideArg::Both), _) | (None, true) => None,
+            (Some(SideArg::Right), _) | (None, false) => Some(Side::Right),
+        };
+        if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
+            return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
+        }
+        let numbers = self.numbers.numbers(&scene);
+        let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
+            None => Question::run(numbers),
+            Some((Some(first), _)) if first.to_f64() < 0.0 => {
+                return Err(failure!("found time {first}, expected times from 0 on"));
+            }
+            // The history before the first time is part of these.
+            Some((Some(_), Some(last))) if quantities.iter().any(|quantity| quantity.is_of_past()) => {
+                Question::between(0.into(), last, numbers)
+            }
+            Some((Some(first), Some(last))) => Question::between(first, last, numbers),
+            Some(_) => return Err(failure!("found no times, expected at least one")),
+        };
+        solve(&scene, &question, &Rows { args: self, scene: &scene, destinations, times, points, quantities, side })
+    }
+
+    /// Returns the columns of the rows.
+    fn quantities(&self, scene: &Scene, is_field: bool, is_golden: bool) -> Result<Vec<Quantity>, Failure> {
+        let has_material = has_material(scene);
+        let scope = if is_field { Scope::AlongRod } else { Scope::OverTime };
+        if !is_field && self.quantity.iter().any(|name| name == "x") {
+            return Err(failure!("found the quantity x without points, expected --points with it"));
+        }
+        let listed = scope.resolve(&self.quantity, has_material)?;
+        Ok(match (listed.is_empty(), is_field) {
+            (true, true) if is_golden => SLICE.to_vec(),
+            (true, true) => self.with_keys(scope.resolve(&["field".into()], has_material)?, true),
+            (true, false) if is_golden => scope.quantities(),
+            (true, false) => return Err(failure!("found no quantity, expected some after --quantity, such as end")),
+            (false, _) if is_golden || listed.contains(&Quantity::Time) => listed,
+            (false, _) => self.with_keys(listed, is_field),
+        })
+    }
+
+    /// Returns `quantities` after the time, the side and, of a field, the point.
+    fn with_keys(&self, quantities: Vec<Quantity>, is_field: bool) -> Vec<Quantity> {
+        let keys = if is_field { &SLICE[..3] } else { &SLICE[..2] };
+        let others = quantities.into_iter().filter(|quantity| !keys.contains(quantity));
+        keys.iter().copied().chain(others).collect()
+    }
+
+    /// Returns the requested times; `None` for the start, every impact and release, and the end.
+    fn times(&self) -> Result<Option<List>, Failure> {
+        match (&self.times, &self.times_from, &self.dt, &self.to) {
+            (Some(list), ..) => Ok(Some(list.clone())),
+            (_, Some(path), ..) => read_times(path).map(Some),
+            (_, _, Some(dt), Some(to)) => List::steps(dt, to).map(Some).map_err(|error| failure!("{error}")),
+            _ => Ok(None),
+        }
+    }
+}
+
+/// Reads the times of a file, or of standard input for `-`: one a line; empty lines and the text after a `#` do not
+/// count.
+fn read_times(path: &Path) -> Result<List, Failure> {
+    let is_stdin = path == Path::new("-");
+    let name = if is_stdin { "standard input".to_string() } else { path.display().to_string() };
+    let cannot_read = || cannot(&format!("read {name}"));
+    let opened: Box<dyn Read> =
+        if is_stdin { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(cannot_read())?) };
+    let mut times = Vec::new();
+    for (line, row) in BufReader::new(opened).lines().zip(1..) {
+        let line = line.map_err(cannot_read())?;
+        let text = line.split('#').next().unwrap_or_default().trim_start_matches('\u{feff}').trim();
+        let values = text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|part| !part.is_empty());
+        match values.count() {
+            0 if text.is_empty() => continue,
+            1 => (),
+            count => return Err(failure!("{name}, row {row}: found {count} values, expected one time a line")),
+        }
+        let time: Number = text.parse().map_err(|error| failure!("{name}, row {row}: {error}"))?;
+        if time.to_f64() < 0.0 {
+            return Err(failure!("{name}, row {row}: found time {time}, expected times from 0 on"));
+        }
+        times.push(time);
+    }
+    if times.is_empty() {
+        Err(failure!("{name}: found no times, expected one a line"))
+    } else {
+        Ok(List::Numbers(times))
+    }
+}
+
+/// Rows that are computed at once.
+const CHUNK: usize = 1 << 14;
+
+/// Rows to write, each of a time or of a time and a point.
+struct Rows<'a> {
+    args: &'a SampleArgs,
+    scene: &'a Scene,
+    destinations: Vec<Destination>,
+    /// `None` for the start, the events and the end.
+    times: Option<List>,
+    points: Option<List>,
+    quantities: Vec<Quantity>,
+    /// `None` for both.
+    side: Option<Side>,
+}
+
+/// The values of a column.
+#[derive(Clone, Copy)]
+enum Values {
+    /// Those of a quantity, by its place among the quantities.
+    Quantity(usize),
+    /// Derivatives, by the place of the parameter and that of the quantity, on one side where the sides differ.
+    Derivative { parameter: usize, quantity: usize, side: Option<usize> },
+}
+
+/// Returns the start, the events and the end, each once.
+fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
+    let end = motion.end();
+    let mut times = vec![end.zero()];
+    for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
+        if times.last().map_or(Ok(true), |last| last.below(time))? {
+            times.push(time.clone());
+        }
+    }
+    Ok(times)
+}
+
+impl Rows<'_> {
+    /// Returns the values of a part of the times, column by column.
+    fn values<S: Target>(
+        &self,
+        history: &History<S>,
+        part: Range<usize>,
+        info: &RunInfo,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let times = |motion: &dyn Motion<S::Carried>| match &self.times {
+            Some(list) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
+            None => event_times(motion),
+        };
+        let Some(points) = &self.points else { return history.ask_columns(&self.quantities, self.side, times) };
+        let slices = history.ask_slices(self.args.field, self.side, |motion| {
+            Ok((points.lift(&motion.end().precision()), times(motion)?))
+        })?;
+        let stress = |motion: &dyn Motion<S::Carried>| Ok(Quantity::PointStress.factor(&motion.scales(), &info.units));
+        let factor = history.ask(stress, |factor| factor.iter().collect())?;
+        let column = |quantity: &Quantity| match (SLICE.iter().position(|known| known == quantity), &factor) {
+            (Some(place), _) => slices[place].clone(),
+            (None, Some(factor)) => slices[SLICE.len() - 1].iter().map(|strain| strain.clone() * factor).collect(),
+            (None, None) => slices[SLICE.len() - 1].clone(),
+        };
+        Ok(self.quantities.iter().map(column).collect())
+    }
+
+    /// Returns the derivatives of the quantities that have some, by each parameter.
+    fn derivatives<S: Target>(
+        &self,
+        history: &History<S>,
+        quantities: &[Quantity],
+    ) -> Result<Vec<Derivatives<S::Carried>>, Failure> {
+        let parameters = &self.args.derivatives;
+        let (Some(times), Some(side), Some(first)) = (&self.times, self.side, parameters.first()) else {
+            return Ok(Vec::new());
+        };
+        let points = self.points.as_ref().map_or_else(|| Some(Vec::new()), List::numbers);
+        let (times, points) = times
+            .numbers()
+            .zip(points)
+            .ok_or(Error::Derivative { parameter: first.name(), expected: "times and points of fewer digits" })?;
+        let by = |by: &Parameter| Ok(history.derivatives_at(*by, quantities, &times, &points, side)?);
+        parameters.iter().map(by).collect()
+    }
+
+    /// Returns the columns of a file, and the values of each; tables show the first `shown` of them.
+    fn columns<N>(
+        &self,
+        info: &RunInfo,
+        derived: &[usize],
+        derivatives: &[Derivatives<N>],
+    ) -> (Vec<(Column, Values)>, usize) {
+        let mut columns = Vec::new();
+        let mut add = |column: Column, values: Values| {
+            let bound = (self.args.uncertainty && column.kind == Kind::Number).then(|| Column {
+                name: format!("{}_uncertainty", column.name).into(),
+                symbol: "".into(),
+                meaning: format!("bound of the error of {}", column.name).into(),
+                kind: Kind::Bound,
+                ..column.clone()
+            });
+            columns.push((column, values));
+            columns.extend(bound.map(|bound| (bound, values)));
+        };
+        for (place, quantity) in self.quantities.iter().enumerate() {
+            add(Column::new(*quantity, &info.units), Values::Quantity(place));
+        }
+        let shown = self.quantities.len() + if self.args.uncertainty { self.count_numbers(info) } else { 0 };
+        for (parameter, (by, rows)) in self.args.derivatives.iter().zip(derivatives).enumerate() {
+            for (quantity, place) in derived.iter().enumerate() {
+                let of = Column::new(self.quantities[*place], &info.units);
+                let column = |side: &str| Column {
+                    name: format!("{}_by_{by}{side}", of.name).into(),
+                    symbol: format!("∂ {}", of.symbol).into(),
+                    meaning: format!("derivative of {} by {by}", of.name).into(),
+                    unit: "",
+                    kind: Kind::Number,
+                };
+                add(column(""), Values::Derivative { parameter, quantity, side: None });
+                // Most derivatives are the same from both sides.
+                let mut cells = rows.iter().filter_map(|row| row.get(quantity)?.as_ref());
+                if cells.any(|cell| cell.value().is_none()) {
+                    add(column("_left"), Values::Derivative { parameter, quantity, side: Some(0) });
+                    add(column("_right"), Values::Derivative { parameter, quantity, side: Some(1) });
+                }
+            }
+        }
+        (columns, shown)
+    }
+
+    fn count_numbers(&self, info: &RunInfo) -> usize {
+        self.quantities.iter().filter(|quantity| Column::new(**quantity, &info.units).kind == Kind::Number).count()
+    }
+}
+
+/// Returns the cell of `row` in a column.
+fn cell<'a, N>(values: Values, row: usize, table: &'a [Vec<N>], derivatives: &'a [Derivatives<N>]) -> Cell<'a, N> {
+    match values {
+        Values::Quantity(place) => Cell::Number(&table[place][row]),
+        Values::Derivative { parameter, quantity, side } => {
+            let found = derivatives[parameter][row][quantity].as_ref();
+            match (found, side) {
+                (Some(found), None) => found.value().map_or(Cell::Empty, Cell::Number),
+                (Some(found), Some(side)) if found.value().is_none() => match found.sides()[side] {
+                    Ok(number) => Cell::Number(number),
+                    Err(why) => Cell::Undefined(why),
+                },
+                (_, _) => Cell::Empty,
+            }
+        }
+    }
+}
+
+impl UseHistory for Rows<'_> {
+    /// Writes rows while the next ones are computed.
+    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
+        let keys = [Quantity::Time, Quantity::Side, Quantity::Point];
+        let places = 0..self.quantities.len();
+        let derived: Vec<usize> = places.filter(|place| !keys.contains(&self.quantities[*place])).collect();
+        let of: Vec<Quantity> = derived.iter().map(|place| self.quantities[*place]).collect();
+        let derivatives = self.derivatives(history, &of)?;
+        let (columns, shown) = self.columns(&info, &derived, &derivatives);
+        let (columns, values): (Vec<Column>, Vec<Values>) = columns.into_iter().unzip();
+        let writer = |destination: &Destination| RowWriter::new(destination.format, columns.clone(), info.digits);
+        let mut writers = self.destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        let count = self.times.as_ref().map_or(1, List::len);
+        // Derivatives are computed all at once.
+        let at_once = match derivatives.is_empty() {
+            true => CHUNK / self.points.as_ref().map_or(1, List::len).min(CHUNK),
+            false => count,
+        };
+        let (mut table, mut written): (Vec<Vec<S::Carried>>, _) = (Vec::new(), Ok(()));
+        let mut write = |table: &[Vec<S::Carried>]| {
+            let count = table.first().map_or(0, Vec::len);
+            writers
+                .iter_mut()
+                .try_for_each(|writer| writer.push(count, |row, column| cell(values[column], row, table, &derivatives)))
+        };
+        progress.set_stage("values of the answer");
+        for begin in (0..count).step_by(at_once) {
+            let (part, mut next) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
+            std::thread::scope(|scope| {
+                scope.spawn(|| written = write(&table));
+                next = self.values(history, part, &info);
+            });
+            std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
+            table = next?;
+        }
+        write(&table).map_err(cannot("keep the rows"))?;
+        let mut tables = String::new();
+        if self.destinations.iter().any(|destination| destination.format == Format::Table) {
+            for (by, rows) in self.args.derivatives.iter().zip(&derivatives) {
+                let labels = ("at", self.labels(&table, &info));
+                let symbols: Vec<_> = of.iter().map(|quantity| quantity.symbol()).enumerate().collect();
+                tables += &derivative_table(labels, &symbols, (*by, rows), |x| info.text(x), self.args.wide);
+            }
+        }
+        let info = RunInfo { warnings: history.warnings(), ..info };
+        if !self.destinations.iter().any(Destination::is_printed_table) {
+            progress.suspend(|| info.print_warnings());
+        }
+        drop(progress);
+        let end = S::carry(history.end());
+        let ends = self.times.is_none().then(|| note_end(history.ending(), &end, info.digits));
+        let below = format!("\n{tables}{}", info.below_values(&self.quantities));
+        let key_count = self.quantities.iter().take_while(|quantity| keys.contains(quantity)).count();
+        let layout = TableLayout { below, keys: (!self.args.wide).then_some(key_count.max(1)), shown };
+        let (numbers, until) = (history.plan().numbers, history.end().to_f64());
+        let header = Header { info, scene: self.scene.source(), numbers, subject: "each column", until, ends };
+        for (writer, destination) in writers.into_iter().zip(&self.destinations) {
+            writer.finish(&header, destination, self.args.bare, &layout)?;
+        }
+        // Values beyond the end of a history that rests are those of rest.
+        if self.times.is_some() && !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
+            terminal::note(history.ending());
         }
         Ok(())
+    }
+}
+
+impl Rows<'_> {
+    /// Returns a label for each row of derivatives: `t = 1/2   x = 0`.
+    fn labels<S: Scalar>(&self, table: &[Vec<S>], info: &RunInfo) -> Vec<String> {
+        let places = [(Quantity::Time, "t = "), (Quantity::Point, "x = ")]
+            .into_iter()
+            .filter_map(|(key, name)| Some((self.quantities.iter().position(|quantity| *quantity == key)?, name)));
+        let places: Vec<(usize, &str)> = places.collect();
+        let label = |row: usize| {
+            let texts = places.iter().map(|(place, name)| format!("{name}{}", info.text(&table[*place][row])));
+            texts.collect::<Vec<_>>().join("   ")
+        };
+        (0..table.first().map_or(0, Vec::len)).map(label).collect()
+    }
+}
+
+/// The solution of an undamped rod, to write as a function.
+struct Function<'a> {
+    scene: &'a Scene,
+    language: Language,
+    destinations: Vec<Destination>,
+}
+
+impl UseHistory for Function<'_> {
+    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
+        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
+        let info = RunInfo { warnings: history.warnings(), ..info };
+        progress.suspend(|| info.print_warnings());
+        drop(progress);
+        let end = S::carry(history.end());
+        let ends = Some(note_end(history.ending(), &end, info.digits));
+        let (numbers, until) = (history.plan().numbers, history.end().to_f64());
+        let header = Header { info, scene: self.scene.source(), numbers, subject: "each coefficient", until, ends };
+        let text = code(&waves, &end, self.language, &header);
+        write_all(&self.destinations, |_| Ok(text.clone().into_bytes()))
     }
 }

@@ -200,7 +200,8 @@ impl Column {
     }
 }
 
-#[derive(Default)]
+/// Named columns and rows, with the text around them.
+#[derive(Clone, Default)]
 pub(crate) struct Dataset {
     /// What JSON has above the rows, in its order.
     pub(crate) header: Vec<(&'static str, Value)>,

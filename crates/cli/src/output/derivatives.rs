@@ -1,15 +1,15 @@
-//! Derivatives of events and contacts: columns beside them in data, tables of their own for a person.
+//! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
 use std::rc::Rc;
 
 use super::dataset::{Cell, Column, Dataset, Shared};
-use super::record::Head;
+use super::table::TextTable;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity;
 use dalembert::solve::{Derivative, Derivatives};
 
-/// Derivatives in numbers that every writer takes.
+/// Returns derivatives in numbers that every writer takes.
 pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
     let share = |cell: Option<Derivative<S>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
     found.into_iter().map(|row| row.into_iter().map(share).collect()).collect()
@@ -47,29 +47,32 @@ pub(super) fn add_columns(
     }
 }
 
-/// A table of the derivatives by one value: `keys` say of what each row is, which is two where the sides differ.
-pub(super) fn table(
-    (what, keys): (&str, Vec<String>),
+/// Returns a table of the derivatives by one value. Each label names a row, which is two rows where the sides differ;
+/// `quantities` are places in a row with their symbols.
+pub(crate) fn derivative_table<N>(
+    (head, labels): (&str, Vec<String>),
     quantities: &[(usize, &str)],
-    (by, rows): (Parameter, &Derivatives<Shared>),
-    head: &Head,
+    (by, rows): (Parameter, &Derivatives<N>),
+    text: impl Fn(&N) -> String,
+    wide: bool,
 ) -> String {
-    let mut data = Dataset { digits: head.digits, keys: (!head.wide).then_some(2), ..Dataset::default() };
-    data.columns = vec![Column::table(what.to_string()).text(), Column::table("side").text()];
-    data.columns.extend(quantities.iter().map(|(_, symbol)| Column::table(format!("∂ {symbol}"))));
-    for (key, row) in keys.into_iter().zip(rows) {
+    let symbols: Vec<String> = quantities.iter().map(|(_, symbol)| format!("∂ {symbol}")).collect();
+    let head: Vec<&str> = [head, "side"].into_iter().chain(symbols.iter().map(String::as_str)).collect();
+    let mut lines = Vec::new();
+    for (label, row) in labels.into_iter().zip(rows) {
         let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
-        let both = cells.iter().flatten().all(|cell| cell.value().is_some());
-        let sides: &[(usize, &str)] = if both { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
+        let is_same = cells.iter().flatten().all(|cell| cell.value().is_some());
+        let sides: &[(usize, &str)] = if is_same { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
         for (side, word) in sides {
-            let mut line: Vec<Cell> = vec![key.clone().into(), (*word).into()];
+            let mut line = vec![label.clone(), (*word).into()];
             line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
-                Some(Ok(value)) => Cell::shared(Some(value)),
-                Some(Err(why)) => why.to_string().into(),
-                None => Cell::EMPTY,
+                Some(Ok(value)) => text(value),
+                Some(Err(why)) => why.to_string(),
+                None => "–".into(),
             }));
-            data.rows.push(line);
+            lines.push(line);
         }
     }
-    format!("\nby {by}:\n{}\n", data.table())
+    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!wide).then_some(2) };
+    format!("\nby {by}:\n{}\n", table.format())
 }

@@ -3,8 +3,9 @@
 use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use super::table::{WIDTH, wrapped};
+use super::table::wrapped;
 use crate::sweep::{self, Point, Sweep};
+use crate::terminal;
 use dalembert::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 
 /// What is said of the numbers of a point, each once.
@@ -60,7 +61,10 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         row
     };
     let rows = points.iter().map(&mut row).collect();
-    let below = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
+    let below = below
+        .iter()
+        .enumerate()
+        .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
     let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
     let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
@@ -68,8 +72,8 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         header: vec![
             ("schema", 1.into()),
             ("title", title.into()),
-            ("number", sweep.asked.numbers.to_string().into()),
-            ("time", json!(sweep.asked.time)),
+            ("number", sweep.request.numbers.to_string().into()),
+            ("time", json!(sweep.request.time)),
             ("units", units.collect::<Map<_, _>>().into()),
             ("vary", vary.collect::<Value>()),
         ],

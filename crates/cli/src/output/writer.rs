@@ -1,4 +1,4 @@
-//! Rows as JSON, CSV and NPZ.
+//! Data sets as JSON, CSV and NPZ.
 
 use std::io::{self, Cursor};
 
@@ -6,30 +6,20 @@ use serde_json::{Map, Value};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::npz::Npz;
+use crate::failure::{Failure, cannot};
+use crate::file::Format;
 use dalembert::number::DOUBLE_DIGITS;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
-    Table,
-    Json,
-    Csv,
-    Npz,
-    Markdown,
-    Svg,
-    Png,
-    Pdf,
-}
 
 /// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
 pub(crate) const SCHEMA: &str = include_str!("schema.json");
 
-/// Where the bounds of numbers stand in a row, each under the key of its number.
+/// Key of the bounds of a row, each under the key of its number.
 const UNCERTAINTY: &str = "uncertainty";
-/// Where numbers may stand apart from the keys of a row; their bounds do without it.
+/// Prefix of the keys of numbers that stand in an object of their own; their bounds do without it.
 const VALUES: &str = "values/";
 
 impl Dataset {
-    /// The header, and an object for each row; without a header the list of these.
+    /// Returns the header and an object for each row; without a header the list of objects.
     pub(crate) fn json(&self) -> Value {
         if self.header.is_empty() {
             return self.objects().into();
@@ -42,8 +32,8 @@ impl Dataset {
         self.rows.iter().map(|row| object(self, row)).collect()
     }
 
-    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and
-    /// the notes in comments above, which readers of CSV skip.
+    /// Returns the rows below the names of their columns, the bounds of numbers in columns after all others, and the
+    /// notes in comments above, which readers of CSV skip.
     pub(crate) fn csv(&self) -> Result<String, csv::Error> {
         let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
         let named = |column: &&Column| column.name.is_some();
@@ -74,7 +64,8 @@ impl Dataset {
         Ok(comments + &String::from_utf8_lossy(&bytes))
     }
 
-    /// Whole numbers where all are, doubles otherwise, not a number where there is none; and the shape of the grid.
+    /// Returns an array for each column, of whole numbers where all are, otherwise of doubles, NaN where a number is
+    /// missing; and the shape of the grid.
     pub(crate) fn npz(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Cursor::new(Vec::new());
         let mut npz = Npz::new(&mut bytes, true);
@@ -99,6 +90,22 @@ impl Dataset {
     }
 }
 
+/// Returns rows as the bytes of a file.
+pub(crate) fn rows_bytes(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
+    match format {
+        Format::Table => Ok(data.table().into_bytes()),
+        Format::Json => Ok(json_bytes(&data.json())),
+        Format::Npz => data.npz().map_err(cannot("write NPZ")),
+        _ => Ok(data.csv().map_err(|error| failure!("cannot write CSV: {error}"))?.into_bytes()),
+    }
+}
+
+/// Returns JSON as the bytes of a file.
+pub(crate) fn json_bytes(value: &Value) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
+}
+
+/// Returns a row as an object, with the bounds of its numbers.
 fn object(data: &Dataset, row: &[Cell]) -> Value {
     let (mut object, mut bounds) = (Map::new(), Map::new());
     for (column, cell) in data.columns.iter().zip(row) {
@@ -128,7 +135,7 @@ fn object(data: &Dataset, row: &[Cell]) -> Value {
     object.into()
 }
 
-/// Puts `value` under `key`, which names the objects that it is in before a `/`.
+/// Inserts `value` under `key`, in which a `/` follows the name of an object inside.
 fn insert(object: &mut Map<String, Value>, key: &str, value: Value) {
     match key.split_once('/') {
         None => drop(object.insert(key.into(), value)),

@@ -1,4 +1,4 @@
-//! What is asked of the points of a sweep, and their answers, on all threads.
+//! The numbers of the points of a sweep, computed on all threads.
 
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
@@ -16,7 +16,7 @@ use dalembert::quantity::{Needs, One, Quantity, UnitSystem, Units};
 use dalembert::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
 
 #[derive(Clone, Debug)]
-pub(crate) struct Asked {
+pub(crate) struct Request {
     pub(crate) quantities: Vec<Quantity>,
     /// For quantities at a time; at the first bounce without it.
     pub(crate) time: Option<Number>,
@@ -68,10 +68,10 @@ impl Cell {
     }
 }
 
-impl Asked {
+impl Request {
     /// The numbers of a problem. What cannot be answered is an answer too; quantities that the same run answers share
     /// it.
-    fn cells_of(&self, problem: Result<Problem, ProblemError>) -> Vec<Cell> {
+    fn cells(&self, problem: Result<Problem, ProblemError>) -> Vec<Cell> {
         let problem = match &problem {
             Ok(problem) => problem,
             Err(error) => return vec![Cell::none(error); self.quantities.len()],
@@ -164,11 +164,11 @@ pub fn sweep(
     go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
 ) -> Result<Vec<Vec<Cell>>, Error> {
     let (quantities, units) = (quantities.to_vec(), UnitSystem::default());
-    let asked = Asked { quantities, time: time.cloned(), numbers, units };
+    let request = Request { quantities, time: time.cloned(), numbers, units };
     (0..count)
         .into_par_iter()
         .map(|k| match go_on() {
-            ControlFlow::Continue(()) => Ok(asked.cells_of(problem(k))),
+            ControlFlow::Continue(()) => Ok(request.cells(problem(k))),
             ControlFlow::Break(()) => Err(Error::Interrupted),
         })
         .collect::<Result<Vec<_>, _>>()
@@ -177,15 +177,15 @@ pub fn sweep(
 #[derive(Debug)]
 pub(crate) struct Sweep {
     pub(crate) grid: Grid,
-    pub(crate) asked: Asked,
+    pub(crate) request: Request,
 }
 
 impl Sweep {
     /// The quantities with their units, which are the same at every point.
     pub(crate) fn units(&self) -> impl Iterator<Item = (Quantity, &'static str)> {
         let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(index).ok());
-        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.asked.units));
-        self.asked.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
+        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.request.units));
+        self.request.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
     }
 
     /// All `points`, in order: those that are `known`, and the others, which `done` receives as they are finished; it
@@ -207,7 +207,7 @@ impl Sweep {
                 Some(point) => Ok(point.clone()),
                 None => {
                     let index = points.start + place;
-                    let point = Point { index, cells: self.asked.cells_of(self.grid.problem(index)) };
+                    let point = Point { index, cells: self.request.cells(self.grid.problem(index)) };
                     done(&point).map(|()| point)
                 }
             })

@@ -1,0 +1,324 @@
+//! Rows of named columns, written as they are computed: a table, CSV, JSON or NPZ.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+
+use serde::ser::{Error, SerializeSeq};
+use serde::{Serialize, Serializer};
+use serde_json::value::RawValue;
+
+use super::header::{Header, HeaderJson};
+use super::json::number_json;
+use super::npz::Npz;
+use super::table::{TextTable, table_digits};
+use crate::failure::{Failure, cannot};
+use crate::file::{Destination, Format};
+use dalembert::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, show, shown_bound};
+use dalembert::quantity::{Quantity, Units};
+use dalembert::solve::NoDerivative;
+
+/// The kind of values in a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Numbers.
+    Number,
+    /// Bounds of the errors of numbers.
+    Bound,
+    /// Sides of a jump: −1, 0 and 1 stand for left, both and right.
+    Side,
+    /// 0 or 1.
+    Flag,
+}
+
+/// A column of rows.
+#[derive(Clone, Debug)]
+pub(crate) struct Column {
+    pub(crate) name: Cow<'static, str>,
+    pub(crate) symbol: Cow<'static, str>,
+    pub(crate) meaning: Cow<'static, str>,
+    /// Empty if there is none or none is known.
+    pub(crate) unit: &'static str,
+    pub(crate) kind: Kind,
+}
+
+impl Column {
+    /// Returns the column of a quantity.
+    pub(crate) fn new(quantity: Quantity, units: &Units) -> Self {
+        let kind = match quantity {
+            Quantity::Side => Kind::Side,
+            Quantity::Contact => Kind::Flag,
+            _ => Kind::Number,
+        };
+        let (name, symbol, meaning) = (quantity.name().into(), quantity.symbol().into(), quantity.meaning().into());
+        Column { name, symbol, meaning, unit: quantity.unit(units), kind }
+    }
+
+    pub(super) fn has_bound(&self) -> bool {
+        self.kind == Kind::Number
+    }
+}
+
+/// A value of a row.
+#[derive(Debug)]
+pub(crate) enum Cell<'a, S> {
+    /// A number; in a column of bounds, the number whose bound is written.
+    Number(&'a S),
+    /// The reason why a derivative does not exist.
+    Undefined(NoDerivative),
+    /// No value.
+    Empty,
+}
+
+/// The text around a table.
+#[derive(Debug, Default)]
+pub(crate) struct TableLayout {
+    pub(crate) below: String,
+    /// Number of columns that each part of a table begins with that is too wide for a page; `None` to keep it wide.
+    pub(crate) keys: Option<usize>,
+    /// Number of columns, from the first, that a table shows.
+    pub(crate) shown: usize,
+}
+
+/// Rows that are kept in temporary files until their bounds, which stand above them, are known.
+#[derive(Debug)]
+pub(crate) struct RowWriter {
+    format: Format,
+    columns: Vec<Column>,
+    /// Digits of a long number; 0 for doubles and fractions.
+    digits: u32,
+    /// One file with the text of all rows, or one with the doubles of each column.
+    kept: Vec<BufWriter<File>>,
+    table: Vec<Vec<String>>,
+    /// `log₂` of the bound of each column.
+    bounds: Vec<f64>,
+    count: usize,
+}
+
+const BUFFER: usize = 1 << 16;
+
+impl RowWriter {
+    /// Returns a writer without rows.
+    pub(crate) fn new(format: Format, columns: Vec<Column>, digits: u32) -> Result<Self, Failure> {
+        let files = if format == Format::Npz { columns.len() } else { 1 };
+        let kept = (0..files).map(|_| Ok(BufWriter::with_capacity(BUFFER, tempfile::tempfile()?)));
+        let kept = kept.collect::<io::Result<_>>().map_err(cannot("keep the rows"))?;
+        let bounds = vec![f64::NEG_INFINITY; columns.len()];
+        Ok(RowWriter { format, columns, digits, kept, table: Vec::new(), bounds, count: 0 })
+    }
+
+    /// Adds `count` rows; `cell` returns the value of a row, counted from 0, and a column.
+    pub(crate) fn push<'a, S: Scalar>(
+        &mut self,
+        count: usize,
+        cell: impl Fn(usize, usize) -> Cell<'a, S>,
+    ) -> io::Result<()> {
+        for column in 0..self.columns.len() {
+            let bounds = (0..count).filter_map(|row| match cell(row, column) {
+                Cell::Number(value) => Some(self.bound(value)),
+                Cell::Undefined(_) | Cell::Empty => None,
+            });
+            self.bounds[column] = bounds.fold(self.bounds[column], f64::max);
+        }
+        match self.format {
+            Format::Npz => {
+                for column in 0..self.columns.len() {
+                    for row in 0..count {
+                        let double = self.double(column, &cell(row, column));
+                        self.kept[column].write_all(&double.to_le_bytes())?;
+                    }
+                }
+            }
+            Format::Table => {
+                for row in 0..count {
+                    let texts = (0..self.columns.len()).map(|column| self.text(column, &cell(row, column)));
+                    self.table.push(texts.collect());
+                }
+            }
+            _ => {
+                let mut text = Vec::with_capacity(BUFFER);
+                for row in 0..count {
+                    self.write_row(&mut text, |column| cell(row, column));
+                    if text.len() > BUFFER / 2 || row + 1 == count {
+                        self.kept[0].write_all(&text)?;
+                        text.clear();
+                    }
+                }
+            }
+        }
+        self.count += count;
+        Ok(())
+    }
+
+    /// Writes all rows to `destination`; a CSV below its comments unless it is `bare`.
+    pub(crate) fn finish(
+        self,
+        header: &Header<'_>,
+        destination: &Destination,
+        bare: bool,
+        layout: &TableLayout,
+    ) -> Result<(), Failure> {
+        let RowWriter { format, columns, kept, table, bounds, count, .. } = self;
+        let rewound = |file: BufWriter<File>| {
+            let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+            file.rewind()?;
+            Ok(file)
+        };
+        let mut kept =
+            kept.into_iter().map(rewound).collect::<io::Result<Vec<File>>>().map_err(cannot("keep the rows"))?;
+        destination.write_with(|file| match format {
+            Format::Table => {
+                let head: Vec<&str> = columns[..layout.shown].iter().map(|column| column.name.as_ref()).collect();
+                let rows = table.into_iter().map(|mut row| {
+                    row.truncate(layout.shown);
+                    row
+                });
+                let table = TextTable { head: &head, rows: rows.collect(), words: 0, keys: layout.keys };
+                write!(file, "{}{}", table.format(), layout.below)
+            }
+            Format::Json => {
+                let rows = JsonRows(BufReader::with_capacity(BUFFER, kept.swap_remove(0)).into());
+                let document = Document { header: header.to_json(&columns, &bounds, false), rows };
+                let mut out = BufWriter::with_capacity(BUFFER, file);
+                serde_json::to_writer_pretty(&mut out, &document)?;
+                out.write_all(b"\n")?;
+                out.flush()
+            }
+            Format::Npz => {
+                let mut npz = Npz::new(file, false);
+                let header = serde_json::to_vec_pretty(&header.to_json(&columns, &bounds, true))?;
+                npz.add("header", &[header.len()], header)?;
+                for (column, values) in columns.iter().zip(kept) {
+                    let mut values = BufReader::new(values);
+                    let mut next = || {
+                        let mut bytes = [0; 8];
+                        values.read_exact(&mut bytes).map(|()| f64::from_le_bytes(bytes))
+                    };
+                    let values = (0..count).map(|_| next()).collect::<Result<Vec<_>, _>>()?;
+                    match column.kind {
+                        Kind::Side | Kind::Flag => {
+                            npz.add(&column.name, &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>())
+                        }
+                        Kind::Number | Kind::Bound => npz.add(&column.name, &[count], values),
+                    }?;
+                }
+                npz.finish()
+            }
+            _ => {
+                let comments = if bare { String::new() } else { header.comments(&columns, &bounds) };
+                let names: Vec<&str> = columns.iter().map(|column| column.name.as_ref()).collect();
+                writeln!(file, "{comments}{}", names.join(","))?;
+                io::copy(&mut kept[0], file).map(drop)
+            }
+        })
+    }
+
+    /// Returns `log₂` of how far the number meant may lie from what is written.
+    fn bound<S: Scalar>(&self, value: &S) -> f64 {
+        match value.as_double() {
+            // A number that is zero within its bound is written as zero, and is at most that bound.
+            Some(_) if value.vanishes() == Ok(true) => value.log2_error() + 1.0,
+            Some(_) => value.log2_error(),
+            None if self.format == Format::Npz => double_bound(value),
+            None => shown_bound(value, self.shown_digits()),
+        }
+    }
+
+    fn shown_digits(&self) -> u32 {
+        if self.digits == 0 { DOUBLE_DIGITS } else { self.digits }
+    }
+
+    fn double<S: Scalar>(&self, column: usize, cell: &Cell<'_, S>) -> f64 {
+        match (cell, self.columns[column].kind) {
+            (Cell::Number(value), Kind::Bound) => bound_of_log2(self.bound(*value)).parse().unwrap_or(f64::NAN),
+            (Cell::Number(value), _) => written_double(*value),
+            (Cell::Undefined(_) | Cell::Empty, _) => f64::NAN,
+        }
+    }
+
+    /// Returns the text of a table.
+    fn text<S: Scalar>(&self, column: usize, cell: &Cell<'_, S>) -> String {
+        match (cell, self.columns[column].kind) {
+            (Cell::Number(value), Kind::Number) => show(*value, table_digits(self.digits)),
+            (Cell::Number(value), Kind::Bound) => bound_of_log2(self.bound(*value)),
+            (Cell::Number(value), Kind::Side) => side_word(*value).into(),
+            (Cell::Number(value), Kind::Flag) => flag(*value).into(),
+            (Cell::Undefined(why), _) => why.to_string(),
+            (Cell::Empty, _) => "–".into(),
+        }
+    }
+
+    /// Adds the text of a row of CSV or JSON.
+    fn write_row<'a, S: Scalar>(&self, text: &mut Vec<u8>, cell: impl Fn(usize) -> Cell<'a, S>) {
+        let [begin, between, end] = if self.format == Format::Json { ["[", ", ", "]\n"] } else { ["", ",", "\n"] };
+        text.extend_from_slice(begin.as_bytes());
+        for column in 0..self.columns.len() {
+            if column > 0 {
+                text.extend_from_slice(between.as_bytes());
+            }
+            self.write_cell(text, self.columns[column].kind, &cell(column));
+        }
+        text.extend_from_slice(end.as_bytes());
+    }
+
+    fn write_cell<S: Scalar>(&self, text: &mut Vec<u8>, kind: Kind, cell: &Cell<'_, S>) {
+        let is_json = self.format == Format::Json;
+        let quote = if is_json { "\"" } else { "" };
+        let mut quoted =
+            |word: &str| [quote, word, quote].iter().for_each(|part| text.extend_from_slice(part.as_bytes()));
+        match (cell, kind) {
+            (Cell::Number(value), Kind::Side) => quoted(side_word(*value)),
+            (Cell::Number(value), Kind::Flag) => text.extend_from_slice(flag(*value).as_bytes()),
+            (Cell::Number(value), Kind::Bound) => {
+                let bound = bound_of_log2(self.bound(*value));
+                // A bound below the least double is a text.
+                let is_double = bound.parse::<f64>().is_ok_and(|double| double > 0.0 || bound == "0");
+                if is_double { text.extend_from_slice(bound.as_bytes()) } else { quoted(&bound) }
+            }
+            (Cell::Number(value), Kind::Number) => match value.as_double() {
+                // The shortest text that reads as the same double.
+                Some(_) => text.extend_from_slice(ryu::Buffer::new().format(written_double(*value)).as_bytes()),
+                None if is_json => text.extend_from_slice(number_json(*value, self.digits).to_string().as_bytes()),
+                None => text.extend_from_slice(show(*value, self.shown_digits()).as_bytes()),
+            },
+            (Cell::Undefined(why), _) if is_json => quoted(why.name()),
+            (Cell::Empty, _) if is_json => text.extend_from_slice(b"null"),
+            (Cell::Undefined(_) | Cell::Empty, _) => (),
+        }
+    }
+}
+
+fn side_word<S: Scalar>(value: &S) -> &'static str {
+    ["left", "both", "right"][(value.to_f64() + 1.0) as usize]
+}
+
+fn flag<S: Scalar>(value: &S) -> &'static str {
+    if value.to_f64() > 0.0 { "1" } else { "0" }
+}
+
+/// Returns the double that is written: zero for a number that is zero within its bound, and never a negative zero.
+fn written_double<S: Scalar>(value: &S) -> f64 {
+    if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
+}
+
+/// A JSON file.
+#[derive(Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    header: HeaderJson<'a>,
+    rows: JsonRows,
+}
+
+/// Rows of JSON, one a line of a file.
+struct JsonRows(std::cell::RefCell<BufReader<File>>);
+
+impl Serialize for JsonRows {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut rows = serializer.serialize_seq(None)?;
+        for line in self.0.borrow_mut().by_ref().lines() {
+            let row = RawValue::from_string(line.map_err(S::Error::custom)?).map_err(S::Error::custom)?;
+            rows.serialize_element(&row)?;
+        }
+        rows.end()
+    }
+}
