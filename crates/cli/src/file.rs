@@ -88,7 +88,7 @@ pub(crate) fn format(path: &Path, requested: Option<Format>, known: &[Format]) -
 /// A file or standard output, and the format of what is written there.
 #[derive(Clone, Debug)]
 pub(crate) struct Destination {
-    /// `None` for standard output.
+    /// Path of the file; `None` stands for standard output.
     pub(crate) path: Option<PathBuf>,
     pub(crate) format: Format,
 }

@@ -1,23 +1,22 @@
 //! `dalembert plot`.
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use clap::Args;
 use clap::builder::PossibleValue;
 
-use crate::answer::{UseHistory, solve};
+use crate::answer::{Answer, solve};
 use crate::args::{NumberArgs, OutputArgs, words};
 use crate::failure::Failure;
 use crate::file::{self, Format, PICTURES, formats, write_all};
 use crate::output::RunInfo;
-use crate::progress::Progress;
 use crate::quantities::{NameParser, Scope};
 use crate::{source, terminal};
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::solve::{History, Numbers, Question, Target};
+use dalembert::quantity::Units;
+use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
 use dalembert_plot::draw::Size;
 use dalembert_plot::{Along, Asked, Gathered, Picture, heading, sheet};
 
@@ -144,9 +143,35 @@ impl Plot {
             None => Question::run(numbers),
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
-        let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
-        solve(scene, &question, &gather)?;
-        gather.found.into_inner().ok_or_else(|| failure!("found no history of {name}"))
+        let Answer { history, info, progress } = solve(scene, &question)?;
+        let found = history.visit(Gather { name: file, scene, asked, units: info.units.clone() })?;
+        drop(progress);
+        RunInfo { warnings: history.warnings(), ..info }.print_warnings();
+        note_span(file, asked, &found, &history);
+        Ok(found)
+    }
+}
+
+/// Prints notes on the part of a history that is drawn.
+fn note_span(name: &str, asked: &Asked, found: &Gathered, history: &History) {
+    let ([from, to], end) = (found.span, found.end);
+    let note = |text: String| terminal::note(format!("{name}: {text}"));
+    let short = |time: f64| time.decimal(6);
+    let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
+    let is_short = asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
+    if end < history.end().to_f64() {
+        note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
+    } else if asked.over_time() && asked.to.is_none() && (to < end || from > asked.from.unwrap_or(0.0)) {
+        let (from, to, end) = (short(from), short(to), short(end));
+        note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
+    } else if is_short {
+        note(format!("the history ends at t = {}: {}", short(end), history.ending()));
+    }
+    if let Some(columns) = found.coarse() {
+        note(format!(
+            "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
+            columns.decimal(2)
+        ));
     }
 }
 
@@ -170,42 +195,18 @@ fn name_by_differences(scenes: &mut [Gathered]) {
     }
 }
 
-/// Gathers the data of the pictures from a history.
+/// A request for the data of the pictures of a history, whatever its numbers.
 struct Gather<'a> {
     name: &'a str,
     scene: &'a Scene,
     asked: &'a Asked,
-    found: RefCell<Option<Gathered>>,
+    units: Units,
 }
 
-impl UseHistory for Gather<'_> {
-    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
-        let found = self.asked.gather(self.name.into(), &self.scene.problem, info.units.clone(), history)?;
-        drop(progress);
-        RunInfo { warnings: history.warnings(), ..info }.print_warnings();
-        let ([from, to], end) = (found.span, found.end);
-        let note = |text: String| terminal::note(format!("{}: {text}", self.name));
-        let short = |time: f64| time.decimal(6);
-        let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
-        let short_of = self.asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
-        if end < history.end().to_f64() {
-            note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
-        } else if self.asked.over_time()
-            && self.asked.to.is_none()
-            && (to < end || from > self.asked.from.unwrap_or(0.0))
-        {
-            let (from, to, end) = (short(from), short(to), short(end));
-            note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
-        } else if short_of {
-            note(format!("the history ends at t = {}: {}", short(end), history.ending()));
-        }
-        if let Some(columns) = found.coarse() {
-            note(format!(
-                "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
-                columns.decimal(2)
-            ));
-        }
-        self.found.replace(Some(found));
-        Ok(())
+impl Visitor for Gather<'_> {
+    type Output = Result<Gathered, dalembert::Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        self.asked.gather(self.name.into(), &self.scene.problem, self.units, history)
     }
 }

@@ -7,20 +7,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::answer::{UseHistory, note_end, solve};
+use crate::answer::{Answer, solve};
 use crate::args::{NumberArgs, OutputArgs, list, words};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, formats, write_all};
 use crate::output::{Cell, Column, Header, Kind, Language, RowWriter, RunInfo, TableLayout, code, derivative_table};
-use crate::progress::Progress;
 use crate::quantities::{NameParser, Scope, has_material};
 use crate::{source, terminal};
-use dalembert::engine::Motion;
-use dalembert::number::{List, Number, Scalar};
+use dalembert::number::{List, Number};
 use dalembert::problem::Parameter;
 use dalembert::quantity::{Quantity, SLICE, Slice};
-use dalembert::solve::{Derivatives, History, Question, Target};
-use dalembert::{Ending, Error, Scene, Side};
+use dalembert::solve::{Derivatives, History, Places, Question};
+use dalembert::{Ending, Error, Scene, Side, Value};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Without times, the rows are the start, every impact and release, and the end.\n\n\
@@ -129,7 +127,13 @@ impl Reference {
         let scene = source::read(&self.args.scene)?;
         let question = Question::run(self.args.numbers.numbers(&scene));
         let destinations = self.args.output.destinations(Some(Format::Table), FORMATS)?;
-        solve(&scene, &question, &Function { scene: &scene, language, destinations })
+        let Answer { history, info, progress } = solve(&scene, &question)?;
+        let info = RunInfo { warnings: history.warnings(), ..info };
+        progress.suspend(|| info.print_warnings());
+        let header = Header::new(&history, info, scene.source(), "each coefficient", true);
+        let text = code(&history, language, &header)?;
+        drop(progress);
+        write_all(&destinations, |_| Ok(text.clone().into_bytes()))
     }
 }
 
@@ -168,7 +172,8 @@ impl SampleArgs {
             Some((Some(first), Some(last))) => Question::between(first, last, numbers),
             Some(_) => return Err(failure!("found no times, expected at least one")),
         };
-        solve(&scene, &question, &Rows { args: self, scene: &scene, destinations, times, points, quantities, side })
+        let rows = Rows { args: self, scene: &scene, times, points, quantities, side };
+        rows.write(solve(&scene, &question)?, &destinations)
     }
 
     /// Returns the columns of the rows.
@@ -245,87 +250,51 @@ const CHUNK: usize = 1 << 14;
 struct Rows<'a> {
     args: &'a SampleArgs,
     scene: &'a Scene,
-    destinations: Vec<Destination>,
-    /// `None` for the start, the events and the end.
+    /// Times; `None` stands for the start, the events and the end.
     times: Option<List>,
     points: Option<List>,
     quantities: Vec<Quantity>,
-    /// `None` for both.
+    /// Limit at a jump; `None` stands for both.
     side: Option<Side>,
 }
 
 /// The values of a column.
 #[derive(Clone, Copy)]
 enum Values {
-    /// Those of a quantity, by its place among the quantities.
+    /// Values of a quantity, by its place among the quantities.
     Quantity(usize),
     /// Derivatives, by the place of the parameter and that of the quantity, on one side where the sides differ.
     Derivative { parameter: usize, quantity: usize, side: Option<usize> },
 }
 
-/// Returns the start, the events and the end, each once.
-fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
-    let end = motion.end();
-    let mut times = vec![end.zero()];
-    for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
-        if times.last().map_or(Ok(true), |last| last.below(time))? {
-            times.push(time.clone());
-        }
-    }
-    Ok(times)
-}
-
 impl Rows<'_> {
     /// Returns the values of a part of the times, column by column.
-    fn values<S: Target>(
-        &self,
-        history: &History<S>,
-        part: Range<usize>,
-        info: &RunInfo,
-    ) -> Result<Vec<Vec<S::Carried>>, Error> {
-        let times = |motion: &dyn Motion<S::Carried>| match &self.times {
-            Some(list) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
-            None => event_times(motion),
-        };
-        let Some(points) = &self.points else { return history.ask_columns(&self.quantities, self.side, times) };
-        let slices = history.ask_slices(self.args.field, self.side, |motion| {
-            Ok((points.lift(&motion.end().precision()), times(motion)?))
-        })?;
-        let stress = |motion: &dyn Motion<S::Carried>| Ok(Quantity::PointStress.factor(&motion.scales(), &info.units));
-        let factor = history.ask(stress, |factor| factor.iter().collect())?;
-        let column = |quantity: &Quantity| match (SLICE.iter().position(|known| known == quantity), &factor) {
-            (Some(place), _) => slices[place].clone(),
-            (None, Some(factor)) => slices[SLICE.len() - 1].iter().map(|strain| strain.clone() * factor).collect(),
-            (None, None) => slices[SLICE.len() - 1].clone(),
-        };
-        Ok(self.quantities.iter().map(column).collect())
+    fn values(&self, history: &History, part: Range<usize>) -> Result<Vec<Vec<Value>>, Error> {
+        let times = self.times.as_ref().map_or(Places::Events, |list| Places::Part(list, part));
+        match &self.points {
+            None => history.sample(&self.quantities, &times, self.side),
+            Some(points) => history.sample_along(&self.quantities, self.args.field, &points.into(), &times, self.side),
+        }
     }
 
-    /// Returns the derivatives of the quantities that have some, by each parameter.
-    fn derivatives<S: Target>(
-        &self,
-        history: &History<S>,
-        quantities: &[Quantity],
-    ) -> Result<Vec<Derivatives<S::Carried>>, Failure> {
+    /// Returns the derivatives of `quantities` by each parameter.
+    fn derivatives(&self, history: &History, quantities: &[Quantity]) -> Result<Vec<Derivatives<Value>>, Error> {
         let parameters = &self.args.derivatives;
         let (Some(times), Some(side), Some(first)) = (&self.times, self.side, parameters.first()) else {
             return Ok(Vec::new());
         };
         let points = self.points.as_ref().map_or_else(|| Some(Vec::new()), List::numbers);
-        let (times, points) = times
-            .numbers()
-            .zip(points)
-            .ok_or(Error::Derivative { parameter: first.name(), expected: "times and points of fewer digits" })?;
-        let by = |by: &Parameter| Ok(history.derivatives_at(*by, quantities, &times, &points, side)?);
-        parameters.iter().map(by).collect()
+        let too_long = Error::Derivative { parameter: first.name(), expected: "times and points of fewer digits" };
+        let (times, points) = times.numbers().zip(points).ok_or(too_long)?;
+        parameters.iter().map(|by| history.derivatives_at(*by, quantities, &times, &points, side)).collect()
     }
 
     /// Returns the columns of a file, and the values of each; tables show the first `shown` of them.
-    fn columns<N>(
+    fn columns(
         &self,
         info: &RunInfo,
         derived: &[usize],
-        derivatives: &[Derivatives<N>],
+        derivatives: &[Derivatives<Value>],
     ) -> (Vec<(Column, Values)>, usize) {
         let mut columns = Vec::new();
         let mut add = |column: Column, values: Values| {
@@ -371,7 +340,7 @@ impl Rows<'_> {
 }
 
 /// Returns the cell of `row` in a column.
-fn cell<'a, N>(values: Values, row: usize, table: &'a [Vec<N>], derivatives: &'a [Derivatives<N>]) -> Cell<'a, N> {
+fn cell<'a>(values: Values, row: usize, table: &'a [Vec<Value>], derivatives: &'a [Derivatives<Value>]) -> Cell<'a> {
     match values {
         Values::Quantity(place) => Cell::Number(&table[place][row]),
         Values::Derivative { parameter, quantity, side } => {
@@ -388,26 +357,28 @@ fn cell<'a, N>(values: Values, row: usize, table: &'a [Vec<N>], derivatives: &'a
     }
 }
 
-impl UseHistory for Rows<'_> {
+impl Rows<'_> {
     /// Writes rows while the next ones are computed.
-    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
+    fn write(&self, answer: Answer, destinations: &[Destination]) -> Result<(), Failure> {
+        let Answer { history, info, progress } = answer;
+        let info = RunInfo { wide: self.args.wide, ..info };
         let keys = [Quantity::Time, Quantity::Side, Quantity::Point];
         let places = 0..self.quantities.len();
         let derived: Vec<usize> = places.filter(|place| !keys.contains(&self.quantities[*place])).collect();
         let of: Vec<Quantity> = derived.iter().map(|place| self.quantities[*place]).collect();
-        let derivatives = self.derivatives(history, &of)?;
+        let derivatives = self.derivatives(&history, &of)?;
         let (columns, shown) = self.columns(&info, &derived, &derivatives);
         let (columns, values): (Vec<Column>, Vec<Values>) = columns.into_iter().unzip();
         let writer = |destination: &Destination| RowWriter::new(destination.format, columns.clone(), info.digits);
-        let mut writers = self.destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let count = self.times.as_ref().map_or(1, List::len);
         // Derivatives are computed all at once.
         let at_once = match derivatives.is_empty() {
             true => CHUNK / self.points.as_ref().map_or(1, List::len).min(CHUNK),
             false => count,
         };
-        let (mut table, mut written): (Vec<Vec<S::Carried>>, _) = (Vec::new(), Ok(()));
-        let mut write = |table: &[Vec<S::Carried>]| {
+        let (mut table, mut written): (Vec<Vec<Value>>, _) = (Vec::new(), Ok(()));
+        let mut write = |table: &[Vec<Value>]| {
             let count = table.first().map_or(0, Vec::len);
             writers
                 .iter_mut()
@@ -418,33 +389,30 @@ impl UseHistory for Rows<'_> {
             let (part, mut next) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
             std::thread::scope(|scope| {
                 scope.spawn(|| written = write(&table));
-                next = self.values(history, part, &info);
+                next = self.values(&history, part);
             });
             std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
             table = next?;
         }
         write(&table).map_err(cannot("keep the rows"))?;
         let mut tables = String::new();
-        if self.destinations.iter().any(|destination| destination.format == Format::Table) {
+        if destinations.iter().any(|destination| destination.format == Format::Table) {
             for (by, rows) in self.args.derivatives.iter().zip(&derivatives) {
                 let labels = ("at", self.labels(&table, &info));
                 let symbols: Vec<_> = of.iter().map(|quantity| quantity.symbol()).enumerate().collect();
-                tables += &derivative_table(labels, &symbols, (*by, rows), |x| info.text(x), self.args.wide);
+                tables += &derivative_table(labels, &symbols, (*by, rows), &info);
             }
         }
         let info = RunInfo { warnings: history.warnings(), ..info };
-        if !self.destinations.iter().any(Destination::is_printed_table) {
+        if !destinations.iter().any(Destination::is_printed_table) {
             progress.suspend(|| info.print_warnings());
         }
         drop(progress);
-        let end = S::carry(history.end());
-        let ends = self.times.is_none().then(|| note_end(history.ending(), &end, info.digits));
         let below = format!("\n{tables}{}", info.below_values(&self.quantities));
         let key_count = self.quantities.iter().take_while(|quantity| keys.contains(quantity)).count();
         let layout = TableLayout { below, keys: (!self.args.wide).then_some(key_count.max(1)), shown };
-        let (numbers, until) = (history.plan().numbers, history.end().to_f64());
-        let header = Header { info, scene: self.scene.source(), numbers, subject: "each column", until, ends };
-        for (writer, destination) in writers.into_iter().zip(&self.destinations) {
+        let header = Header::new(&history, info, self.scene.source(), "each column", self.times.is_none());
+        for (writer, destination) in writers.into_iter().zip(destinations) {
             writer.finish(&header, destination, self.args.bare, &layout)?;
         }
         // Values beyond the end of a history that rests are those of rest.
@@ -453,11 +421,9 @@ impl UseHistory for Rows<'_> {
         }
         Ok(())
     }
-}
 
-impl Rows<'_> {
     /// Returns a label for each row of derivatives: `t = 1/2   x = 0`.
-    fn labels<S: Scalar>(&self, table: &[Vec<S>], info: &RunInfo) -> Vec<String> {
+    fn labels(&self, table: &[Vec<Value>], info: &RunInfo) -> Vec<String> {
         let places = [(Quantity::Time, "t = "), (Quantity::Point, "x = ")]
             .into_iter()
             .filter_map(|(key, name)| Some((self.quantities.iter().position(|quantity| *quantity == key)?, name)));
@@ -467,27 +433,5 @@ impl Rows<'_> {
             texts.collect::<Vec<_>>().join("   ")
         };
         (0..table.first().map_or(0, Vec::len)).map(label).collect()
-    }
-}
-
-/// The solution of an undamped rod, to write as a function.
-struct Function<'a> {
-    scene: &'a Scene,
-    language: Language,
-    destinations: Vec<Destination>,
-}
-
-impl UseHistory for Function<'_> {
-    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
-        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
-        let info = RunInfo { warnings: history.warnings(), ..info };
-        progress.suspend(|| info.print_warnings());
-        drop(progress);
-        let end = S::carry(history.end());
-        let ends = Some(note_end(history.ending(), &end, info.digits));
-        let (numbers, until) = (history.plan().numbers, history.end().to_f64());
-        let header = Header { info, scene: self.scene.source(), numbers, subject: "each coefficient", until, ends };
-        let text = code(&waves, &end, self.language, &header);
-        write_all(&self.destinations, |_| Ok(text.clone().into_bytes()))
     }
 }

@@ -4,20 +4,15 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
-use crate::answer::{UseHistory, gathered, note_end, solve};
+use crate::answer::{Answer, note_end, solve};
 use crate::args::{NumberArgs, OutputArgs};
 use crate::failure::Failure;
 use crate::file::{Destination, Format, ROWS, formats, write_all};
-use crate::output::{
-    CONTACT, EVENT, HistoryPart, HistoryTables, LEGEND, RunInfo, StressForm, json_bytes, outline, rows_bytes, shared,
-};
-use crate::progress::Progress;
+use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
 use crate::source;
-use dalembert::Error;
-use dalembert::engine::Motion;
-use dalembert::number::{Number, Scalar};
+use dalembert::number::Number;
 use dalembert::problem::{Parameter, Run};
-use dalembert::solve::{History, Question, Target};
+use dalembert::solve::{Listing, Question, StressForm};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
@@ -56,7 +51,7 @@ pub(crate) struct Solve {
     /// they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
-    /// With --part stress: the Chebyshev coefficients of curved pieces, not straight lines within 1e-6 of the peak
+    /// The Chebyshev coefficients of curved pieces, with --part stress; otherwise straight lines within 1e-6 of the peak
     #[arg(long)]
     coefficients: bool,
 }
@@ -84,70 +79,47 @@ impl Solve {
         if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
             scene.problem = scene.problem.with_run(run)?;
         }
-        let question = Question::run(self.numbers.numbers(&scene));
-        solve(&scene, &question, &Output { args: self, destinations })
-    }
-}
-
-/// The output of a history.
-struct Output<'a> {
-    args: &'a Solve,
-    destinations: Vec<Destination>,
-}
-
-impl Output<'_> {
-    fn has(&self, format: Format) -> bool {
-        self.destinations.iter().any(|destination| destination.format == format)
-    }
-
-    /// Returns whether the stress is drawn above the table: at a terminal that has more than plain letters.
-    fn has_outline(&self) -> bool {
-        self.destinations.iter().any(Destination::is_printed_table)
-            && std::io::stdout().is_terminal()
-            && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
-    }
-
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, info: &RunInfo) -> Result<(HistoryTables, Vec<S>), Error> {
-        let is_part = self.args.part == Some(HistoryPart::Stress);
-        let stress = match (self.has(Format::Json) || (is_part && self.args.coefficients), is_part) {
+        let Answer { history, info, progress } = solve(&scene, &Question::run(self.numbers.numbers(&scene)))?;
+        progress.set_stage("values of the answer");
+        let has = |format: Format| destinations.iter().any(|destination| destination.format == format);
+        let is_stress = self.part == Some(HistoryPart::Stress);
+        let stress = match (has(Format::Json) || self.coefficients, is_stress) {
             (true, _) => Some(StressForm::Series),
-            (false, true) => Some(StressForm::Straight),
+            (false, true) => Some(StressForm::Straight(STRAIGHT_ERROR)),
             (false, false) => None,
         };
-        let (mut tables, numbers) = HistoryTables::gather(history, stress, !self.args.numbers.is_double(), info)?;
-        if self.has_outline() {
-            tables.outline = outline(history);
+        let listing = history.listing(stress, !self.numbers.is_double())?;
+        let info = RunInfo { wide: self.wide, ..info };
+        let mut tables = HistoryTables::new(&history, listing, &info);
+        if has_outline(&destinations) {
+            tables.outline = outline(&history);
         }
-        Ok((tables, numbers))
-    }
-}
-
-impl UseHistory for Output<'_> {
-    fn apply<S: Target>(&self, history: &History<S>, info: RunInfo, progress: Progress) -> Result<(), Failure> {
-        let info = RunInfo { wide: self.args.wide, ..info };
-        let mut tables = gathered(history, &progress, |motion| self.gather(motion, &info))?;
-        for by in self.args.derivatives.iter().copied() {
+        for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
-            let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
+            let mut events = history.derivatives(by, &[&Listing::EVENTS[..], &Listing::CONTACTS].concat())?;
+            let contacts = events.iter_mut().map(|row| row.split_off(Listing::EVENTS.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect();
             tables.add_derivatives(by, events, contacts);
         }
         let info = RunInfo { warnings: history.warnings(), ..info };
         drop(progress);
         // A table on the screen has the warnings and the end below it.
-        if !self.destinations.iter().all(Destination::is_printed_table) {
+        if !destinations.iter().all(Destination::is_printed_table) {
             info.print_warnings();
-            note_end(&tables.ending, &*tables.end, info.digits);
+            note_end(&history);
         }
-        write_all(&self.destinations, |format| match format {
-            Format::Table if self.args.legend => Ok(format!("{}\n{LEGEND}", tables.table(&info)).into_bytes()),
+        write_all(&destinations, |format| match format {
+            Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", tables.table(&info)).into_bytes()),
             Format::Table => Ok(tables.table(&info).into_bytes()),
             Format::Json => Ok(json_bytes(&tables.json(&info))),
-            _ => {
-                let part = self.args.part.unwrap_or_default();
-                rows_bytes(&tables.part(part, self.args.coefficients, &info), format)
-            }
+            _ => rows_bytes(&tables.part(self.part.unwrap_or_default(), self.coefficients, &info), format),
         })
     }
+}
+
+/// Returns whether the stress is drawn above the table: at a terminal that has more than plain letters.
+fn has_outline(destinations: &[Destination]) -> bool {
+    destinations.iter().any(Destination::is_printed_table)
+        && std::io::stdout().is_terminal()
+        && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }

@@ -124,8 +124,8 @@ impl Sweep {
         if let Some((journal, path)) = journal.zip(path) {
             journal.remove().map_err(failure::cannot(&format!("remove {}", journal_path(path).display())))?;
         }
-        let mut cells = found.iter().flat_map(|point| &point.cells);
-        let fails = !found.is_empty() && cells.all(|cell| cell.value.is_null());
+        let mut numbers = found.iter().flat_map(|point| &point.numbers);
+        let fails = !found.is_empty() && numbers.all(|number| number.value.is_null());
         Ok(ExitCode::from(u8::from(fails)))
     }
 

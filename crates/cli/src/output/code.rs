@@ -1,9 +1,11 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::header::Header;
+use dalembert::Error;
 use dalembert::engine::{WavePiece, Waves};
 use dalembert::number::{Scalar, bound_of_log2};
 use dalembert::problem::Top;
+use dalembert::solve::{History, Target, TypedHistory, Visitor};
 
 /// A programming language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -28,8 +30,28 @@ const FORMULA: &[&str] = &[
 /// Factor by which a time or a point may exceed the end or the length: sums of steps are some roundings off.
 const NEAR: &str = "1 + 2e-15";
 
-/// Returns the function `uExact(x, t, d)` of `waves`, which reach to `end`.
-pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, header: &Header<'_>) -> String {
+/// Returns the function `uExact(x, t, d)` of a history of an undamped rod.
+pub(crate) fn code(history: &History, language: Language, header: &Header<'_>) -> Result<String, Error> {
+    history.visit(Code { language, header })
+}
+
+/// A request for the function of a history, whatever its numbers.
+struct Code<'a> {
+    language: Language,
+    header: &'a Header<'a>,
+}
+
+impl Visitor for Code<'_> {
+    type Output = Result<String, Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
+        Ok(code_of_waves(&waves, &S::carry(history.end()), self.language, self.header))
+    }
+}
+
+/// Returns the function of `waves`, which reach to `end`.
+fn code_of_waves<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, header: &Header<'_>) -> String {
     // Fractions stay fractions where the language has them.
     let exact = language == Language::Python && end.bits().is_none() && end.ends(1).is_none();
     let number = |x: &S| match exact {

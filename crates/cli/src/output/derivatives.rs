@@ -1,25 +1,18 @@
 //! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
-use std::rc::Rc;
-
-use super::dataset::{Cell, Column, Dataset, Shared};
+use super::dataset::{Cell, Column, Dataset};
+use super::run_info::RunInfo;
 use super::table::TextTable;
-use dalembert::number::Scalar;
+use dalembert::Value;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity;
 use dalembert::solve::{Derivative, Derivatives};
-
-/// Returns derivatives in numbers that every writer takes.
-pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
-    let share = |cell: Option<Derivative<S>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
-    found.into_iter().map(|row| row.into_iter().map(share).collect()).collect()
-}
 
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
 pub(super) fn add_columns(
     data: &mut Dataset,
     quantities: &[Quantity],
-    (by, rows): (Parameter, &Derivatives<Shared>),
+    (by, rows): (Parameter, &Derivatives<Value>),
     name: fn(Quantity) -> String,
 ) {
     for (k, quantity) in quantities.iter().enumerate() {
@@ -28,7 +21,7 @@ pub(super) fn add_columns(
         let column = Column::data(name.clone()).keyed(key.clone());
         data.columns.push(column.bounded().optional());
         for (row, cell) in data.rows.iter_mut().zip(cells()) {
-            row.push(Cell::shared(cell.and_then(Derivative::value)));
+            row.push(Cell::number(cell.and_then(Derivative::value).cloned()));
         }
         // Most derivatives are the same from both sides.
         if !cells().flatten().any(|cell| cell.value().is_none()) {
@@ -40,7 +33,7 @@ pub(super) fn add_columns(
             data.columns.push(Column::json(format!("{key}/undefined/{word}")).optional());
             for (row, cell) in data.rows.iter_mut().zip(cells()) {
                 let one = cell.filter(|cell| cell.value().is_none()).map(|cell| cell.sides()[side]);
-                row.push(Cell::shared(one.and_then(Result::ok)));
+                row.push(Cell::number(one.and_then(Result::ok).cloned()));
                 row.push(one.and_then(Result::err).map(|why| why.to_string()).into());
             }
         }
@@ -49,12 +42,11 @@ pub(super) fn add_columns(
 
 /// Returns a table of the derivatives by one value. Each label names a row, which is two rows where the sides differ;
 /// `quantities` are places in a row with their symbols.
-pub(crate) fn derivative_table<N>(
+pub(crate) fn derivative_table(
     (head, labels): (&str, Vec<String>),
     quantities: &[(usize, &str)],
-    (by, rows): (Parameter, &Derivatives<N>),
-    text: impl Fn(&N) -> String,
-    wide: bool,
+    (by, rows): (Parameter, &Derivatives<Value>),
+    info: &RunInfo,
 ) -> String {
     let symbols: Vec<String> = quantities.iter().map(|(_, symbol)| format!("∂ {symbol}")).collect();
     let head: Vec<&str> = [head, "side"].into_iter().chain(symbols.iter().map(String::as_str)).collect();
@@ -66,13 +58,13 @@ pub(crate) fn derivative_table<N>(
         for (side, word) in sides {
             let mut line = vec![label.clone(), (*word).into()];
             line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
-                Some(Ok(value)) => text(value),
+                Some(Ok(value)) => info.text(value),
                 Some(Err(why)) => why.to_string(),
                 None => "–".into(),
             }));
             lines.push(line);
         }
     }
-    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!wide).then_some(2) };
+    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!info.wide).then_some(2) };
     format!("\nby {by}:\n{}\n", table.format())
 }

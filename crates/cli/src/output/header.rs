@@ -1,12 +1,13 @@
 //! The header of rows and functions: scene, units, signs, what the numbers are worth, and how to cite them.
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value as Json, json};
 
 use super::rows::Column;
 use super::run_info::RunInfo;
-use dalembert::number::bound_of_log2;
-use dalembert::solve::Numbers;
+use crate::answer::note_end;
+use dalembert::Bound;
+use dalembert::solve::{History, Numbers};
 
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
@@ -22,16 +23,16 @@ const CITE: &str = concat!(
 /// The header of a file with rows or a function.
 #[derive(Debug)]
 pub(crate) struct Header<'a> {
-    pub(crate) info: RunInfo,
+    info: RunInfo,
     /// The text of the scene.
-    pub(crate) scene: &'a str,
-    pub(crate) numbers: Numbers,
+    scene: &'a str,
+    numbers: Numbers,
     /// The things that have a bound: `each column`.
-    pub(crate) subject: &'a str,
+    subject: &'a str,
     /// The last time of the history.
-    pub(crate) until: f64,
+    until: f64,
     /// The reason why the history ends, if its end is among the rows.
-    pub(crate) ends: Option<String>,
+    ends: Option<String>,
 }
 
 /// The header as JSON.
@@ -50,8 +51,8 @@ pub(super) struct HeaderJson<'a> {
     signs: &'static str,
     side: &'static str,
     ends: Option<&'a str>,
-    #[serde(skip_serializing_if = "Value::is_null")]
-    exact_until: Value,
+    #[serde(skip_serializing_if = "Json::is_null")]
+    exact_until: Json,
     warnings: Vec<String>,
     cite: &'static str,
     columns: Vec<ColumnJson<'a>>,
@@ -65,7 +66,15 @@ struct ColumnJson<'a> {
     unit: &'a str,
     /// Bound of the error of every value of the column; absent in fractions, null where it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
-    bound: Option<Value>,
+    bound: Option<Json>,
+}
+
+impl<'a> Header<'a> {
+    /// Returns the header of an output of `history`; with `states_end` it states why the history ends.
+    pub(crate) fn new(history: &History, info: RunInfo, scene: &'a str, subject: &'a str, states_end: bool) -> Self {
+        let ends = states_end.then(|| note_end(history));
+        Header { info, scene, numbers: history.plan().numbers, subject, until: history.end().to_f64(), ends }
+    }
 }
 
 impl Header<'_> {
@@ -92,25 +101,20 @@ impl Header<'_> {
         matches!(self.numbers, Numbers::Exact | Numbers::Certified(_))
     }
 
-    /// Returns the bound of a column as text, given its `log₂`; `None` for fractions and words.
-    fn bound(&self, column: &Column, log2: f64) -> Option<String> {
-        (self.numbers != Numbers::Exact && column.has_bound()).then(|| bound_of_log2(log2))
+    /// Returns whether the numbers of a column have a bound: fractions and words have none.
+    fn has_bound(&self, column: &Column) -> bool {
+        self.numbers != Numbers::Exact && column.has_bound()
     }
 
-    /// Returns the header as JSON, with the bounds of the columns given by their `log₂`.
-    pub(super) fn to_json<'a>(&'a self, columns: &'a [Column], bounds: &[f64], is_npz: bool) -> HeaderJson<'a> {
-        let bound = |text: String| match text.parse::<f64>() {
-            Ok(bound) if bound > 0.0 || text == "0" => bound.into(),
-            // Below the least double.
-            Ok(_) => text.into(),
-            Err(_) => Value::Null,
-        };
-        let columns = columns.iter().zip(bounds).map(|(column, log2)| ColumnJson {
+    /// Returns the header as JSON, with the bounds of the columns.
+    pub(super) fn to_json<'a>(&'a self, columns: &'a [Column], bounds: &[Bound], is_npz: bool) -> HeaderJson<'a> {
+        let bound = |bound: &Bound| if bound.to_string() == "unknown" { Json::Null } else { json!(bound) };
+        let columns = columns.iter().zip(bounds).map(|(column, greatest)| ColumnJson {
             name: &column.name,
             symbol: &column.symbol,
             meaning: &column.meaning,
             unit: column.unit,
-            bound: self.bound(column, *log2).map(bound),
+            bound: self.has_bound(column).then(|| bound(greatest)),
         });
         HeaderJson {
             schema: 1,
@@ -150,13 +154,13 @@ impl Header<'_> {
         lines
     }
 
-    /// Returns the comments above a CSV, with the bounds of the columns given by their `log₂`.
-    pub(super) fn comments(&self, columns: &[Column], bounds: &[f64]) -> String {
+    /// Returns the comments above a CSV, with the bounds of the columns.
+    pub(super) fn comments(&self, columns: &[Column], bounds: &[Bound]) -> String {
         let mut text: String = self.lines().iter().map(|line| format!("# {line}\n")).collect();
         text += &format!("# read: {READ}\n");
-        for (column, log2) in columns.iter().zip(bounds) {
+        for (column, bound) in columns.iter().zip(bounds) {
             let Column { name, meaning, .. } = column;
-            let within = self.bound(column, *log2).map_or_else(String::new, |bound| format!("; within {bound}"));
+            let within = if self.has_bound(column) { format!("; within {bound}") } else { String::new() };
             let symbol = if column.symbol.is_empty() { String::new() } else { format!("{}: ", column.symbol) };
             let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
             text += &format!("# column {name}: {symbol}{meaning}{unit}{within}\n");

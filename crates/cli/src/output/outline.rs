@@ -2,9 +2,10 @@
 
 use super::run_info::RunInfo;
 use dalembert::StressPiece;
-use dalembert::engine::{Motion, straight};
+use dalembert::engine::straight;
 use dalembert::number::Scalar;
 use dalembert::quantity::Measure;
+use dalembert::solve::{History, Target, TypedHistory, Visitor};
 
 const BLOCKS: usize = 76;
 const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
@@ -15,13 +16,26 @@ const STRAIGHT_ERROR: f64 = 0.05;
 /// Returns the least `v_x(0,t)` in each of [`BLOCKS`] equal parts of the history; empty where the rod is never pressed.
 ///
 /// **Accuracy**: 0.05 of the greatest `|v_x(0,t)|`.
-pub(crate) fn outline<S: Scalar>(motion: &dyn Motion<S>) -> Vec<f64> {
-    let pieces = motion.stress_pieces().into_iter().map(|piece| piece.map(|x| x.to_f64())).collect::<Vec<_>>();
-    parts(&straight(&pieces, STRAIGHT_ERROR), motion.end().to_f64())
+pub(crate) fn outline(history: &History) -> Vec<f64> {
+    history
+        .visit(StressPieces)
+        .map_or_else(|_| Vec::new(), |pieces| least_values(&straight(&pieces, STRAIGHT_ERROR), history.end().to_f64()))
+}
+
+/// A request for the pieces of the stress at the ground in doubles, whatever their digits.
+struct StressPieces;
+
+impl Visitor for StressPieces {
+    type Output = Result<Vec<StressPiece<f64>>, dalembert::Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        let pieces = history.ask(|motion| Ok(motion.stress_pieces()), |_| Vec::new())?;
+        Ok(pieces.into_iter().map(|piece| piece.map(|x| x.to_f64())).collect())
+    }
 }
 
 /// Returns the least value of straight pieces in each part of a history up to `end`.
-fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
+fn least_values(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     let mut least = vec![0.0f64; BLOCKS];
     let width = end / BLOCKS as f64;
     for piece in pieces.iter().filter(|piece| piece.to > piece.from && piece.left.min(piece.right) < 0.0) {

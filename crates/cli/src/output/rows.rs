@@ -9,14 +9,14 @@ use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::header::{Header, HeaderJson};
-use super::json::number_json;
 use super::npz::Npz;
 use super::table::{TextTable, table_digits};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
-use dalembert::number::{DOUBLE_DIGITS, Scalar, bound_of_log2, double_bound, show, shown_bound};
+use dalembert::number::{DOUBLE_DIGITS, Scalar, double_bound};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::solve::NoDerivative;
+use dalembert::{Bound, Value};
 
 /// The kind of values in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,10 +60,10 @@ impl Column {
 }
 
 /// A value of a row.
-#[derive(Debug)]
-pub(crate) enum Cell<'a, S> {
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Cell<'a> {
     /// A number; in a column of bounds, the number whose bound is written.
-    Number(&'a S),
+    Number(&'a Value),
     /// The reason why a derivative does not exist.
     Undefined(NoDerivative),
     /// No value.
@@ -90,8 +90,8 @@ pub(crate) struct RowWriter {
     /// One file with the text of all rows, or one with the doubles of each column.
     kept: Vec<BufWriter<File>>,
     table: Vec<Vec<String>>,
-    /// `log₂` of the bound of each column.
-    bounds: Vec<f64>,
+    /// Greatest bound of each column.
+    bounds: Vec<Bound>,
     count: usize,
 }
 
@@ -103,35 +103,36 @@ impl RowWriter {
         let files = if format == Format::Npz { columns.len() } else { 1 };
         let kept = (0..files).map(|_| Ok(BufWriter::with_capacity(BUFFER, tempfile::tempfile()?)));
         let kept = kept.collect::<io::Result<_>>().map_err(cannot("keep the rows"))?;
-        let bounds = vec![f64::NEG_INFINITY; columns.len()];
+        let bounds = vec![Bound::from_log2(f64::NEG_INFINITY); columns.len()];
         Ok(RowWriter { format, columns, digits, kept, table: Vec::new(), bounds, count: 0 })
     }
 
     /// Adds `count` rows; `cell` returns the value of a row, counted from 0, and a column.
-    pub(crate) fn push<'a, S: Scalar>(
-        &mut self,
-        count: usize,
-        cell: impl Fn(usize, usize) -> Cell<'a, S>,
-    ) -> io::Result<()> {
-        for column in 0..self.columns.len() {
-            let bounds = (0..count).filter_map(|row| match cell(row, column) {
-                Cell::Number(value) => Some(self.bound(value)),
-                Cell::Undefined(_) | Cell::Empty => None,
-            });
-            self.bounds[column] = bounds.fold(self.bounds[column], f64::max);
+    pub(crate) fn push<'a>(&mut self, count: usize, cell: impl Fn(usize, usize) -> Cell<'a>) -> io::Result<()> {
+        for column in
+            (0..self.columns.len()).filter(|column| self.columns[*column].kind == Kind::Number).collect::<Vec<_>>()
+        {
+            for row in 0..count {
+                if let Cell::Number(value) = cell(row, column)
+                    && let bound = self.bound(value)
+                    && bound > self.bounds[column]
+                {
+                    self.bounds[column] = bound;
+                }
+            }
         }
         match self.format {
             Format::Npz => {
                 for column in 0..self.columns.len() {
                     for row in 0..count {
-                        let double = self.double(column, &cell(row, column));
+                        let double = self.double(column, cell(row, column));
                         self.kept[column].write_all(&double.to_le_bytes())?;
                     }
                 }
             }
             Format::Table => {
                 for row in 0..count {
-                    let texts = (0..self.columns.len()).map(|column| self.text(column, &cell(row, column)));
+                    let texts = (0..self.columns.len()).map(|column| self.text(column, cell(row, column)));
                     self.table.push(texts.collect());
                 }
             }
@@ -213,14 +214,19 @@ impl RowWriter {
         })
     }
 
-    /// Returns `log₂` of how far the number meant may lie from what is written.
-    fn bound<S: Scalar>(&self, value: &S) -> f64 {
-        match value.as_double() {
+    /// Returns the bound of the error of a number as it is written.
+    fn bound(&self, value: &Value) -> Bound {
+        let double_bound = value
+            .as_float()
+            .map(double_bound)
+            .or_else(|| value.as_rational().map(double_bound))
+            .or_else(|| value.as_interval().map(double_bound));
+        match (value.as_double(), double_bound) {
             // A number that is zero within its bound is written as zero, and is at most that bound.
-            Some(_) if value.vanishes() == Ok(true) => value.log2_error() + 1.0,
-            Some(_) => value.log2_error(),
-            None if self.format == Format::Npz => double_bound(value),
-            None => shown_bound(value, self.shown_digits()),
+            (Some(double), _) if double.vanishes() == Ok(true) => Bound::from_log2(double.log2_error() + 1.0),
+            (Some(double), _) => Bound::from_log2(double.log2_error()),
+            (None, Some(bound)) if self.format == Format::Npz => Bound::from_log2(bound),
+            (None, _) => value.bound_to_digits(self.shown_digits()),
         }
     }
 
@@ -228,77 +234,83 @@ impl RowWriter {
         if self.digits == 0 { DOUBLE_DIGITS } else { self.digits }
     }
 
-    fn double<S: Scalar>(&self, column: usize, cell: &Cell<'_, S>) -> f64 {
+    fn double(&self, column: usize, cell: Cell<'_>) -> f64 {
         match (cell, self.columns[column].kind) {
-            (Cell::Number(value), Kind::Bound) => bound_of_log2(self.bound(*value)).parse().unwrap_or(f64::NAN),
-            (Cell::Number(value), _) => written_double(*value),
+            (Cell::Number(value), Kind::Bound) => self.bound(value).to_string().parse().unwrap_or(f64::NAN),
+            (Cell::Number(value), _) => written_double(value),
             (Cell::Undefined(_) | Cell::Empty, _) => f64::NAN,
         }
     }
 
     /// Returns the text of a table.
-    fn text<S: Scalar>(&self, column: usize, cell: &Cell<'_, S>) -> String {
+    fn text(&self, column: usize, cell: Cell<'_>) -> String {
         match (cell, self.columns[column].kind) {
-            (Cell::Number(value), Kind::Number) => show(*value, table_digits(self.digits)),
-            (Cell::Number(value), Kind::Bound) => bound_of_log2(self.bound(*value)),
-            (Cell::Number(value), Kind::Side) => side_word(*value).into(),
-            (Cell::Number(value), Kind::Flag) => flag(*value).into(),
+            (Cell::Number(value), Kind::Number) => value.to_digits(table_digits(self.digits)),
+            (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
+            (Cell::Number(value), Kind::Side) => side_word(value).into(),
+            (Cell::Number(value), Kind::Flag) => flag(value).into(),
             (Cell::Undefined(why), _) => why.to_string(),
             (Cell::Empty, _) => "–".into(),
         }
     }
 
     /// Adds the text of a row of CSV or JSON.
-    fn write_row<'a, S: Scalar>(&self, text: &mut Vec<u8>, cell: impl Fn(usize) -> Cell<'a, S>) {
+    fn write_row<'a>(&self, text: &mut Vec<u8>, cell: impl Fn(usize) -> Cell<'a>) {
         let [begin, between, end] = if self.format == Format::Json { ["[", ", ", "]\n"] } else { ["", ",", "\n"] };
         text.extend_from_slice(begin.as_bytes());
         for column in 0..self.columns.len() {
             if column > 0 {
                 text.extend_from_slice(between.as_bytes());
             }
-            self.write_cell(text, self.columns[column].kind, &cell(column));
+            self.write_cell(text, self.columns[column].kind, cell(column));
         }
         text.extend_from_slice(end.as_bytes());
     }
 
-    fn write_cell<S: Scalar>(&self, text: &mut Vec<u8>, kind: Kind, cell: &Cell<'_, S>) {
+    fn write_cell(&self, text: &mut Vec<u8>, kind: Kind, cell: Cell<'_>) {
         let is_json = self.format == Format::Json;
         let quote = if is_json { "\"" } else { "" };
-        let mut quoted =
-            |word: &str| [quote, word, quote].iter().for_each(|part| text.extend_from_slice(part.as_bytes()));
+        let mut add = |quote: &str, word: &str| {
+            [quote, word, quote].iter().for_each(|part| text.extend_from_slice(part.as_bytes()))
+        };
         match (cell, kind) {
-            (Cell::Number(value), Kind::Side) => quoted(side_word(*value)),
-            (Cell::Number(value), Kind::Flag) => text.extend_from_slice(flag(*value).as_bytes()),
+            (Cell::Number(value), Kind::Side) => add(quote, side_word(value)),
+            (Cell::Number(value), Kind::Flag) => add("", flag(value)),
             (Cell::Number(value), Kind::Bound) => {
-                let bound = bound_of_log2(self.bound(*value));
+                let bound = self.bound(value).to_string();
                 // A bound below the least double is a text.
                 let is_double = bound.parse::<f64>().is_ok_and(|double| double > 0.0 || bound == "0");
-                if is_double { text.extend_from_slice(bound.as_bytes()) } else { quoted(&bound) }
+                add(if is_double { "" } else { quote }, &bound);
             }
-            (Cell::Number(value), Kind::Number) => match value.as_double() {
-                // The shortest text that reads as the same double.
-                Some(_) => text.extend_from_slice(ryu::Buffer::new().format(written_double(*value)).as_bytes()),
-                None if is_json => text.extend_from_slice(number_json(*value, self.digits).to_string().as_bytes()),
-                None => text.extend_from_slice(show(*value, self.shown_digits()).as_bytes()),
-            },
-            (Cell::Undefined(why), _) if is_json => quoted(why.name()),
-            (Cell::Empty, _) if is_json => text.extend_from_slice(b"null"),
+            // The shortest text that reads as the same double.
+            (Cell::Number(value), Kind::Number) if value.is_double() => {
+                add("", ryu::Buffer::new().format(written_double(value)));
+            }
+            (Cell::Number(value), Kind::Number) if is_json => add("", &serde_json::json!(value).to_string()),
+            (Cell::Number(value), Kind::Number) => add("", &value.to_digits(self.shown_digits())),
+            (Cell::Undefined(why), _) if is_json => add(quote, why.name()),
+            (Cell::Empty, _) if is_json => add("", "null"),
             (Cell::Undefined(_) | Cell::Empty, _) => (),
         }
     }
 }
 
-fn side_word<S: Scalar>(value: &S) -> &'static str {
-    ["left", "both", "right"][(value.to_f64() + 1.0) as usize]
+fn side_word(value: &Value) -> &'static str {
+    ["left", "both", "right"][(value.to_f64() + 1.0).clamp(0.0, 2.0) as usize]
 }
 
-fn flag<S: Scalar>(value: &S) -> &'static str {
+fn flag(value: &Value) -> &'static str {
     if value.to_f64() > 0.0 { "1" } else { "0" }
 }
 
 /// Returns the double that is written: zero for a number that is zero within its bound, and never a negative zero.
-fn written_double<S: Scalar>(value: &S) -> f64 {
-    if value.vanishes() == Ok(true) { 0.0 } else { value.to_f64() }
+fn written_double(value: &Value) -> f64 {
+    let is_zero = match (value.as_double(), value.as_float()) {
+        (Some(double), _) => double.vanishes() == Ok(true),
+        (None, Some(float)) => float.vanishes() == Ok(true),
+        (None, None) => false,
+    };
+    if is_zero { 0.0 } else { value.to_f64() + 0.0 }
 }
 
 /// A JSON file.

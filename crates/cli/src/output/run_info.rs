@@ -1,17 +1,16 @@
 //! Facts about a run that every output states beside its numbers.
 
-use serde_json::{Value, json};
+use serde_json::{Value as Json, json};
 
 use super::table::{table_digits, wrapped};
 use crate::terminal;
-use dalembert::Ending;
-use dalembert::number::{Scalar, show};
 use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::reason::Warning;
 use dalembert::solve::ExactnessEnd;
+use dalembert::{Ending, Value};
 
 /// Facts about a run.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct RunInfo {
     pub(crate) title: Option<String>,
     /// The number system in words.
@@ -31,8 +30,8 @@ pub(crate) struct RunInfo {
 
 impl RunInfo {
     /// Returns a number as a table shows it.
-    pub(crate) fn text(&self, value: &impl Scalar) -> String {
-        show(value, table_digits(self.digits))
+    pub(crate) fn text(&self, value: &Value) -> String {
+        value.to_digits(table_digits(self.digits))
     }
 
     /// Returns a line of prose, wrapped where it is wider than the page.
@@ -60,9 +59,9 @@ impl RunInfo {
         end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect()
     }
 
-    pub(super) fn exact_until_json(&self) -> Value {
+    pub(super) fn exact_until_json(&self) -> Json {
         match &self.exact_until {
-            None => Value::Null,
+            None => Json::Null,
             Some(ExactnessEnd::Event(Ending::ExactnessEnds { kind, time, near })) => {
                 json!({"event": kind, "surd": time, "near": near})
             }
@@ -102,7 +101,7 @@ impl RunInfo {
 
     /// Returns the name of the unit of each measure, null if it is not known; impulse and energy are per `ρS` without a
     /// material.
-    pub(super) fn units_json(&self) -> Value {
+    pub(super) fn units_json(&self) -> Json {
         use Measure::{Energy, Force, Impulse, Length, Stress, Time, Velocity};
         let measures = [Time, Length, Velocity, Stress, Force, Impulse, Energy];
         let name = |measure: Measure| Some(self.units.name(measure)).filter(|name| !name.is_empty());

@@ -1,43 +1,21 @@
 //! The output of a history: events, contacts, flights, the stress at the ground, and the end.
 
-use std::rc::Rc;
+use serde_json::{Value as Json, json};
 
-use serde_json::{Value, json};
-
-use super::dataset::{Cell, Column, Dataset, Shared};
+use super::dataset::{Cell, Column, Dataset};
 use super::derivatives::{add_columns, derivative_table};
 use super::outline::sparkline;
 use super::run_info::RunInfo;
 use super::table::table_digits;
-use dalembert::engine::{Motion, straight};
-use dalembert::number::{DOUBLE_DIGITS, Scalar};
+use dalembert::Ending;
+use dalembert::Value;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity::{self, *};
-use dalembert::quantity::{Measure, Row, Undefined, rows};
-use dalembert::solve::Derivatives;
-use dalembert::{Ending, Error, StressPiece};
+use dalembert::quantity::{Measure, Undefined};
+use dalembert::solve::{Derivatives, History, Listing, Rows};
 
-pub(crate) const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
-pub(crate) const CONTACT: [Quantity; 13] = [
-    Impact,
-    Release,
-    ContactImpulse,
-    PeakStrain,
-    PeakStress,
-    PeakForce,
-    MomentumRestitution,
-    EnergyRestitution,
-    TranslationalShare,
-    EnergyKept,
-    EnergyLeft,
-    TranslationalLeft,
-    VibrationalLeft,
-];
 /// Place of the peak strain among the columns of contacts.
 const PEAK: usize = 3;
-const FLIGHT: [Quantity; 4] = [FlightBegins, FlightEnds, TopTime, Top];
-const PIECE: [Quantity; 6] =
-    [PieceBegins, PieceEnds, PieceStrainBegins, PieceStrainEnds, PieceStressBegins, PieceStressEnds];
 
 /// Returns the column of a quantity in a list, in JSON inside the object that it belongs to.
 fn column(quantity: Quantity) -> Column {
@@ -59,32 +37,22 @@ fn column(quantity: Quantity) -> Column {
     }
 }
 
-/// Returns the columns of the quantities that exist in these units, with `rows` of their numbers: one for every
-/// quantity, as a history answers them.
-pub(super) fn listed<S: Scalar>(
-    history: &dyn Motion<S>,
-    quantities: &[Quantity],
-    column: &dyn Fn(Quantity) -> Column,
-    info: &RunInfo,
-    rows: &[Vec<Option<&S>>],
-) -> Dataset {
-    let units = &info.units;
-    let mut data =
-        Dataset { rows: rows.iter().map(|_| Vec::new()).collect(), digits: info.digits, ..Dataset::default() };
-    data.keys = (!info.wide).then_some(1);
-    let present = |(_, quantity): &(usize, &Quantity)| quantity.is_listed(units.has_material());
-    for (k, quantity) in quantities.iter().enumerate().filter(present) {
-        let factor = quantity.factor(&history.scales(), units);
-        for (cells, values) in data.rows.iter_mut().zip(rows) {
-            cells.push(match (values[k], &factor) {
-                (Some(value), Some(factor)) => Cell::number(&(value.clone() * factor)),
-                (value, _) => Cell::optional(value),
-            });
-        }
-        let unit = quantity.measure().map_or("", |measure| units.name(measure));
-        data.columns.push(column(*quantity).with_unit(unit).bounded());
+/// Returns the columns of the quantities that exist in the units of a run, with their rows.
+fn listed(quantities: &[Quantity], rows: Rows, info: &RunInfo) -> Dataset {
+    let is_listed = |quantity: &Quantity| quantity.is_listed(info.units.has_material());
+    let unit = |quantity: Quantity| quantity.measure().map_or("", |measure| info.units.name(measure));
+    let column = |quantity: &Quantity| column(*quantity).with_unit(unit(*quantity)).bounded();
+    let cells = |row: Vec<Result<Value, Undefined>>| {
+        let values = row.into_iter().zip(quantities).filter(|(_, quantity)| is_listed(quantity));
+        values.map(|(value, _)| Cell::number(value.ok())).collect()
+    };
+    Dataset {
+        columns: quantities.iter().filter(|quantity| is_listed(quantity)).map(column).collect(),
+        rows: rows.into_iter().map(cells).collect(),
+        digits: info.digits,
+        keys: (!info.wide).then_some(1),
+        ..Dataset::default()
     }
-    data
 }
 
 /// A part of a history, written as CSV.
@@ -99,26 +67,17 @@ pub(crate) enum HistoryPart {
     Stress,
 }
 
-/// A form of the stress at the ground.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StressForm {
-    /// Straight pieces.
-    Straight,
-    /// Pieces with the coefficients of their Chebyshev series.
-    Series,
-}
-
 /// Largest error of the straight pieces of a curved stress history, as a share of its peak.
-const STRAIGHT_ERROR: f64 = 1e-6;
+pub(crate) const STRAIGHT_ERROR: f64 = 1e-6;
 
 /// The derivatives of events and contacts by one value of the scene.
 struct HistoryDerivatives {
     by: Parameter,
-    events: Derivatives<Shared>,
-    contacts: Derivatives<Shared>,
+    events: Derivatives<Value>,
+    contacts: Derivatives<Value>,
 }
 
-/// A history as tables, in any number system.
+/// A history as tables.
 pub(crate) struct HistoryTables {
     events: Dataset,
     /// Contacts with their coefficients and the energies at their ends.
@@ -133,8 +92,8 @@ pub(crate) struct HistoryTables {
     /// The stress at the ground in equal parts of the history, if a line of blocks shows it.
     pub(crate) outline: Vec<f64>,
     /// The last time that is known.
-    pub(crate) end: Shared,
-    pub(crate) ending: Ending,
+    end: Value,
+    ending: Ending,
     /// Bound of the error relative to the natural scales; zero where all is exact.
     error: f64,
     /// Number of impacts, and digits that rounding may have taken over them; `None` where that is not followed.
@@ -146,105 +105,70 @@ fn csv_name(quantity: Quantity) -> String {
 }
 
 /// Returns the reasons why `e_P` and `e_E²` of a contact are not defined.
-fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
+fn undefined_ratios(contact: &[Result<Value, Undefined>]) -> [Option<Undefined>; 2] {
     [MomentumRestitution, EnergyRestitution].map(|ratio| {
-        let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
+        let place = Listing::CONTACTS.iter().position(|quantity| *quantity == ratio)?;
         contact.get(place)?.as_ref().err().copied()
     })
 }
 
-fn stress_table<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], info: &RunInfo) -> Dataset {
-    let row = pieces.iter().map(|StressPiece { from, to, left, right, .. }| [from, to, left, right, left, right]);
-    let rows: Vec<Vec<Option<&S>>> = row.map(|row| row.map(Some).to_vec()).collect();
-    listed(history, &PIECE, &column, info, &rows)
-}
-
 impl HistoryTables {
-    /// Gathers the tables of `history`, and the numbers in them that are to be settled, with or without those that are
-    /// ratios of others. The stress at the ground is there only if requested, as it can cost more than all the rest.
-    pub(crate) fn gather<S: Scalar>(
-        history: &dyn Motion<S>,
-        stress: Option<StressForm>,
-        with_ratios: bool,
-        info: &RunInfo,
-    ) -> Result<(Self, Vec<S>), Error> {
-        let mut numbers = vec![history.end()];
-        let mut gather = |quantities: &[Quantity]| {
-            let rows = rows(history, quantities)?;
-            for (value, quantity) in rows.iter().flat_map(|row| row.iter().zip(quantities)) {
-                if with_ratios || quantity.measure().is_some() {
-                    numbers.extend(value.as_ref().ok().cloned());
-                }
-            }
-            let defined: Vec<Vec<Option<&S>>> =
-                rows.iter().map(|row| row.iter().map(|value| value.as_ref().ok()).collect()).collect();
-            Ok::<_, Error>((listed(history, quantities, &column, info, &defined), rows))
+    /// Returns the tables of a history and its lists.
+    pub(crate) fn new(history: &History, listing: Listing, info: &RunInfo) -> Self {
+        let undefined: Vec<_> = listing.contacts.iter().map(|contact| undefined_ratios(contact)).collect();
+        let mut events = listed(&Listing::EVENTS, listing.events, info);
+        let has_bound = |row: &Vec<Cell>| match &row[0] {
+            Cell::Number(time) => time.ends().is_none() && time.log2_error().is_finite(),
+            _ => false,
         };
-        let (mut events, _) = gather(&EVENT)?;
-        let (mut contacts, contact_rows) = gather(&CONTACT)?;
-        let (flights, _) = gather(&FLIGHT)?;
-        let has_bound = |time: &S| time.ends(1).is_none() && time.log2_error().is_finite();
-        let is_uncertain = history.events().iter().any(|event| has_bound(&event.time));
+        let is_uncertain = events.rows.iter().any(has_bound);
         events.columns.insert(0, Column::new("kind").headed("event").text());
         events.columns.splice(2..2, is_uncertain.then(|| Column::table("±")));
-        for (row, event) in events.rows.iter_mut().zip(history.events()) {
-            row.insert(0, event.kind.to_string().into());
-            let bound = row[1].bound(table_digits(info.digits));
-            row.splice(2..2, is_uncertain.then_some(bound));
+        for (row, kind) in events.rows.iter_mut().zip(&listing.kinds) {
+            let bound = row[0].bound_text(table_digits(info.digits));
+            row.insert(0, kind.to_string().into());
+            row.splice(2..2, is_uncertain.then_some(bound.into()));
         }
-        let undefined: Vec<_> = contact_rows.iter().map(undefined_ratios).collect();
+        let mut contacts = listed(&Listing::CONTACTS, listing.contacts, info);
         let keys = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
         contacts.columns.extend(keys.map(|key| Column::json(key).optional()));
         for (row, undefined) in contacts.rows.iter_mut().zip(&undefined) {
             row.extend(undefined.map(|reason| reason.map(|reason| reason.to_string()).into()));
         }
-        let pieces = if stress.is_some() { history.stress_pieces() } else { Vec::new() };
-        numbers.extend(StressPiece::numbers(&pieces).into_iter().cloned());
-        let stress = if stress == Some(StressForm::Straight) {
-            stress_table(history, &straight(&pieces, STRAIGHT_ERROR), info)
-        } else {
-            let mut stress = stress_table(history, &pieces, info);
-            stress.columns.push(Column::data("chebyshev").bounded().optional());
-            for (row, piece) in stress.rows.iter_mut().zip(&pieces) {
-                row.push(Cell::numbers(&piece.chebyshev));
-            }
-            stress
-        };
-        let tables = HistoryTables {
+        let mut stress = listed(&Listing::PIECES, listing.pieces, info);
+        stress.columns.push(Column::data("chebyshev").bounded().optional());
+        for (row, piece) in stress.rows.iter_mut().zip(listing.stress) {
+            row.push(Cell::Numbers(piece.chebyshev));
+        }
+        HistoryTables {
             events,
             contacts,
             undefined,
-            flights,
+            flights: listed(&Listing::FLIGHTS, listing.flights, info),
             derivatives: Vec::new(),
             stress,
-            is_curved: pieces.iter().any(|piece| piece.chebyshev.len() > 2),
+            is_curved: listing.is_curved,
             outline: Vec::new(),
-            end: Rc::new(history.end()),
+            end: history.end(),
             ending: history.ending().clone(),
-            error: history.error_estimate().to_f64(),
+            error: history.error_estimate(),
             lost: history.digits_lost(),
-        };
-        Ok((tables, numbers))
+        }
     }
 
     /// Adds the derivatives of events and contacts by a value of the scene.
-    pub(crate) fn add_derivatives(
-        &mut self,
-        by: Parameter,
-        events: Derivatives<Shared>,
-        contacts: Derivatives<Shared>,
-    ) {
-        add_columns(&mut self.events, &EVENT, (by, &events), csv_name);
-        add_columns(&mut self.contacts, &CONTACT, (by, &contacts), csv_name);
+    pub(crate) fn add_derivatives(&mut self, by: Parameter, events: Derivatives<Value>, contacts: Derivatives<Value>) {
+        add_columns(&mut self.events, &Listing::EVENTS, (by, &events), csv_name);
+        add_columns(&mut self.contacts, &Listing::CONTACTS, (by, &contacts), csv_name);
         self.derivatives.push(HistoryDerivatives { by, events, contacts });
     }
 
     /// Returns the whole history as JSON, schema 1.
-    pub(crate) fn json(&self, info: &RunInfo) -> Value {
+    pub(crate) fn json(&self, info: &RunInfo) -> Json {
         let (mut contacts, mut flights) = (self.contacts.objects(), self.flights.objects());
         // An object of values that do not exist is null.
         for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
-            list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
+            list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Json::Null);
         }
         json!({
             "schema": 1,
@@ -257,22 +181,22 @@ impl HistoryTables {
             "contacts": contacts,
             "flights": flights,
             "stress": {"pieces": self.stress.objects()},
-            "end": self.end_json(info),
+            "end": self.end_json(),
             "error_estimate": self.error,
             "digits_lost": self.lost.map(|(_, digits)| digits),
             "warnings": info.warning_texts(),
         })
     }
 
-    fn end_json(&self, info: &RunInfo) -> Value {
+    fn end_json(&self) -> Json {
         let reason = match &self.ending {
             Ending::ExactnessEnds { .. } => "exactness ends".into(),
             ending => ending.to_string(),
         };
         let mut value = json!({
-            "time": self.end.json(info.digits),
+            "time": self.end,
             "reason": reason,
-            "uncertainty": {"time": self.end.json_bound(info.digits)},
+            "uncertainty": {"time": Cell::Number(self.end.clone()).bound_json()},
         });
         if let Ending::ExactnessEnds { kind, time, near } = &self.ending {
             value["event"] = json!(kind);
@@ -292,8 +216,7 @@ impl HistoryTables {
         };
         data.notes = info.notes();
         if !matches!(self.ending, Ending::Time | Ending::NextImpact) {
-            let digits = if info.digits == 0 { DOUBLE_DIGITS } else { info.digits };
-            data.notes.push(self.ending.at(&self.end.printed(digits)));
+            data.notes.push(self.ending.at(&self.end.to_string()));
         }
         if part == HistoryPart::Stress && coefficients {
             let series = "the sum of chebyshev[k] T_k(x), x = 2(t - from)/(to - from) - 1";
@@ -321,8 +244,8 @@ impl HistoryTables {
         }
         out += "\n";
         if !self.outline.is_empty() {
-            let peaks = self.contacts.rows.iter().map(|contact| contact[PEAK].double());
-            out += &sparkline(&self.outline, self.end.double(), peaks.fold(0.0, f64::min), info);
+            let peaks = self.contacts.rows.iter().map(|contact| contact[PEAK].to_f64());
+            out += &sparkline(&self.outline, self.end.to_f64(), peaks.fold(0.0, f64::min), info);
         }
         out += &format!("{}\n\n{}\n\n", self.events.table(), self.contacts.table());
         if !self.undefined.is_empty() {
@@ -342,7 +265,7 @@ impl HistoryTables {
             out += &format!("\n{}\n", flights.table());
         }
         out += &self.derivative_tables(info);
-        out += &format!("\n{}", info.line(&self.ending.at(&self.end.printed(digits))));
+        out += &format!("\n{}", info.line(&self.ending.at(&info.text(&self.end))));
         if let Some((impacts, lost)) = self.lost
             && lost >= MANY_LOST
         {
@@ -363,14 +286,19 @@ impl HistoryTables {
             let listed = quantities.iter().enumerate().filter(|(_, quantity)| listed(quantity));
             listed.map(|(k, quantity)| (k, quantity.symbol())).collect()
         };
-        let table = |labels: Vec<String>, symbols: &[(usize, &str)], by: Parameter, rows: &Derivatives<Shared>| {
-            derivative_table(("derivatives", labels), symbols, (by, rows), |x| x.printed(digits), info.wide)
+        let table = |labels: Vec<String>, symbols: &[(usize, &str)], by: Parameter, rows: &Derivatives<Value>| {
+            derivative_table(("derivatives", labels), symbols, (by, rows), info)
         };
         let mut out = String::new();
         for HistoryDerivatives { by, events, contacts } in &self.derivatives {
-            out += &table(self.events.rows.iter().map(event).collect(), &symbols(&EVENT), *by, events);
+            out += &table(self.events.rows.iter().map(event).collect(), &symbols(&Listing::EVENTS), *by, events);
             // The beginning and the end of a contact are events, in the table above.
-            out += &table(self.contacts.rows.iter().map(contact).collect(), &symbols(&CONTACT)[2..], *by, contacts);
+            out += &table(
+                self.contacts.rows.iter().map(contact).collect(),
+                &symbols(&Listing::CONTACTS)[2..],
+                *by,
+                contacts,
+            );
         }
         out
     }

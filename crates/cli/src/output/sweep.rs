@@ -4,14 +4,14 @@ use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::table::wrapped;
-use crate::sweep::{self, Point, Sweep};
+use crate::sweep::{Point, PointNumber, Sweep};
 use crate::terminal;
 use dalembert::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 
-/// What is said of the numbers of a point, each once.
+/// Returns the notes on the numbers of a point, each once.
 fn notes(point: &Point) -> String {
     let mut notes: Vec<&str> = Vec::new();
-    for note in point.cells.iter().filter_map(|cell| cell.note.as_deref()) {
+    for note in point.numbers.iter().filter_map(|cell| cell.note.as_deref()) {
         if !notes.contains(&note) {
             notes.push(note);
         }
@@ -19,8 +19,8 @@ fn notes(point: &Point) -> String {
     notes.join("; ")
 }
 
-/// No digit of a double beyond its uncertainty.
-fn shown(cell: &sweep::Cell) -> Cell {
+/// Returns a number without digits beyond its uncertainty.
+fn shown(cell: &PointNumber) -> Cell {
     match (cell.value.as_f64(), cell.uncertainty.as_f64()) {
         (Some(value), Some(bound)) => show(&Estimate::new(value, bound / value.unit()), DOUBLE_DIGITS).into(),
         _ if cell.value.is_null() => "".into(),
@@ -28,7 +28,7 @@ fn shown(cell: &sweep::Cell) -> Cell {
     }
 }
 
-/// A row for each point; a table has the notes below it, each once.
+/// Returns a row for each point; a table has the notes below it, each once.
 pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
     let mut columns = vec![Column::new("point")];
     columns.extend(sweep.grid.axes.iter().map(|axis| Column::new(axis.path).keyed(format!("at/{}", axis.path))));
@@ -47,7 +47,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
     let mut row = |point: &Point| {
         let mut row: Vec<Cell> = vec![point.index.into()];
         row.extend(sweep.grid.values(point.index).iter().map(|value| value.to_string().into()));
-        for cell in &point.cells {
+        for cell in &point.numbers {
             let [value, uncertainty] = [&cell.value, &cell.uncertainty].map(|value| value.clone().into());
             row.extend([shown(cell), value, uncertainty, cell.note.clone().into()]);
         }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Cursor};
 
-use serde_json::{Map, Value};
+use serde_json::{Map, Value as Json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::npz::Npz;
@@ -20,7 +20,7 @@ const VALUES: &str = "values/";
 
 impl Dataset {
     /// Returns the header and an object for each row; without a header the list of objects.
-    pub(crate) fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Json {
         if self.header.is_empty() {
             return self.objects().into();
         }
@@ -28,7 +28,7 @@ impl Dataset {
         header.chain([(self.list.to_string(), self.objects().into())]).collect()
     }
 
-    pub(super) fn objects(&self) -> Vec<Value> {
+    pub(super) fn objects(&self) -> Vec<Json> {
         self.rows.iter().map(|row| object(self, row)).collect()
     }
 
@@ -51,11 +51,7 @@ impl Dataset {
                 writer.write_field(cell.text(digits, ""))?;
             }
             for (_, cell) in cells().filter(|(column, _)| column.is_bounded) {
-                writer.write_field(match cell {
-                    Cell::Plain(_) => String::new(),
-                    Cell::Number(x) => x.printed_bound(digits),
-                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
-                })?;
+                writer.write_field(cell.bound_text(digits))?;
             }
             writer.write_record(None::<&[u8]>)?;
         }
@@ -82,7 +78,7 @@ impl Dataset {
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,
-                None => npz.add(name, count, cells.map(Cell::double).collect())?,
+                None => npz.add(name, count, cells.map(Cell::to_f64).collect())?,
             }
         }
         npz.finish()?;
@@ -101,32 +97,21 @@ pub(crate) fn rows_bytes(data: &Dataset, format: Format) -> Result<Vec<u8>, Fail
 }
 
 /// Returns JSON as the bytes of a file.
-pub(crate) fn json_bytes(value: &Value) -> Vec<u8> {
+pub(crate) fn json_bytes(value: &Json) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }
 
 /// Returns a row as an object, with the bounds of its numbers.
-fn object(data: &Dataset, row: &[Cell]) -> Value {
+fn object(data: &Dataset, row: &[Cell]) -> Json {
     let (mut object, mut bounds) = (Map::new(), Map::new());
     for (column, cell) in data.columns.iter().zip(row) {
         let Some(key) = column.key.as_deref() else { continue };
         if column.is_optional && cell.is_empty() {
             continue;
         }
-        let (value, bound) = match cell {
-            Cell::Plain(value) => (value.clone(), Value::Null),
-            Cell::Number(x) => (x.json(data.digits), x.json_bound(data.digits)),
-            Cell::Numbers(all) => {
-                let (values, bounds) = (
-                    all.iter().map(|x| x.json(data.digits)).collect::<Vec<_>>(),
-                    all.iter().map(|x| x.json_bound(data.digits)).collect::<Vec<_>>(),
-                );
-                (values.into(), bounds.into())
-            }
-        };
-        insert(&mut object, key, value);
+        insert(&mut object, key, cell.json());
         if column.is_bounded {
-            insert(&mut bounds, key.trim_start_matches(VALUES), bound);
+            insert(&mut bounds, key.trim_start_matches(VALUES), cell.bound_json());
         }
     }
     if !bounds.is_empty() {
@@ -136,11 +121,11 @@ fn object(data: &Dataset, row: &[Cell]) -> Value {
 }
 
 /// Inserts `value` under `key`, in which a `/` follows the name of an object inside.
-fn insert(object: &mut Map<String, Value>, key: &str, value: Value) {
+fn insert(object: &mut Map<String, Json>, key: &str, value: Json) {
     match key.split_once('/') {
         None => drop(object.insert(key.into(), value)),
         Some((outer, inner)) => {
-            if let Value::Object(object) = object.entry(outer).or_insert_with(|| Map::new().into()) {
+            if let Json::Object(object) = object.entry(outer).or_insert_with(|| Map::new().into()) {
                 insert(object, inner, value);
             }
         }

@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::run::Point;
 
+/// The finished points of a sweep in a file.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -55,6 +56,7 @@ impl Journal {
         Ok((Journal { path, file: Mutex::new(file) }, points))
     }
 
+    /// Adds a finished point.
     pub(crate) fn add(&self, point: &Point) -> Result<(), Error> {
         let line = serde_json::to_string(point)? + "\n";
         self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())

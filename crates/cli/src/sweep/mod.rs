@@ -5,5 +5,5 @@ mod run;
 
 pub(crate) use dalembert_verify::regimes::{Axis, Grid, SweepError};
 pub(crate) use journal::{Journal, journal_path};
-pub use run::{Cell, sweep};
 pub(crate) use run::{Point, Request, Sweep};
+pub use run::{PointNumber, sweep};

@@ -174,7 +174,7 @@ fn held_against_the_history(name: &str, mut program: Command) {
     let rows: Vec<Vec<f64>> =
         text.lines().map(|line| line.split_whitespace().map(|value| value.parse().unwrap()).collect()).collect();
     assert_eq!(rows.len(), pairs.len());
-    let scales = rod.solve().unwrap().scales();
+    let scales = rod.doubles().unwrap().scales();
     for (row, (x, t)) in rows.iter().zip(pairs) {
         let exact = |x: f64| Rational::from_f64(x).unwrap();
         let field = history.field(&[exact(x)], &[exact(t)], Side::Right).unwrap().remove(0);
@@ -440,13 +440,14 @@ fn the_comments_of_a_csv() {
 #[test]
 fn what_cannot_be_is_refused() {
     let asked = |more: &[&str], said: &[&str]| refused(&[&["reference", "doyen-ern-piperno"], more].concat(), said);
-    asked(&["--columns", "t,u"], &["found no column of this name, expected one of t, side, u_end"]);
-    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found the column t twice, expected each once"]);
+    asked(&["--columns", "t,x"], &["found the quantity x without points"]);
+    asked(&["--columns", "t,w"], &["[possible values: ground, end, top, centre, energy, t, side, u_end"]);
+    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found --quantity t twice, expected each once"]);
     asked(&["--dt", "0.1"], &["--to <T>"]);
     asked(&["--dt", "0", "--to", "1"], &["expected a step above 0"]);
     asked(&["--dt", "1e-9", "--to", "5"], &["found 5000000000 steps"]);
     asked(&["--dt", "0.1", "--to", "1", "--times", "1"], &["cannot be used with"]);
-    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json or .npz"]);
+    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json, .npz or .txt"]);
     asked(&["--field", "p1"], &["--points <LIST>"]);
     asked(&["--times", "1", "--points", "1,0", "--field", "p1"], &["found the point 0", "that increase"]);
     asked(&["--times", "1", "--points", "1", "--field", "averages"], &["found fewer than two points"]);
@@ -489,7 +490,7 @@ fn steps_end_where_they_are_told() {
 #[test]
 fn a_damped_rod_has_rows() {
     let rod = scene("figure-4-r02").with_run(Run::Time(4.into())).unwrap();
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let found = json(&["reference", "figure-4-r02", "--times", "1,3", "--format", "json", "--side", "left"]);
     let names: Vec<&str> = found["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
     for (row, t) in found["rows"].as_array().unwrap().iter().zip([1.0, 3.0]) {

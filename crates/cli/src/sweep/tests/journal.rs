@@ -1,15 +1,15 @@
 use super::*;
-use crate::sweep::Cell;
+use crate::sweep::PointNumber;
 
 #[test]
 fn a_journal_cut_anywhere_gives_back_what_was_whole_and_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("sweep.csv");
     let sweep = serde_json::json!({"scene": "μ", "points": [0, 3]});
-    let cell = |x: f64| Cell { value: x.into(), uncertainty: 1e-17.into(), note: None };
+    let cell = |x: f64| PointNumber { value: x.into(), uncertainty: 1e-17.into(), note: None };
     let point = |index| Point {
         index,
-        cells: vec![cell(0.1 + index as f64), Cell { note: Some("none".into()), ..Cell::default() }],
+        numbers: vec![cell(0.1 + index as f64), PointNumber { note: Some("none".into()), ..PointNumber::default() }],
     };
     let all: Vec<Point> = [2, 0, 1].map(point).into();
     let (journal, known) = Journal::open(&output, &sweep, false).unwrap();
