@@ -43,7 +43,7 @@ fn agree(rough: &[Time], fine: &[Time], least_digits: f64) {
     assert_eq!(rough.iter().filter(|time| time.kind == EventKind::Impact).count(), 10);
     for (a, b) in rough.iter().zip(fine) {
         assert_eq!(a.kind, b.kind);
-        let off = (a.at.clone() - &b.at).to_f64().abs();
+        let off = Scalar::to_f64(&(a.at.clone() - &b.at)).abs();
         assert!(off <= a.log2_bound.exp2() + b.log2_bound.exp2(), "{off} 2^{}", a.log2_bound);
         assert!(a.log2_bound < -least_digits * std::f64::consts::LOG2_10, "2^{}", a.log2_bound);
     }

@@ -108,8 +108,10 @@ impl<const N: usize> Wide<N> {
         }
         guarded!(N, M => {
             let root = self.resized::<M>().near_root();
-            let guard = root.limbs[M - 1 - N];
-            if guard.abs_diff(TOP) > 1 << 32 { root.resized() } else { self.middle(&root) }
+            match M.checked_sub(N + 1).map(|guard| root.limbs[guard].abs_diff(TOP) > 1 << 32) {
+                Some(false) => self.middle(&root),
+                _ => root.resized(),
+            }
         })
     }
 

@@ -21,7 +21,7 @@ const QUARTER_PI: Wide<16> = Wide {
 };
 
 /// `ln 2`, in eight limbs.
-const LN_2: Wide<8> = Wide {
+pub(super) const LN_2: Wide<8> = Wide {
     #[rustfmt::skip]
     limbs: [
         0x27573b291169b825, 0xed2eae35c1382144, 0x559552fb4afa1b10, 0xe7b876206debac98,

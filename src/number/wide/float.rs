@@ -5,13 +5,14 @@ use std::ops::Neg;
 
 use super::limbs::{increment, move_up, order, shift_up};
 
-/// A binary floating-point number with a mantissa of `LIMBS ≥ 2` machine words, on the stack: `64 LIMBS` bits.
+/// A binary floating-point number with a mantissa of 2 to 6 machine words, on the stack: `64 LIMBS` bits.
 ///
 /// A number is `± m 2^e` with `½ ≤ m < 1`, zero without a sign, an infinity, or no number.
 ///
 /// **Accuracy**: sums, differences, products, quotients, square roots and conversions are *correctly rounded*, a number
 /// in the middle between two away from zero; so each is within the unit roundoff `2^{−64 LIMBS}` of itself.
-/// Elementary functions are within 0.51 units in the last place. Results below `2^{−2³⁰}` become the least number with
+/// Elementary functions are within 0.51 units in the last place. Beyond seven limbs these and square roots have the
+/// digits of eight. Results below `2^{−2³⁰}` become the least number with
 /// their sign, those from `2^{2³⁰}` on become infinite.
 #[derive(Clone, Copy, Debug)]
 pub struct Wide<const LIMBS: usize> {
@@ -31,6 +32,11 @@ pub(super) const MOST: i32 = 1 << 30;
 pub(super) const TOP: u64 = 1 << 63;
 
 impl<const N: usize> Wide<N> {
+    /// The number of limbs; the compiler refuses fewer than two.
+    pub(super) const LIMBS: usize = {
+        assert!(N >= 2, "a number has at least two limbs");
+        N
+    };
     pub(super) const ZERO: Self = Wide { limbs: [0; N], exponent: ZERO, negative: false };
     pub(super) const ONE: Self = Wide::power(0);
     pub(super) const NAN: Self = Wide { limbs: [TOP; N], exponent: INFINITE, negative: false };
@@ -145,7 +151,7 @@ impl<const N: usize> From<i64> for Wide<N> {
         }
         let zeros = size.leading_zeros();
         let mut limbs = [0; N];
-        limbs[N - 1] = size << zeros;
+        limbs[Self::LIMBS - 1] = size << zeros;
         Wide { limbs, exponent: 64 - zeros as i32, negative: n < 0 }
     }
 }
@@ -163,7 +169,7 @@ impl<const N: usize> From<f64> for Wide<N> {
             0 => Wide { negative: negative && fraction != 0, ..Wide::from(fraction as i64).scaled(-1074) },
             _ => {
                 let mut limbs = [0; N];
-                limbs[N - 1] = TOP | fraction << 11;
+                limbs[Self::LIMBS - 1] = TOP | fraction << 11;
                 Wide { limbs, exponent: exponent - 1022, negative }
             }
         }

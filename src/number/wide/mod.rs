@@ -4,15 +4,16 @@
 //! and roots, `elementary` the elementary functions, `convert` the way to fractions and back, `system` what the
 //! formulas ask of a number.
 
-/// Evaluates an expression for `M = N + 1`: in a limb more than the numbers have.
+/// Evaluates an expression for `M = N + 1`, N from 2 to 7: in a limb more than the numbers have.
 macro_rules! guarded {
-    ($n:ident, $m:ident => $body:expr) => {
+    ($n:expr, $m:ident => $body:expr) => {
         match $n {
             2 => guarded!(@ $m = 3, $body),
             3 => guarded!(@ $m = 4, $body),
             4 => guarded!(@ $m = 5, $body),
             5 => guarded!(@ $m = 6, $body),
-            _ => guarded!(@ $m = 7, $body),
+            6 => guarded!(@ $m = 7, $body),
+            _ => guarded!(@ $m = 8, $body),
         }
     };
     (@ $m:ident = $count:literal, $body:expr) => {{
@@ -31,3 +32,10 @@ mod limbs;
 mod system;
 
 pub use float::Wide;
+
+#[cfg(test)]
+#[path = "tests/arithmetic.rs"]
+mod arithmetic_tests;
+#[cfg(test)]
+#[path = "tests/elementary.rs"]
+mod elementary_tests;
