@@ -66,10 +66,10 @@ fn halves<const N: usize>(found: &Wide<N>, exact: &Rational) -> f64 {
     let inwards = rational::sign(&off).is_gt() != found.negative;
     // Below a power of two, units are half as great.
     let power = found.magnitude() == Wide::power(found.exponent - 1);
-    let factor = if power && inwards { 2.0 } else { 1.0 };
-    let size = Scalar::to_f64(&off).abs() * factor;
-    assert!(size < 1.0 || size == 1.0 && inwards, "{size}");
-    size
+    let size = Scalar::magnitude(&off) * Rational::from(if power && inwards { 2 } else { 1 });
+    let order = size.cmp(&Rational::from(1));
+    assert!(order.is_lt() || order.is_eq() && inwards, "{found:?} {exact}");
+    Scalar::to_f64(&size)
 }
 
 /// Operations on fractions, which each build has: exact in every bit. At least `greatest` halves of a unit are met.
