@@ -10,7 +10,7 @@ use dalembert::number::{Analytic, Scalar, Wide};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Float, Number, Problem, Run};
 
-/// So many numbers between −1 and 1 with digits to the end.
+/// Numbers between −1 and 1 with digits to the end.
 fn numbers<S: Analytic>(like: &S) -> Vec<S> {
     (0..100).map(|k| (like.int(3 * k + 1).sqrt() * &like.int(1 - 2 * (k % 2))) / like.int(20)).collect()
 }

@@ -191,7 +191,6 @@ impl<const N: usize> Wide<N> {
                 let half = f64::from_bits(((self.exponent + 1022) as u64) << 52);
                 sign * (mantissa as i64 as f64 * (2.0 / TOP as f64)) * half
             }
-            ZERO => 0.0,
             INFINITE if top != 0 => f64::NAN,
             1025.. => sign * f64::INFINITY,
             ..-1074 => 0.0,
@@ -223,7 +222,7 @@ impl<const N: usize> PartialEq for Wide<N> {
 }
 
 impl<const N: usize> PartialOrd for Wide<N> {
-    /// What is no number has no order.
+    /// Compares by value; no number has no order.
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         if self.is_nan() || other.is_nan() {

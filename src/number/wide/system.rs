@@ -1,4 +1,4 @@
-//! What formulas ask of a number.
+//! The traits that formulas ask of a number.
 
 use std::cmp::Ordering;
 
