@@ -12,7 +12,8 @@ use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Si
 use crate::number::{IntoValue, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
-    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Undefined, UnitSystem, Units, flights,
+    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
+    flights,
 };
 use crate::reason::Warning;
 
@@ -33,7 +34,7 @@ use crate::reason::Warning;
 /// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
 /// let history = rod.solve()?;
 /// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-/// assert_eq!(history.contacts()?[0].to.as_ref().map(Value::to_f64), Some(2.0));
+/// assert_eq!(history.contacts()?[0].release.as_ref().map(Value::to_f64), Some(2.0));
 /// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
 /// assert_eq!(history.at(0.25, 0.5)?.strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())
@@ -64,15 +65,15 @@ pub type Rows = Vec<Vec<Result<Value, Undefined>>>;
 pub struct Listing {
     /// Kind of each event.
     pub kinds: Vec<EventKind>,
-    /// A row for each impact and release, of [`Listing::EVENTS`].
+    /// A row for each impact and release, of [`Table::Events`].
     pub events: Rows,
-    /// A row for each contact, of [`Listing::CONTACTS`].
+    /// A row for each contact, of [`Table::Contacts`].
     pub contacts: Rows,
-    /// A row for each flight, of [`Listing::FLIGHTS`].
+    /// A row for each flight, of [`Table::Flights`].
     pub flights: Rows,
     /// The stress at the ground; empty where it was not asked for.
     pub stress: Vec<StressPiece<Value>>,
-    /// A row for each piece of it, of [`Listing::PIECES`].
+    /// A row for each piece of it, of [`Table::Stress`].
     pub pieces: Rows,
     /// Whether a piece of the stress was curved, before it was replaced by straight ones.
     pub is_curved: bool,
@@ -85,39 +86,6 @@ pub enum StressForm {
     Straight(f64),
     /// Pieces with the coefficients of their Chebyshev series.
     Series,
-}
-
-impl Listing {
-    /// Quantities of an event.
-    pub const EVENTS: [Quantity; 4] =
-        [Quantity::EventTime, Quantity::EventVelocity, Quantity::EventCentre, Quantity::EventCentreVelocity];
-    /// Quantities of a contact.
-    pub const CONTACTS: [Quantity; 13] = [
-        Quantity::Impact,
-        Quantity::Release,
-        Quantity::ContactImpulse,
-        Quantity::PeakStrain,
-        Quantity::PeakStress,
-        Quantity::PeakForce,
-        Quantity::MomentumRestitution,
-        Quantity::EnergyRestitution,
-        Quantity::TranslationalShare,
-        Quantity::EnergyKept,
-        Quantity::EnergyLeft,
-        Quantity::TranslationalLeft,
-        Quantity::VibrationalLeft,
-    ];
-    /// Quantities of a flight.
-    pub const FLIGHTS: [Quantity; 4] = [Quantity::FlightBegins, Quantity::FlightEnds, Quantity::TopTime, Quantity::Top];
-    /// Quantities of a piece of the stress at the ground.
-    pub const PIECES: [Quantity; 6] = [
-        Quantity::PieceBegins,
-        Quantity::PieceEnds,
-        Quantity::PieceStrainBegins,
-        Quantity::PieceStrainEnds,
-        Quantity::PieceStressBegins,
-        Quantity::PieceStressEnds,
-    ];
 }
 
 impl History {
@@ -212,11 +180,11 @@ impl History {
             })?;
             Ok(events.into_iter().map(|event| Event {
                 kind: event.kind,
-                time: self.value(event.time, Some(Measure::Time)),
-                end_velocity: self.value(event.end_velocity, Some(Measure::Velocity)),
-                centre: self.value(event.centre, Some(Measure::Length)),
-                centre_velocity: self.value(event.centre_velocity, Some(Measure::Velocity)),
-                time_error: event.time_error,
+                t: self.value(event.t, Some(Measure::Time)),
+                v_end: self.value(event.v_end, Some(Measure::Velocity)),
+                h: self.value(event.h, Some(Measure::Length)),
+                h_rate: self.value(event.h_rate, Some(Measure::Velocity)),
+                t_error: event.t_error,
             }).collect())
         })
     }
@@ -229,8 +197,8 @@ impl History {
             })?;
             let scales = history.carried_scales();
             Ok(contacts.into_iter().map(|contact| Contact {
-                from: self.value(contact.from, Some(Measure::Time)),
-                to: contact.to.map(|to| self.value(to, Some(Measure::Time))),
+                impact: self.value(contact.impact, Some(Measure::Time)),
+                release: contact.release.map(|release| self.value(release, Some(Measure::Time))),
                 impulse: self.quantity(Quantity::ContactImpulse, contact.impulse, &scales),
                 peak_strain: self.value(contact.peak_strain, Some(Measure::Strain)),
             }).collect())
@@ -390,7 +358,7 @@ impl History {
     /// ground is listed, as it can cost more than all the rest.
     pub fn listing(&self, stress: Option<StressForm>, ratios: bool) -> Result<Listing, Error> {
         typed!(self, history => {
-            let lists: [&[Quantity]; 3] = [&Listing::EVENTS, &Listing::CONTACTS, &Listing::FLIGHTS];
+            let lists = [Table::Events, Table::Contacts, Table::Flights].map(Table::quantities);
             let (_, rows, curve, kinds) = history.ask(
                 |motion| {
                     let rows = [
@@ -419,13 +387,13 @@ impl History {
                 Some(StressForm::Straight(part)) => straight(&curve, part),
                 _ => curve,
             };
-            let piece = |StressPiece { from, to, left, right, .. }: &StressPiece<_>| {
-                [from, to, left, right, left, right].map(|x: &_| Ok(Clone::clone(x))).into()
+            let piece = |StressPiece { start, end, strain_start, strain_end, .. }: &StressPiece<_>| {
+                [start, end, strain_start, strain_end, strain_start, strain_end].map(|x: &_| Ok(Clone::clone(x))).into()
             };
             let pieces = curve.iter().map(piece).collect();
             Ok(Listing {
                 kinds,
-                pieces: self.rows(&Listing::PIECES, pieces, &scales),
+                pieces: self.rows(Table::Stress.quantities(), pieces, &scales),
                 events: self.rows(lists[0], events, &scales),
                 contacts: self.rows(lists[1], contacts, &scales),
                 flights: self.rows(lists[2], flights, &scales),

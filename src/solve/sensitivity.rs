@@ -37,11 +37,11 @@ impl Sensitivity {
         let history = problem.to_builder().impacts(contacts).build().ok()?.doubles().ok()?;
         let derivatives = history.derivatives(by, &[Quantity::EventTime]).ok()?;
         let mut found = Vec::new();
-        for (event, row) in history.events().iter().zip(&derivatives).filter(|(event, _)| event.time <= until) {
+        for (event, row) in history.events().iter().zip(&derivatives).filter(|(event, _)| event.t <= until) {
             let sides = row[0].as_ref().map(|derivative| derivative.sides());
             let slopes = sides.into_iter().flatten().flatten().map(|slope| slope.value().abs());
-            let most = slopes.fold(0.0, f64::max) * value.abs() / event.time;
-            found.extend((event.time > 0.0 && most > 0.0).then_some(most));
+            let most = slopes.fold(0.0, f64::max) * value.abs() / event.t;
+            found.extend((event.t > 0.0 && most > 0.0).then_some(most));
         }
         let (first, last) = (*found.first()?, *found.last()?);
         let grown = (last / first).log10() / found.len().checked_sub(1).filter(|count| *count > 0)? as f64;

@@ -110,7 +110,7 @@ impl Plan {
     /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
     /// let observe = Arc::new(|_, _| ControlFlow::Continue(()));
     /// let Solution::Double(motion) = plan.solve_typed(&problem, observe)? else { unreachable!() };
-    /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
+    /// assert!((motion.contacts()[0].release.unwrap() - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn solve_typed(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {

@@ -1,8 +1,9 @@
 //! The history without a number type: its values against pencil and paper, and against the typed history.
 
 use dalembert::number::List;
+use dalembert::quantity::Table;
 use dalembert::quantity::{Slice, UnitSystem};
-use dalembert::solve::{Listing, Places, StressForm};
+use dalembert::solve::{Places, StressForm};
 use dalembert::{Error, Numbers, Problem, Quantity, Side, Value};
 
 /// `ρS = 2`, `c = 2`, `t₁ = 1`, and `M = μ/(g t₁) = 3`.
@@ -26,7 +27,7 @@ fn values_carry_unit_bound_and_kind() {
     // ρ S L (2 μ + g t₁): the momentum that turns round, and what gravity gave in the contact.
     let contacts = exact.contacts().unwrap();
     assert_eq!((contacts[0].impulse.to_string(), contacts[0].impulse.unit()), ("14".into(), "N s"));
-    assert_eq!(contacts[0].to.as_ref().map(Value::to_string), Some("1".into()));
+    assert_eq!(contacts[0].release.as_ref().map(Value::to_string), Some("1".into()));
     assert_eq!(exact.events().unwrap().len(), 2);
     let energy = exact.energy("1/2").unwrap();
     // E = ρSL μ²/2 at the touch, and it is kept.
@@ -59,7 +60,7 @@ fn every_question_agrees_with_the_typed_history() {
     assert_eq!((found.velocity.to_f64(), found.velocity.unit()), (-3.125, "m/s"));
     let listing = history.listing(Some(StressForm::Series), true).unwrap();
     assert_eq!((listing.events.len(), listing.contacts.len(), listing.stress.len()), (2, 1, 2));
-    assert_eq!(listing.contacts[0].len(), Listing::CONTACTS.len());
+    assert_eq!(listing.contacts[0].len(), Table::Contacts.quantities().len());
     assert!(history.in_units(UnitSystem::Si).units().has_material());
 }
 

@@ -8,46 +8,6 @@ use crate::failure::Failure;
 use dalembert::Scene;
 use dalembert::quantity::{Needs, Quantity, Units};
 
-/// A name that stands for several quantities.
-struct Group {
-    name: &'static str,
-    meaning: &'static str,
-    quantities: &'static [Quantity],
-}
-
-const OVER_TIME: [Group; 5] = [
-    Group {
-        name: "ground",
-        meaning: "strain at the ground, and with a material stress and force there",
-        quantities: &[Quantity::Strain, Quantity::Stress, Quantity::Force],
-    },
-    Group {
-        name: "end",
-        meaning: "u_end and v_end: the end at the ground",
-        quantities: &[Quantity::EndDisplacement, Quantity::EndVelocity],
-    },
-    Group {
-        name: "top",
-        meaning: "u_top and v_top: the upper end",
-        quantities: &[Quantity::TopDisplacement, Quantity::TopVelocity],
-    },
-    Group {
-        name: "centre",
-        meaning: "h and h_rate: the centre of mass",
-        quantities: &[Quantity::Centre, Quantity::CentreVelocity],
-    },
-    Group {
-        name: "energy",
-        meaning: "E_total, E_h and E_z",
-        quantities: &[Quantity::Energy, Quantity::TranslationalEnergy, Quantity::VibrationalEnergy],
-    },
-];
-const ALONG_ROD: [Group; 1] = [Group {
-    name: "field",
-    meaning: "u, v, strain, and with a material stress, at points of the rod",
-    quantities: &[Quantity::PointDisplacement, Quantity::PointVelocity, Quantity::PointStrain, Quantity::PointStress],
-}];
-
 /// A set of quantities with unique names, and its groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scope {
@@ -76,11 +36,10 @@ impl Scope {
         }
     }
 
-    fn groups(self) -> &'static [Group] {
-        match self {
-            Scope::OverTime | Scope::SingleNumber => &OVER_TIME,
-            Scope::AlongRod => &ALONG_ROD,
-        }
+    /// Returns the groups, with their names.
+    fn groups(self) -> impl Iterator<Item = (&'static str, &'static [Quantity])> {
+        let needs = if self == Scope::AlongRod { Needs::PointAndTime } else { Needs::Time };
+        Quantity::GROUPS.into_iter().filter(move |(_, group)| group.iter().all(|quantity| quantity.needs() == needs))
     }
 
     /// Returns the quantities that a name or another spelling of it stands for; none for an unknown name. Of a group,
@@ -88,11 +47,11 @@ impl Scope {
     fn lookup(self, name: &str, has_material: bool) -> Vec<Quantity> {
         let quantities = self.quantities();
         let by_name = || quantities.iter().find(|quantity| quantity.name() == name);
-        let by_alias = || quantities.iter().find(|quantity| quantity.also().contains(&name));
-        match self.groups().iter().find(|group| group.name == name) {
-            Some(group) => {
-                group.quantities.iter().copied().filter(|quantity| quantity.is_listed(has_material)).collect()
-            }
+        // Along the rod, the name of a quantity over time is none.
+        let is_other = self == Scope::AlongRod && Needs::Time.named(name).is_some();
+        let by_alias = || quantities.iter().find(|quantity| !is_other && quantity.also().contains(&name));
+        match self.groups().find(|(known, _)| *known == name) {
+            Some((_, group)) => group.iter().copied().filter(|quantity| quantity.is_listed(has_material)).collect(),
             None => by_name().or_else(by_alias).copied().into_iter().collect(),
         }
     }
@@ -105,7 +64,7 @@ impl Scope {
         for name in names {
             let found = self.lookup(name, has_material);
             if found.is_empty() {
-                let groups = self.groups().iter().map(|group| group.name);
+                let groups = self.groups().map(|(name, _)| name);
                 let known: Vec<_> = groups.chain(self.quantities().into_iter().map(Quantity::name)).collect();
                 let place = if self == Scope::AlongRod { " along the rod" } else { "" };
                 return Err(failure!("found the quantity {name}{place}, expected some of {}", known.join(", ")));
@@ -119,7 +78,10 @@ impl Scope {
     }
 
     fn possible_values(self) -> impl Iterator<Item = PossibleValue> {
-        let groups = self.groups().iter().map(|group| PossibleValue::new(group.name).help(group.meaning));
+        let groups = self.groups().map(|(name, group)| {
+            let names: Vec<_> = group.iter().map(|quantity| quantity.name()).collect();
+            PossibleValue::new(name).help(names.join(", "))
+        });
         let quantities = self
             .quantities()
             .into_iter()

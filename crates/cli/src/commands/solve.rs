@@ -12,7 +12,8 @@ use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR,
 use crate::source;
 use dalembert::number::Number;
 use dalembert::problem::{Parameter, Run};
-use dalembert::solve::{Listing, Question, StressForm};
+use dalembert::quantity::Table;
+use dalembert::solve::{Question, StressForm};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
@@ -96,8 +97,9 @@ impl Solve {
         }
         for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let mut events = history.derivatives(by, &[&Listing::EVENTS[..], &Listing::CONTACTS].concat())?;
-            let contacts = events.iter_mut().map(|row| row.split_off(Listing::EVENTS.len().min(row.len())));
+            let [event, contact] = [Table::Events, Table::Contacts].map(Table::quantities);
+            let mut events = history.derivatives(by, &[event, contact].concat())?;
+            let contacts = events.iter_mut().map(|row| row.split_off(event.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect();
             tables.add_derivatives(by, events, contacts);
         }

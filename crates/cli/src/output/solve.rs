@@ -11,29 +11,20 @@ use dalembert::Ending;
 use dalembert::Value;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity::{self, *};
-use dalembert::quantity::{Measure, Undefined};
+use dalembert::quantity::{Measure, Needs, Table, Undefined};
 use dalembert::solve::{Derivatives, History, Listing, Rows};
 
-/// Place of the peak strain among the columns of contacts.
-const PEAK: usize = 3;
+/// The coefficients of a contact that may be undefined.
+const RATIOS: [Quantity; 2] = [MomentumRestitution, EnergyRestitution];
 
-/// Returns the column of a quantity in a list, in JSON inside the object that it belongs to.
+/// Returns the column of a quantity of an event, a contact, a flight or a piece of the stress.
 fn column(quantity: Quantity) -> Column {
-    let key = quantity.key();
-    let column = Column::new(key).headed(quantity.symbol());
+    let name = quantity.name();
     match quantity {
-        EventTime => column.headed(key),
-        MomentumRestitution | EnergyRestitution => {
-            column.named(format!("restitution_{key}")).keyed(format!("restitution/{key}"))
-        }
-        TranslationalShare | EnergyKept => Column::json(format!("restitution/{key}")),
-        EnergyLeft | TranslationalLeft | VibrationalLeft => column.keyed(format!("energy/{key}")),
-        FlightEnds => Column::json(key),
-        TopTime => column.keyed("highest/time"),
-        Top => column.keyed("highest/centre"),
-        PieceStressBegins | PieceStressEnds => Column::csv(key),
-        PieceBegins | PieceEnds | PieceStrainBegins | PieceStrainEnds => Column::data(key),
-        _ => column,
+        EventTime => Column::new(name).headed("time"),
+        Duration | ImpactVelocity | ReleaseVelocity | TranslationalShare | EnergyKept | Landing => Column::data(name),
+        _ if quantity.needs() == Needs::Piece => Column::data(name),
+        _ => Column::new(name).headed(quantity.symbol()),
     }
 }
 
@@ -100,14 +91,10 @@ pub(crate) struct HistoryTables {
     lost: Option<(u32, f64)>,
 }
 
-fn csv_name(quantity: Quantity) -> String {
-    column(quantity).name.map_or_else(|| quantity.key().to_string(), Into::into)
-}
-
 /// Returns the reasons why `e_P` and `e_E²` of a contact are not defined.
 fn undefined_ratios(contact: &[Result<Value, Undefined>]) -> [Option<Undefined>; 2] {
-    [MomentumRestitution, EnergyRestitution].map(|ratio| {
-        let place = Listing::CONTACTS.iter().position(|quantity| *quantity == ratio)?;
+    RATIOS.map(|ratio| {
+        let place = Table::Contacts.quantities().iter().position(|quantity| *quantity == ratio)?;
         contact.get(place)?.as_ref().err().copied()
     })
 }
@@ -116,7 +103,7 @@ impl HistoryTables {
     /// Returns the tables of a history and its lists.
     pub(crate) fn new(history: &History, listing: Listing, info: &RunInfo) -> Self {
         let undefined: Vec<_> = listing.contacts.iter().map(|contact| undefined_ratios(contact)).collect();
-        let mut events = listed(&Listing::EVENTS, listing.events, info);
+        let mut events = listed(Table::Events.quantities(), listing.events, info);
         let has_bound = |row: &Vec<Cell>| match &row[0] {
             Cell::Number(time) => time.ends().is_none() && time.log2_error().is_finite(),
             _ => false,
@@ -129,13 +116,13 @@ impl HistoryTables {
             row.insert(0, kind.to_string().into());
             row.splice(2..2, is_uncertain.then_some(bound.into()));
         }
-        let mut contacts = listed(&Listing::CONTACTS, listing.contacts, info);
-        let keys = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
+        let mut contacts = listed(Table::Contacts.quantities(), listing.contacts, info);
+        let keys = RATIOS.map(|ratio| format!("undefined/{ratio}"));
         contacts.columns.extend(keys.map(|key| Column::json(key).optional()));
         for (row, undefined) in contacts.rows.iter_mut().zip(&undefined) {
             row.extend(undefined.map(|reason| reason.map(|reason| reason.to_string()).into()));
         }
-        let mut stress = listed(&Listing::PIECES, listing.pieces, info);
+        let mut stress = listed(Table::Stress.quantities(), listing.pieces, info);
         stress.columns.push(Column::data("chebyshev").bounded().optional());
         for (row, piece) in stress.rows.iter_mut().zip(listing.stress) {
             row.push(Cell::Numbers(piece.chebyshev));
@@ -144,7 +131,7 @@ impl HistoryTables {
             events,
             contacts,
             undefined,
-            flights: listed(&Listing::FLIGHTS, listing.flights, info),
+            flights: listed(Table::Flights.quantities(), listing.flights, info),
             derivatives: Vec::new(),
             stress,
             is_curved: listing.is_curved,
@@ -158,18 +145,13 @@ impl HistoryTables {
 
     /// Adds the derivatives of events and contacts by a value of the scene.
     pub(crate) fn add_derivatives(&mut self, by: Parameter, events: Derivatives<Value>, contacts: Derivatives<Value>) {
-        add_columns(&mut self.events, &Listing::EVENTS, (by, &events), csv_name);
-        add_columns(&mut self.contacts, &Listing::CONTACTS, (by, &contacts), csv_name);
+        add_columns(&mut self.events, Table::Events.quantities(), (by, &events));
+        add_columns(&mut self.contacts, Table::Contacts.quantities(), (by, &contacts));
         self.derivatives.push(HistoryDerivatives { by, events, contacts });
     }
 
     /// Returns the whole history as JSON, schema 1.
     pub(crate) fn json(&self, info: &RunInfo) -> Json {
-        let (mut contacts, mut flights) = (self.contacts.objects(), self.flights.objects());
-        // An object of values that do not exist is null.
-        for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
-            list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Json::Null);
-        }
         json!({
             "schema": 1,
             "title": info.title,
@@ -178,8 +160,8 @@ impl HistoryTables {
             "units": info.units_json(),
             "exact_until": info.exact_until_json(),
             "events": self.events.objects(),
-            "contacts": contacts,
-            "flights": flights,
+            "contacts": self.contacts.objects(),
+            "flights": self.flights.objects(),
             "stress": {"pieces": self.stress.objects()},
             "end": self.end_json(),
             "error_estimate": self.error,
@@ -194,9 +176,9 @@ impl HistoryTables {
             ending => ending.to_string(),
         };
         let mut value = json!({
-            "time": self.end,
+            "t": self.end,
             "reason": reason,
-            "uncertainty": {"time": Cell::Number(self.end.clone()).bound_json()},
+            "uncertainty": {"t": Cell::Number(self.end.clone()).bound_json()},
         });
         if let Ending::ExactnessEnds { kind, time, near } = &self.ending {
             value["event"] = json!(kind);
@@ -219,11 +201,11 @@ impl HistoryTables {
             data.notes.push(self.ending.at(&self.end.to_string()));
         }
         if part == HistoryPart::Stress && coefficients {
-            let series = "the sum of chebyshev[k] T_k(x), x = 2(t - from)/(to - from) - 1";
-            data.notes.push(format!("v_x(0,t) is linear from strain_from to strain_to, or {series}"));
+            let series = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
+            data.notes.push(format!("v_x(0,t) is linear from strain_start to strain_end, or {series}"));
         } else if part == HistoryPart::Stress && self.is_curved {
             data.notes.push(format!(
-                "straight lines from strain_from to strain_to are within {STRAIGHT_ERROR:e} of the greatest v_x(0,t); \
+                "straight lines from strain_start to strain_end are within {STRAIGHT_ERROR:e} of the greatest v_x(0,t); \
                  the coefficients give the exact form"
             ));
         }
@@ -244,7 +226,8 @@ impl HistoryTables {
         }
         out += "\n";
         if !self.outline.is_empty() {
-            let peaks = self.contacts.rows.iter().map(|contact| contact[PEAK].to_f64());
+            let place = Table::Contacts.quantities().iter().position(|quantity| *quantity == PeakStrain);
+            let peaks = self.contacts.rows.iter().filter_map(|contact| Some(contact.get(place?)?.to_f64()));
             out += &sparkline(&self.outline, self.end.to_f64(), peaks.fold(0.0, f64::min), info);
         }
         out += &format!("{}\n\n{}\n\n", self.events.table(), self.contacts.table());
@@ -291,11 +274,12 @@ impl HistoryTables {
         };
         let mut out = String::new();
         for HistoryDerivatives { by, events, contacts } in &self.derivatives {
-            out += &table(self.events.rows.iter().map(event).collect(), &symbols(&Listing::EVENTS), *by, events);
+            out +=
+                &table(self.events.rows.iter().map(event).collect(), &symbols(Table::Events.quantities()), *by, events);
             // The beginning and the end of a contact are events, in the table above.
             out += &table(
                 self.contacts.rows.iter().map(contact).collect(),
-                &symbols(&Listing::CONTACTS)[2..],
+                &symbols(Table::Contacts.quantities())[2..],
                 *by,
                 contacts,
             );
@@ -316,8 +300,8 @@ impulse        −E S ∫ v_x(0,t) dt over the contact; per ρS −c² ∫ v_x(0
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
-e_P            −P(to)/P(from), P = ρSL h′; below zero if h falls at the end
-e_E²           E_h(to)/E_h(from): above 1 where the vibration gives energy back
+e_P            −P(release)/P(impact), P = ρSL h′; below zero if h falls then
+e_E²           E_h(release)/E_h(impact): above 1 if the vibration gives energy back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
 per ρS         divided by the linear density, known with a material only

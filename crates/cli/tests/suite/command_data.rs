@@ -61,7 +61,7 @@ fn every_format_says_where_fractions_end() {
     assert!(of("table").ends_with(&format!("{said}; these are 12 digits\n")), "{}", of("table"));
 }
 
-/// The pieces of a CSV of the stress: its comments, and `from, to, left, right` with what stands behind them.
+/// The pieces of a CSV of the stress: its comments, and `start, end, left, right` with what stands behind them.
 fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
     let Run { code, out, err } = run(&[&["solve", scene, "--format", "csv", "--part", "stress"], more].concat());
     assert_eq!((code, err.as_str()), (Some(0), ""));
@@ -73,7 +73,7 @@ fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
         let series = if rows[0].split(',').nth(4) == Some("chebyshev") { cells[4].to_string() } else { String::new() };
         (numbers, series)
     };
-    assert!(rows[0].starts_with("from,to,strain_from,strain_to"));
+    assert!(rows[0].starts_with("start,end,strain_start,strain_end"));
     (comments.join("\n"), rows[1..].iter().map(row).collect())
 }
 

@@ -21,7 +21,7 @@ fn samples() {
     assert_eq!(cells[2..], [["1", "left", "-4"], ["2", "left", "-5"]]);
 
     for (quantity, names) in [
-        ("ground", &["strain"][..]),
+        ("strain", &["strain"][..]),
         ("end", &["u_end", "v_end"]),
         ("top", &["u_top", "v_top"]),
         ("centre", &["h", "h_rate"]),
@@ -97,22 +97,20 @@ fn published_values_beside_ours() {
     let rows = json(&["scenes", "ansys-vm265", "--targets", "--format", "json"]);
     let rows = rows.as_array().unwrap();
     for row in rows {
-        keys(row, &["quantity", "time", "published", "ours", "difference", "within", "agrees", "source"]);
+        keys(row, &["quantity", "t", "published", "ours", "difference", "within", "agrees", "source"]);
     }
     // gap/μ, and 2L/c after it.
     let close = |value: &Value, truth: f64| assert!((value.as_f64().unwrap() - truth).abs() < 1e-12 * truth, "{value}");
     close(&rows[0]["ours"], 0.01 / 202.2);
     close(&rows[2]["ours"], 0.01 / 202.2 + 20.0 / (3e7f64 / 0.73e-3).sqrt());
-    assert_eq!((&rows[0]["quantity"], &rows[0]["time"]), (&"impact".into(), &Value::Null));
+    assert_eq!((&rows[0]["quantity"], &rows[0]["t"]), (&"impact".into(), &Value::Null));
 
     let table = quiet(&["scenes", "code-aster-sdnv100", "--targets"]);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
     assert!(table.contains("E_total, J                   2e-6      3200.0     3200            0   yes (2)"), "{table}");
     let csv = quiet(&["scenes", "ansys-vm85", "--targets", "--format", "csv"]);
     assert!(
-        csv.starts_with(
-            "quantity,unit,time,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"
-        ),
+        csv.starts_with("quantity,unit,t,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"),
         "{csv}"
     );
 
