@@ -11,7 +11,9 @@ use crate::answer::{Answer, solve};
 use crate::args::{NumberArgs, OutputArgs, list, words};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, formats, write_all};
-use crate::output::{Cell, Column, Header, Kind, Language, RowWriter, RunInfo, TableLayout, code, derivative_table};
+use crate::output::{
+    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
+};
 use crate::quantities::{NameParser, Scope, has_material};
 use crate::{source, terminal};
 use dalembert::number::{List, Number};
@@ -258,15 +260,6 @@ struct Rows<'a> {
     side: Option<Side>,
 }
 
-/// The values of a column.
-#[derive(Clone, Copy)]
-enum Values {
-    /// Values of a quantity, by its place among the quantities.
-    Quantity(usize),
-    /// Derivatives, by the place of the parameter and that of the quantity, on one side where the sides differ.
-    Derivative { parameter: usize, quantity: usize, side: Option<usize> },
-}
-
 impl Rows<'_> {
     /// Returns the values of a part of the times, column by column.
     fn values(&self, history: &History, part: Range<usize>) -> Result<Vec<Vec<Value>>, Error> {
@@ -289,119 +282,49 @@ impl Rows<'_> {
         parameters.iter().map(|by| history.derivatives_at(*by, quantities, &times, &points, side)).collect()
     }
 
-    /// Returns the columns of a file, and the values of each; tables show the first `shown` of them.
-    fn columns(
-        &self,
-        info: &RunInfo,
-        derived: &[usize],
-        derivatives: &[Derivatives<Value>],
-    ) -> (Vec<(Column, Values)>, usize) {
-        let mut columns = Vec::new();
-        let mut add = |column: Column, values: Values| {
-            let bound = (self.args.uncertainty && column.kind == Kind::Number).then(|| Column {
-                name: format!("{}_uncertainty", column.name).into(),
-                symbol: "".into(),
-                meaning: format!("bound of the error of {}", column.name).into(),
-                kind: Kind::Bound,
-                ..column.clone()
-            });
-            columns.push((column, values));
-            columns.extend(bound.map(|bound| (bound, values)));
-        };
-        for (place, quantity) in self.quantities.iter().enumerate() {
-            add(Column::new(*quantity, &info.units), Values::Quantity(place));
-        }
-        let shown = self.quantities.len() + if self.args.uncertainty { self.count_numbers(info) } else { 0 };
-        for (parameter, (by, rows)) in self.args.derivatives.iter().zip(derivatives).enumerate() {
-            for (quantity, place) in derived.iter().enumerate() {
-                let of = Column::new(self.quantities[*place], &info.units);
-                let column = |side: &str| Column {
-                    name: format!("{}_by_{by}{side}", of.name).into(),
-                    symbol: format!("∂ {}", of.symbol).into(),
-                    meaning: format!("derivative of {} by {by}", of.name).into(),
-                    unit: "",
-                    kind: Kind::Number,
-                };
-                add(column(""), Values::Derivative { parameter, quantity, side: None });
-                // Most derivatives are the same from both sides.
-                let mut cells = rows.iter().filter_map(|row| row.get(quantity)?.as_ref());
-                if cells.any(|cell| cell.value().is_none()) {
-                    add(column("_left"), Values::Derivative { parameter, quantity, side: Some(0) });
-                    add(column("_right"), Values::Derivative { parameter, quantity, side: Some(1) });
-                }
-            }
-        }
-        (columns, shown)
-    }
-
-    fn count_numbers(&self, info: &RunInfo) -> usize {
-        self.quantities.iter().filter(|quantity| Column::new(**quantity, &info.units).kind == Kind::Number).count()
-    }
-}
-
-/// Returns the cell of `row` in a column.
-fn cell<'a>(values: Values, row: usize, table: &'a [Vec<Value>], derivatives: &'a [Derivatives<Value>]) -> Cell<'a> {
-    match values {
-        Values::Quantity(place) => Cell::Number(&table[place][row]),
-        Values::Derivative { parameter, quantity, side } => {
-            let found = derivatives[parameter][row][quantity].as_ref();
-            match (found, side) {
-                (Some(found), None) => found.value().map_or(Cell::Empty, Cell::Number),
-                (Some(found), Some(side)) if found.value().is_none() => match found.sides()[side] {
-                    Ok(number) => Cell::Number(number),
-                    Err(why) => Cell::Undefined(why),
-                },
-                (_, _) => Cell::Empty,
-            }
-        }
-    }
-}
-
-impl Rows<'_> {
     /// Writes rows while the next ones are computed.
     fn write(&self, answer: Answer, destinations: &[Destination]) -> Result<(), Failure> {
         let Answer { history, info, progress } = answer;
         let info = RunInfo { wide: self.args.wide, ..info };
-        let keys = [Quantity::Time, Quantity::Side, Quantity::Point];
-        let places = 0..self.quantities.len();
-        let derived: Vec<usize> = places.filter(|place| !keys.contains(&self.quantities[*place])).collect();
-        let of: Vec<Quantity> = derived.iter().map(|place| self.quantities[*place]).collect();
-        let derivatives = self.derivatives(&history, &of)?;
-        let (columns, shown) = self.columns(&info, &derived, &derivatives);
-        let (columns, values): (Vec<Column>, Vec<Values>) = columns.into_iter().unzip();
-        let writer = |destination: &Destination| RowWriter::new(destination.format, columns.clone(), info.digits);
+        let is_key = |quantity: &&Quantity| SLICE[..3].contains(*quantity);
+        let derived: Vec<Quantity> = self.quantities.iter().filter(|quantity| !is_key(quantity)).copied().collect();
+        let derivatives = self.derivatives(&history, &derived)?;
+        let by = || self.args.derivatives.iter().copied().zip(&derivatives);
+        let (derived_columns, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
+            by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
+        let columns = self.quantities.iter().map(|quantity| Column::new(*quantity, &info.units));
+        let columns: Vec<Column> = columns.chain(derived_columns).collect();
+        let writer = |destination: &Destination| {
+            // A table has derivatives below it.
+            let count = if destination.format == Format::Table { self.quantities.len() } else { columns.len() };
+            RowWriter::new(destination.format, &columns[..count], self.args.uncertainty, info.digits)
+        };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        let mut write = |cells: &[Vec<Cell>]| writers.iter_mut().try_for_each(|writer| writer.push(cells));
         let count = self.times.as_ref().map_or(1, List::len);
         // Derivatives are computed all at once.
         let at_once = match derivatives.is_empty() {
             true => CHUNK / self.points.as_ref().map_or(1, List::len).min(CHUNK),
             false => count,
         };
-        let (mut table, mut written): (Vec<Vec<Value>>, _) = (Vec::new(), Ok(()));
-        let mut write = |table: &[Vec<Value>]| {
-            let count = table.first().map_or(0, Vec::len);
-            writers
-                .iter_mut()
-                .try_for_each(|writer| writer.push(count, |row, column| cell(values[column], row, table, &derivatives)))
-        };
         progress.set_stage("values of the answer");
+        let (mut cells, mut written) = (Vec::new(), Ok(()));
         for begin in (0..count).step_by(at_once) {
-            let (part, mut next) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
+            let (part, mut values) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
             std::thread::scope(|scope| {
-                scope.spawn(|| written = write(&table));
-                next = self.values(&history, part);
+                scope.spawn(|| written = write(&cells));
+                values = self.values(&history, part);
             });
             std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
-            table = next?;
+            cells = values?.into_iter().map(|column| column.into_iter().map(Cell::Number).collect()).collect();
         }
-        write(&table).map_err(cannot("keep the rows"))?;
+        cells.extend(derived_cells);
+        write(&cells).map_err(cannot("keep the rows"))?;
         let mut tables = String::new();
         if destinations.iter().any(|destination| destination.format == Format::Table) {
-            for (by, rows) in self.args.derivatives.iter().zip(&derivatives) {
-                let labels = ("at", self.labels(&table, &info));
-                let symbols: Vec<_> = of.iter().map(|quantity| quantity.symbol()).enumerate().collect();
-                tables += &derivative_table(labels, &symbols, (*by, rows), &info);
-            }
+            let symbols: Vec<_> = derived.iter().map(|quantity| quantity.symbol()).enumerate().collect();
+            let labels = self.labels(&cells, &info);
+            tables.extend(by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, &info)));
         }
         let info = RunInfo { warnings: history.warnings(), ..info };
         if !destinations.iter().any(Destination::is_printed_table) {
@@ -409,11 +332,11 @@ impl Rows<'_> {
         }
         drop(progress);
         let below = format!("\n{tables}{}", info.below_values(&self.quantities));
-        let key_count = self.quantities.iter().take_while(|quantity| keys.contains(quantity)).count();
-        let layout = TableLayout { below, keys: (!self.args.wide).then_some(key_count.max(1)), shown };
+        let key_count = self.quantities.iter().take_while(is_key).count().max(1);
+        let layout = Layout { below, keys: (!self.args.wide).then_some(key_count), bare: self.args.bare };
         let header = Header::new(&history, info, self.scene.source(), "each column", self.times.is_none());
         for (writer, destination) in writers.into_iter().zip(destinations) {
-            writer.finish(&header, destination, self.args.bare, &layout)?;
+            writer.finish(&header, destination, &layout)?;
         }
         // Values beyond the end of a history that rests are those of rest.
         if self.times.is_some() && !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
@@ -423,15 +346,16 @@ impl Rows<'_> {
     }
 
     /// Returns a label for each row of derivatives: `t = 1/2   x = 0`.
-    fn labels(&self, table: &[Vec<Value>], info: &RunInfo) -> Vec<String> {
-        let places = [(Quantity::Time, "t = "), (Quantity::Point, "x = ")]
-            .into_iter()
-            .filter_map(|(key, name)| Some((self.quantities.iter().position(|quantity| *quantity == key)?, name)));
-        let places: Vec<(usize, &str)> = places.collect();
-        let label = |row: usize| {
-            let texts = places.iter().map(|(place, name)| format!("{name}{}", info.text(&table[*place][row])));
-            texts.collect::<Vec<_>>().join("   ")
+    fn labels(&self, columns: &[Vec<Cell>], info: &RunInfo) -> Vec<String> {
+        let place = |key: Quantity| self.quantities.iter().position(|quantity| *quantity == key);
+        let text = |name: &str, key: Quantity, row: usize| match &columns[place(key)?][row] {
+            Cell::Number(value) => Some(format!("{name} = {}", info.text(value))),
+            Cell::Undefined(_) | Cell::Empty => None,
         };
-        (0..table.first().map_or(0, Vec::len)).map(label).collect()
+        let label = |row: usize| {
+            let texts = [text("t", Quantity::Time, row), text("x", Quantity::Point, row)];
+            texts.into_iter().flatten().collect::<Vec<_>>().join("   ")
+        };
+        (0..columns.first().map_or(0, Vec::len)).map(label).collect()
     }
 }

@@ -91,7 +91,7 @@ impl Solve {
         };
         let listing = history.listing(stress, !self.numbers.is_double())?;
         let info = RunInfo { wide: self.wide, ..info };
-        let mut tables = HistoryTables::new(&history, listing, &info);
+        let mut tables = HistoryTables::new(&history, listing, stress, &info);
         if has_outline(&destinations) {
             tables.outline = outline(&history);
         }

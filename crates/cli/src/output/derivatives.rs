@@ -1,6 +1,7 @@
 //! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
 use super::dataset::{Cell, Column, Dataset};
+use super::rows;
 use super::run_info::RunInfo;
 use super::table::TextTable;
 use dalembert::Value;
@@ -33,6 +34,40 @@ pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows
             }
         }
     }
+}
+
+/// Returns the columns of the derivatives of `quantities` by one value, with their cells.
+pub(crate) fn derivative_rows(
+    by: Parameter,
+    quantities: &[Quantity],
+    rows: &Derivatives<Value>,
+) -> Vec<(rows::Column, Vec<rows::Cell>)> {
+    let mut columns = Vec::new();
+    for (k, quantity) in quantities.iter().enumerate() {
+        let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
+        // Most derivatives are the same from both sides.
+        let differ = cells().flatten().any(|cell| cell.value().is_none());
+        let sides = [("", None), ("_left", Some(0)), ("_right", Some(1))];
+        for (suffix, side) in sides.into_iter().take(if differ { 3 } else { 1 }) {
+            let cell = |cell: Option<&Derivative<Value>>| match (cell, side) {
+                (Some(Derivative::One(value)), None) => rows::Cell::Number(value.clone()),
+                (Some(cell @ Derivative::Sides { .. }), Some(side)) => match cell.sides()[side] {
+                    Ok(value) => rows::Cell::Number(value.clone()),
+                    Err(why) => rows::Cell::Undefined(why),
+                },
+                (_, _) => rows::Cell::Empty,
+            };
+            let column = rows::Column {
+                name: format!("{quantity}_by_{by}{suffix}").into(),
+                symbol: format!("∂ {}", quantity.symbol()).into(),
+                meaning: format!("derivative of {quantity} by {by}").into(),
+                unit: "",
+                kind: rows::Kind::Number,
+            };
+            columns.push((column, cells().map(cell).collect()));
+        }
+    }
+    columns
 }
 
 /// Returns a table of the derivatives by one value. Each label names a row, which is two rows where the sides differ;

@@ -60,31 +60,32 @@ impl Column {
 }
 
 /// A value of a row.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Cell<'a> {
-    /// A number; in a column of bounds, the number whose bound is written.
-    Number(&'a Value),
+#[derive(Clone, Debug)]
+pub(crate) enum Cell {
+    Number(Value),
     /// The reason why a derivative does not exist.
     Undefined(NoDerivative),
     /// No value.
     Empty,
 }
 
-/// The text around a table.
-#[derive(Debug, Default)]
-pub(crate) struct TableLayout {
+/// Options of the text of a file.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    /// Text below a table.
     pub(crate) below: String,
     /// Number of columns that each part of a table begins with that is too wide for a page; `None` to keep it wide.
     pub(crate) keys: Option<usize>,
-    /// Number of columns, from the first, that a table shows.
-    pub(crate) shown: usize,
+    /// Whether a CSV has no comments.
+    pub(crate) bare: bool,
 }
 
 /// Rows that are kept in temporary files until their bounds, which stand above them, are known.
 #[derive(Debug)]
 pub(crate) struct RowWriter {
     format: Format,
-    columns: Vec<Column>,
+    /// Columns, each with the place of its values.
+    columns: Vec<(Column, usize)>,
     /// Digits of a long number; 0 for doubles and fractions.
     digits: u32,
     /// One file with the text of all rows, or one with the doubles of each column.
@@ -98,48 +99,56 @@ pub(crate) struct RowWriter {
 const BUFFER: usize = 1 << 16;
 
 impl RowWriter {
-    /// Returns a writer without rows.
-    pub(crate) fn new(format: Format, columns: Vec<Column>, digits: u32) -> Result<Self, Failure> {
-        let files = if format == Format::Npz { columns.len() } else { 1 };
+    /// Returns a writer without rows; with `bounds` each column of numbers is followed by one of their bounds.
+    pub(crate) fn new(format: Format, columns: &[Column], bounds: bool, digits: u32) -> Result<Self, Failure> {
+        let mut all = Vec::new();
+        for (place, column) in columns.iter().enumerate() {
+            all.push((column.clone(), place));
+            if bounds && column.kind == Kind::Number {
+                let bound = Column {
+                    name: format!("{}_uncertainty", column.name).into(),
+                    symbol: "".into(),
+                    meaning: format!("bound of the error of {}", column.name).into(),
+                    unit: column.unit,
+                    kind: Kind::Bound,
+                };
+                all.push((bound, place));
+            }
+        }
+        let files = if format == Format::Npz { all.len() } else { 1 };
         let kept = (0..files).map(|_| Ok(BufWriter::with_capacity(BUFFER, tempfile::tempfile()?)));
         let kept = kept.collect::<io::Result<_>>().map_err(cannot("keep the rows"))?;
-        let bounds = vec![Bound::from_log2(f64::NEG_INFINITY); columns.len()];
-        Ok(RowWriter { format, columns, digits, kept, table: Vec::new(), bounds, count: 0 })
+        let bounds = vec![Bound::from_log2(f64::NEG_INFINITY); all.len()];
+        Ok(RowWriter { format, columns: all, digits, kept, table: Vec::new(), bounds, count: 0 })
     }
 
-    /// Adds `count` rows; `cell` returns the value of a row, counted from 0, and a column.
-    pub(crate) fn push<'a>(&mut self, count: usize, cell: impl Fn(usize, usize) -> Cell<'a>) -> io::Result<()> {
-        for column in
-            (0..self.columns.len()).filter(|column| self.columns[*column].kind == Kind::Number).collect::<Vec<_>>()
-        {
-            for row in 0..count {
-                if let Cell::Number(value) = cell(row, column)
-                    && let bound = self.bound(value)
-                    && bound > self.bounds[column]
-                {
-                    self.bounds[column] = bound;
-                }
+    /// Adds rows, given column by column.
+    pub(crate) fn push(&mut self, cells: &[Vec<Cell>]) -> io::Result<()> {
+        let count = cells.first().map_or(0, Vec::len);
+        if count == 0 {
+            return Ok(());
+        }
+        for (k, (column, place)) in self.columns.iter().enumerate() {
+            for cell in cells[*place].iter().filter(|_| column.kind == Kind::Number) {
+                let bound = if let Cell::Number(value) = cell { self.bound(value) } else { self.bounds[k] };
+                self.bounds[k] = if bound > self.bounds[k] { bound } else { self.bounds[k] };
             }
         }
         match self.format {
             Format::Npz => {
-                for column in 0..self.columns.len() {
-                    for row in 0..count {
-                        let double = self.double(column, cell(row, column));
-                        self.kept[column].write_all(&double.to_le_bytes())?;
+                for ((column, place), file) in self.columns.iter().zip(&mut self.kept) {
+                    for cell in &cells[*place] {
+                        file.write_all(&double(self.format, self.digits, column.kind, cell).to_le_bytes())?;
                     }
                 }
             }
-            Format::Table => {
-                for row in 0..count {
-                    let texts = (0..self.columns.len()).map(|column| self.text(column, cell(row, column)));
-                    self.table.push(texts.collect());
-                }
-            }
+            Format::Table => self.table.extend((0..count).map(|row| {
+                self.columns.iter().map(|(column, place)| self.text(column.kind, &cells[*place][row])).collect()
+            })),
             _ => {
                 let mut text = Vec::with_capacity(BUFFER);
                 for row in 0..count {
-                    self.write_row(&mut text, |column| cell(row, column));
+                    self.write_row(&mut text, cells, row);
                     if text.len() > BUFFER / 2 || row + 1 == count {
                         self.kept[0].write_all(&text)?;
                         text.clear();
@@ -151,15 +160,11 @@ impl RowWriter {
         Ok(())
     }
 
-    /// Writes all rows to `destination`; a CSV below its comments unless it is `bare`.
-    pub(crate) fn finish(
-        self,
-        header: &Header<'_>,
-        destination: &Destination,
-        bare: bool,
-        layout: &TableLayout,
-    ) -> Result<(), Failure> {
+    /// Writes all rows to `destination`.
+    pub(crate) fn finish(self, header: &Header<'_>, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
         let RowWriter { format, columns, kept, table, bounds, count, .. } = self;
+        let columns: Vec<Column> = columns.into_iter().map(|(column, _)| column).collect();
+        let names = || columns.iter().map(|column| column.name.as_ref()).collect::<Vec<&str>>();
         let rewound = |file: BufWriter<File>| {
             let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
             file.rewind()?;
@@ -169,12 +174,7 @@ impl RowWriter {
             kept.into_iter().map(rewound).collect::<io::Result<Vec<File>>>().map_err(cannot("keep the rows"))?;
         destination.write_with(|file| match format {
             Format::Table => {
-                let head: Vec<&str> = columns[..layout.shown].iter().map(|column| column.name.as_ref()).collect();
-                let rows = table.into_iter().map(|mut row| {
-                    row.truncate(layout.shown);
-                    row
-                });
-                let table = TextTable { head: &head, rows: rows.collect(), words: 0, keys: layout.keys };
+                let table = TextTable { head: &names(), rows: table, words: 0, keys: layout.keys };
                 write!(file, "{}{}", table.format(), layout.below)
             }
             Format::Json => {
@@ -206,45 +206,20 @@ impl RowWriter {
                 npz.finish()
             }
             _ => {
-                let comments = if bare { String::new() } else { header.comments(&columns, &bounds) };
-                let names: Vec<&str> = columns.iter().map(|column| column.name.as_ref()).collect();
-                writeln!(file, "{comments}{}", names.join(","))?;
+                let comments = if layout.bare { String::new() } else { header.comments(&columns, &bounds) };
+                writeln!(file, "{comments}{}", names().join(","))?;
                 io::copy(&mut kept[0], file).map(drop)
             }
         })
     }
 
-    /// Returns the bound of the error of a number as it is written.
     fn bound(&self, value: &Value) -> Bound {
-        let double_bound = value
-            .as_float()
-            .map(double_bound)
-            .or_else(|| value.as_rational().map(double_bound))
-            .or_else(|| value.as_interval().map(double_bound));
-        match (value.as_double(), double_bound) {
-            // A number that is zero within its bound is written as zero, and is at most that bound.
-            (Some(double), _) if double.vanishes() == Ok(true) => Bound::from_log2(double.log2_error() + 1.0),
-            (Some(double), _) => Bound::from_log2(double.log2_error()),
-            (None, Some(bound)) if self.format == Format::Npz => Bound::from_log2(bound),
-            (None, _) => value.bound_to_digits(self.shown_digits()),
-        }
-    }
-
-    fn shown_digits(&self) -> u32 {
-        if self.digits == 0 { DOUBLE_DIGITS } else { self.digits }
-    }
-
-    fn double(&self, column: usize, cell: Cell<'_>) -> f64 {
-        match (cell, self.columns[column].kind) {
-            (Cell::Number(value), Kind::Bound) => self.bound(value).to_string().parse().unwrap_or(f64::NAN),
-            (Cell::Number(value), _) => written_double(value),
-            (Cell::Undefined(_) | Cell::Empty, _) => f64::NAN,
-        }
+        bound(self.format, self.digits, value)
     }
 
     /// Returns the text of a table.
-    fn text(&self, column: usize, cell: Cell<'_>) -> String {
-        match (cell, self.columns[column].kind) {
+    fn text(&self, kind: Kind, cell: &Cell) -> String {
+        match (cell, kind) {
             (Cell::Number(value), Kind::Number) => value.to_digits(table_digits(self.digits)),
             (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
             (Cell::Number(value), Kind::Side) => side_word(value).into(),
@@ -255,19 +230,17 @@ impl RowWriter {
     }
 
     /// Adds the text of a row of CSV or JSON.
-    fn write_row<'a>(&self, text: &mut Vec<u8>, cell: impl Fn(usize) -> Cell<'a>) {
+    fn write_row(&self, text: &mut Vec<u8>, cells: &[Vec<Cell>], row: usize) {
         let [begin, between, end] = if self.format == Format::Json { ["[", ", ", "]\n"] } else { ["", ",", "\n"] };
         text.extend_from_slice(begin.as_bytes());
-        for column in 0..self.columns.len() {
-            if column > 0 {
-                text.extend_from_slice(between.as_bytes());
-            }
-            self.write_cell(text, self.columns[column].kind, cell(column));
+        for (k, (column, place)) in self.columns.iter().enumerate() {
+            text.extend_from_slice(if k > 0 { between.as_bytes() } else { b"" });
+            self.write_cell(text, column.kind, &cells[*place][row]);
         }
         text.extend_from_slice(end.as_bytes());
     }
 
-    fn write_cell(&self, text: &mut Vec<u8>, kind: Kind, cell: Cell<'_>) {
+    fn write_cell(&self, text: &mut Vec<u8>, kind: Kind, cell: &Cell) {
         let is_json = self.format == Format::Json;
         let quote = if is_json { "\"" } else { "" };
         let mut add = |quote: &str, word: &str| {
@@ -287,11 +260,41 @@ impl RowWriter {
                 add("", ryu::Buffer::new().format(written_double(value)));
             }
             (Cell::Number(value), Kind::Number) if is_json => add("", &serde_json::json!(value).to_string()),
-            (Cell::Number(value), Kind::Number) => add("", &value.to_digits(self.shown_digits())),
+            (Cell::Number(value), Kind::Number) => add("", &value.to_digits(shown_digits(self.digits))),
             (Cell::Undefined(why), _) if is_json => add(quote, why.name()),
             (Cell::Empty, _) if is_json => add("", "null"),
             (Cell::Undefined(_) | Cell::Empty, _) => (),
         }
+    }
+}
+
+/// Returns the bound of the error of a number as it is written.
+fn bound(format: Format, digits: u32, value: &Value) -> Bound {
+    let double_bound = || {
+        let float = value.as_float().map(double_bound);
+        float.or_else(|| value.as_rational().map(double_bound)).or_else(|| value.as_interval().map(double_bound))
+    };
+    match value.as_double() {
+        // A number that is zero within its bound is written as zero, and is at most that bound.
+        Some(double) if double.vanishes() == Ok(true) => Bound::from_log2(double.log2_error() + 1.0),
+        Some(double) => Bound::from_log2(double.log2_error()),
+        None => match double_bound().filter(|_| format == Format::Npz) {
+            Some(log2) => Bound::from_log2(log2),
+            None => value.bound_to_digits(shown_digits(digits)),
+        },
+    }
+}
+
+fn shown_digits(digits: u32) -> u32 {
+    if digits == 0 { DOUBLE_DIGITS } else { digits }
+}
+
+/// Returns the double of an array.
+fn double(format: Format, digits: u32, kind: Kind, cell: &Cell) -> f64 {
+    match (cell, kind) {
+        (Cell::Number(value), Kind::Bound) => bound(format, digits, value).to_string().parse().unwrap_or(f64::NAN),
+        (Cell::Number(value), _) => written_double(value),
+        (Cell::Undefined(_) | Cell::Empty, _) => f64::NAN,
     }
 }
 

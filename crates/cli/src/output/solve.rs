@@ -12,7 +12,7 @@ use dalembert::Value;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity::{self, *};
 use dalembert::quantity::{Measure, Needs, Table, Undefined};
-use dalembert::solve::{Derivatives, History, Listing, Rows};
+use dalembert::solve::{Derivatives, History, Listing, Rows, StressForm};
 
 /// The coefficients of a contact that may be undefined.
 const RATIOS: [Quantity; 2] = [MomentumRestitution, EnergyRestitution];
@@ -100,8 +100,9 @@ fn undefined_ratios(contact: &[Result<Value, Undefined>]) -> [Option<Undefined>;
 }
 
 impl HistoryTables {
-    /// Returns the tables of a history and its lists.
-    pub(crate) fn new(history: &History, listing: Listing, info: &RunInfo) -> Self {
+    /// Returns the tables of a history and its lists, whose stress has this form.
+    pub(crate) fn new(history: &History, listing: Listing, stress: Option<StressForm>, info: &RunInfo) -> Self {
+        let has_series = stress == Some(StressForm::Series);
         let undefined: Vec<_> = listing.contacts.iter().map(|contact| undefined_ratios(contact)).collect();
         let mut events = listed(Table::Events.quantities(), listing.events, info);
         let has_bound = |row: &Vec<Cell>| match &row[0] {
@@ -123,8 +124,8 @@ impl HistoryTables {
             row.extend(undefined.map(|reason| reason.map(|reason| reason.to_string()).into()));
         }
         let mut stress = listed(Table::Stress.quantities(), listing.pieces, info);
-        stress.columns.push(Column::data("chebyshev").bounded().optional());
-        for (row, piece) in stress.rows.iter_mut().zip(listing.stress) {
+        stress.columns.extend(has_series.then(|| Column::data("chebyshev").bounded().optional()));
+        for (row, piece) in stress.rows.iter_mut().zip(listing.stress).filter(|_| has_series) {
             row.push(Cell::Numbers(piece.chebyshev));
         }
         HistoryTables {
@@ -301,7 +302,7 @@ peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
 e_P            −P(release)/P(impact), P = ρSL h′; below zero if h falls then
-e_E²           E_h(release)/E_h(impact): above 1 if the vibration gives energy back
+e_E²           E_h(release)/E_h(impact): above 1 if the vibration gives back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
 per ρS         divided by the linear density, known with a material only

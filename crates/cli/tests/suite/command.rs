@@ -324,8 +324,8 @@ fn explain_names_the_line_of_every_effect() {
     let line = effect("gravity")["line"].as_u64().unwrap();
     assert!(source.lines().nth(line as usize - 1).unwrap().starts_with("acceleration"));
     assert_eq!((&effect("damping")["called"], &effect("damping")["line"]), (&false.into(), &Value::Null));
-    // Twelve events, of which that at t = 0 does not move; a scene of one contact has its own two.
-    assert_eq!(plan["sensitivity"]["events"], 11);
+    // Twelve events, of which the first is at t = 0 and one does not depend on the speed.
+    assert_eq!(plan["sensitivity"]["events"], 10);
     assert!(quiet(&["explain", "paper-strong", "--wide"]).contains("the last of 2 events"));
     refused(&["explain", "doyen-ern-piperno", "--format", "csv"], &["[possible values: table, json]"]);
 }
