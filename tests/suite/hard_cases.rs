@@ -2,8 +2,9 @@
 //! `check`.
 
 use crate::common::{bounce_time, first_contact};
-use dalembert::engine::{FirstContact, Modal};
+use dalembert::engine::FirstContact;
 use dalembert::{Ending, Estimate, Parameters, Reason, Side};
+use dalembert_verify::modal::Modal;
 
 fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {
     Parameters { length, wave_speed: 1.0, damping, gravity, speed }

@@ -6,8 +6,8 @@ use std::cmp::Ordering;
 
 use super::differences::Marched;
 use super::value::NoAnswer;
+use crate::modal::Modal;
 use crate::paper::{Printed, UndampedContact, formulas};
-use dalembert::engine::Modal;
 use dalembert::engine::{Bounce, FirstContact};
 use dalembert::number::{Estimate, Scalar};
 use dalembert::problem::Parameters;

@@ -8,6 +8,7 @@ mod differences;
 pub mod figures;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
+pub mod modal;
 pub mod paper;
 mod quantity;
 pub mod regimes;

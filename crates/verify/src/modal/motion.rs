@@ -1,9 +1,9 @@
 //! What is asked of the modes: stress, field, centre of mass, energy.
 
-use crate::motion::{Field, Side};
-use crate::number::{Analytic, Estimate, Scalar};
-use crate::problem::Parameters;
-use crate::special::{RoundedSpecial, phi1};
+use dalembert::number::{Analytic, Estimate, Scalar};
+use dalembert::problem::Parameters;
+use dalembert::special::{RoundedSpecial, phi1};
+use dalembert::{Field, Side};
 
 use super::sums::{History, MOST_MODES, Shape, series, within};
 
@@ -17,7 +17,7 @@ use super::sums::{History, MOST_MODES, Shape, series, within};
 ///
 /// ```
 /// # use dalembert::{Parameters, Side};
-/// # use dalembert::engine::Modal;
+/// # use dalembert_verify::modal::Modal;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// let stress = Modal::new(&rod, 64).strain(&1.0, Side::Right);
@@ -52,7 +52,7 @@ impl<S: RoundedSpecial> Modal<S> {
     }
 
     /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
-    pub(crate) fn ground(&self, trips: &Estimate<S>, side: Side) -> [Estimate<S>; 2] {
+    fn ground(&self, trips: &Estimate<S>, side: Side) -> [Estimate<S>; 2] {
         let ground = trips.zero();
         let first = series(0, History::Sine, Shape::Cosine);
         if self.critical.value().is_zero() {

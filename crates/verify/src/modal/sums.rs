@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use crate::motion::Side;
-use crate::number::{Analytic, Estimate, Rounded, Scalar};
-use crate::special::RoundedSpecial;
+use dalembert::Side;
+use dalembert::number::{Analytic, Estimate, Rounded, Scalar};
+use dalembert::special::RoundedSpecial;
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]
