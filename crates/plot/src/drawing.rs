@@ -13,7 +13,8 @@ use dalembert::solve::{History, Target};
 /// ground, the motion, the energy.
 ///
 /// ```
-/// # use dalembert::{Problem, Units, plot::Drawing};
+/// # use dalembert::{Problem, Units};
+/// # use dalembert_plot::Drawing;
 /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
 /// let drawn = Drawing::default().draw(&rod.solve()?, &rod, Units::default())?;
 /// assert_eq!(drawn.svg.matches("class=\"panel\"").count(), 4);

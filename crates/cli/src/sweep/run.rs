@@ -147,7 +147,8 @@ impl Visitor for Found<'_> {
 /// has the reason in its cells.
 ///
 /// ```
-/// # use dalembert::{Numbers, Problem, Quantity, sweep};
+/// # use dalembert::{Numbers, Problem, Quantity};
+/// # use dalembert_cli::sweep::sweep;
 /// # use std::ops::ControlFlow;
 /// let rod = |k| Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(k as i64 + 2).build();
 /// let asked = [Quantity::BounceTime, Quantity::EnergyRestitution];
