@@ -3,8 +3,9 @@
 
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
-use dalembert::engine::{ContactThenCells, Damped, FirstContact, Modal, Motion};
+use dalembert::engine::{ContactThenCells, Damped, FirstContact, Motion};
 use dalembert::{Ending, Error, Estimate, Number, Parameters, Problem, Profile, Run, Side, Start, Top};
+use dalembert_verify::modal::Modal;
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {

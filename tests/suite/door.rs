@@ -95,6 +95,9 @@ fn without_long_numbers_they_are_an_error() {
     assert_eq!(rod("3").certified(20).unwrap_err(), Error::NoMultiprecision);
     let then_digits = Question::run(Numbers::ExactThenDigits(20));
     assert_eq!(Plan::of(&rod("3"), &then_digits).unwrap_err(), Error::NoMultiprecision);
+    // The rays of a first contact cancel in doubles shortly before r t₁ = π.
+    let late = Problem::builder().length("1/2").wave_speed(1).damping("3.13").impact_speed(1).build().unwrap();
+    assert_eq!(late.solve().unwrap_err(), Error::NoMultiprecision);
 }
 
 /// A landing as a ray arrives: fractions say that they meet, in every build. Where the time of the meeting is no

@@ -3,10 +3,11 @@
 //! more than their bounds.
 
 use crate::common::{number, reference};
-use dalembert::engine::{FirstContact, Modal, Motion};
+use dalembert::engine::{FirstContact, Motion};
 use dalembert::number::{Answer, Rounded};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Estimate, Parameters, Run, Side};
+use dalembert_verify::modal::Modal;
 
 /// Two values within their bounds, and bounds that say something: below `useful` of `scale`.
 fn agree<S: Rounded>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {

@@ -8,7 +8,7 @@ use super::dataset::{Column, Dataset};
 use super::npz::Npz;
 use dalembert::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
 use dalembert_plot::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
-use dalembert_verify::regimes::{BANDS, Map, Regime, Spread, threshold, threshold_near};
+use dalembert_verify::regimes::{BANDS, CellAxis, Map, Regime, threshold, threshold_near};
 
 /// The colour of each band, and its name: those with a bounce, none, not decided.
 const COLORS: [(&str, &str); BANDS.len() + 2] = [
@@ -89,8 +89,8 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
 }
 
 /// The axis of some values and where its parts begin and end: a value is the middle of its part.
-fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
-    let spread = Spread::of(values);
+fn axis(label: &str, values: &[Number]) -> (Axis, CellAxis) {
+    let spread = CellAxis::new(values);
     let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::Modal;
-use crate::motion::Side;
-use crate::number::{Analytic, Estimate, Rounded, Scalar};
-use crate::special::RoundedSpecial;
+use dalembert::Side;
+use dalembert::number::{Analytic, Estimate, Rounded, Scalar};
+use dalembert::special::RoundedSpecial;
 
 /// The function of time in a sum.
 #[derive(Clone, Copy)]
-pub(super) enum History {
+pub(super) enum TimeFactor {
     /// `S`.
     Sine,
     /// `C − RS`.
@@ -20,7 +20,7 @@ pub(super) enum History {
 
 /// The function of place in a sum.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Shape {
+pub(super) enum SpaceFactor {
     /// `sin ωa`.
     Sine,
     /// `cos ωa`.
@@ -29,35 +29,47 @@ pub(super) enum Shape {
     Mean,
 }
 
-/// `Σ 4 ε^p · motion · shape`; p is odd with the sine and even otherwise.
+/// `Σ 4 ε^p · time · space`; p is odd with the sine and even otherwise.
 #[derive(Clone, Copy)]
 pub(super) struct Series {
     power: usize,
-    motion: History,
-    shape: Shape,
+    time: TimeFactor,
+    space: SpaceFactor,
 }
 
-pub(super) const fn series(power: usize, motion: History, shape: Shape) -> Series {
-    Series { power, motion, shape }
+pub(super) const fn series(power: usize, time: TimeFactor, space: SpaceFactor) -> Series {
+    Series { power, time, space }
 }
 
-/// Most powers of ε that are added up in closed form.
+/// Maximum number of powers of ε that are added up in closed form.
 const MOST_POWERS: usize = 8;
-/// More modes than this are not summed.
+/// Maximum number of modes of a sum.
 pub(super) const MOST_MODES: i64 = 1 << 20;
 
 /// `C` and `S` as power series in `y = −iε` at one time, cut after K powers.
 struct Expansion<S> {
-    /// `F_m` for each [`History`], m < K.
+    /// `F_m` for each [`TimeFactor`], m < K.
     powers: [Vec<Estimate<S>>; 3],
-    /// How many modes are summed.
+    /// Number of modes that are summed.
+    modes: i64,
+    /// `ln ρ` and `ln B`.
+    circle: [f64; 2],
+}
+
+/// A choice of K powers of ε and N modes.
+struct Truncation {
+    /// Estimated error of the sums.
+    error: f64,
+    /// K.
+    order: usize,
+    /// N.
     modes: i64,
     /// `ln ρ` and `ln B`.
     circle: [f64; 2],
 }
 
 impl<S: RoundedSpecial> Modal<S> {
-    /// The sums in `list` at `(τ,a)`, damped, each with its bound.
+    /// Computes the sums in `list` at `(τ,a)`, damped, each with its bound.
     ///
     /// With `y = −iε`, `C = Re(X e^{iωτ})` and `S = Re(yΓ e^{iωτ})`, `X = exp(τR² y/(1 + √(1 + R²y²)))`,
     /// `Γ = X/√(1 + R²y²)`, and `4 Σ Re(y^m e^{iωα}) = U_m(α)`, see [`lattice`]. A factor ε² is `−y²`, and
@@ -77,13 +89,13 @@ impl<S: RoundedSpecial> Modal<S> {
         let unknown = || std::array::from_fn(|_| Estimate::new(trips.value().zero(), f64::INFINITY));
         let Some(expansion) = self.expansion(trips) else { return unknown() };
         let order = expansion.powers[0].len();
-        let Some(closed) = Closed::new(trips, a, side, order + 4) else { return unknown() };
+        let Some(closed) = ClosedSums::new(trips, a, side, order + 4) else { return unknown() };
         let (tau, r) = (trips.to_f64(), self.damping.to_f64());
         let fade = (-(self.damping.clone() * trips)).exp();
-        // To be damped, and damped already.
+        // Parts of the sums without and with the factor e^{−Rτ}.
         let mut bare: [Estimate<S>; N] = std::array::from_fn(|_| trips.zero());
         let mut damped: [Estimate<S>; N] = std::array::from_fn(|_| trips.zero());
-        let used = [0, 1, 2].map(|m| list.iter().any(|s| s.motion as usize == m));
+        let used = [0, 1, 2].map(|m| list.iter().any(|s| s.time as usize == m));
         let pi = trips.pi();
         for n in (0..expansion.modes).rev() {
             let omega = pi.clone() * &trips.int(2 * n + 1);
@@ -96,7 +108,7 @@ impl<S: RoundedSpecial> Modal<S> {
             } else {
                 (self.rotating(&omega, trips), none)
             };
-            // Re(D e^{iα}) for each motion: the phase turns a difference, which is small where it is not well known.
+            // Re(D e^{iα}) for each function of time: the phase turns a difference, which is small where it is not well known.
             let mut rests = [None, None, None];
             for (m, [re, im]) in exact.into_iter().enumerate().filter(|(m, _)| used[*m]) {
                 let head = polynomial(&expansion.powers[m], &step);
@@ -109,26 +121,26 @@ impl<S: RoundedSpecial> Modal<S> {
                 std::mem::replace(&mut power, next)
             });
             for (k, term) in list.iter().enumerate() {
-                let (Some(rest), own) = (&rests[term.motion as usize], &own[term.motion as usize]) else { continue };
-                let place = match term.shape {
-                    Shape::Sine => powers[term.power].clone() * &sine,
-                    Shape::Cosine => powers[term.power].clone() * &cosine,
-                    Shape::Mean => powers[term.power].clone(),
+                let (Some(rest), own) = (&rests[term.time as usize], &own[term.time as usize]) else { continue };
+                let space = match term.space {
+                    SpaceFactor::Sine => powers[term.power].clone() * &sine,
+                    SpaceFactor::Cosine => powers[term.power].clone() * &cosine,
+                    SpaceFactor::Mean => powers[term.power].clone(),
                 };
-                bare[k] = bare[k].clone() + rest.clone() * &place;
-                damped[k] = damped[k].clone() + own.clone() * &place;
+                bare[k] = bare[k].clone() + rest.clone() * &space;
+                damped[k] = damped[k].clone() + own.clone() * &space;
             }
         }
         std::array::from_fn(|k| {
-            let Series { power: p, motion, shape } = list[k];
+            let Series { power: p, time, space } = list[k];
             let mut sum = bare[k].clone();
-            for (m, factor) in expansion.powers[motion as usize].iter().enumerate() {
-                let Some(value) = closed.get(shape, m + p) else { continue };
+            for (m, factor) in expansion.powers[time as usize].iter().enumerate() {
+                let Some(value) = closed.get(space, m + p) else { continue };
                 let part = if p / 2 % 2 == 0 { value } else { -value };
                 sum = sum + part * factor;
             }
             let [log_radius, log_bound] = expansion.circle;
-            let log_bound = if matches!(motion, History::Sine) { log_bound + log_radius } else { log_bound };
+            let log_bound = if matches!(time, TimeFactor::Sine) { log_bound + log_radius } else { log_bound };
             let q = (order + p) as f64 - 1.0;
             let log_tail = 8f64.ln() + log_bound
                 - order as f64 * log_radius
@@ -139,7 +151,7 @@ impl<S: RoundedSpecial> Modal<S> {
         })
     }
 
-    /// F for `S`, `C − RS`, `C + RS` of one mode with `ω ≥ 2R`: `e^{−iθ}` with `θ = (ω − Ω)τ = τR²/(ω + Ω)`.
+    /// Computes F for `S`, `C − RS`, `C + RS` of one mode with `ω ≥ 2R`: `e^{−iθ}` with `θ = (ω − Ω)τ = τR²/(ω + Ω)`.
     fn rotating(&self, omega: &Estimate<S>, trips: &Estimate<S>) -> [[Estimate<S>; 2]; 3] {
         let r = &self.damping;
         let frequency = ((omega.clone() - r) * &(omega.clone() + r)).sqrt();
@@ -152,14 +164,14 @@ impl<S: RoundedSpecial> Modal<S> {
         [sine, falling, rising]
     }
 
-    /// The series at one time, with the number K of powers that promises most.
+    /// Expands the motion at one time, with the number K of powers that promises the least error.
     ///
-    /// More powers leave less behind but are larger, by `|F_m| ≈ (τR²/2)^m/m!`, than what they add up to.
+    /// More powers leave less behind, but exceed their sum by `|F_m| ≈ (τR²/2)^m/m!`.
     fn expansion(&self, trips: &Estimate<S>) -> Option<Expansion<S>> {
         let (r, tau) = (self.damping.to_f64(), trips.to_f64());
         let powers = self.powers(trips);
         let turn = 0.54 * tau * r * r;
-        let mut best: Option<(f64, usize, i64, [f64; 2])> = None;
+        let mut best: Option<Truncation> = None;
         let mut rounding = 0.0;
         for order in 2..=MOST_POWERS {
             let taken = order - 1;
@@ -177,12 +189,12 @@ impl<S: RoundedSpecial> Modal<S> {
                     - (order as f64 - 1.0) * (2.0 * PI * modes as f64).ln())
                 .exp();
                 let error = tail + rounding;
-                if best.as_ref().is_none_or(|b| error < b.0) {
-                    best = Some((error, order, modes, circle));
+                if best.as_ref().is_none_or(|best| error < best.error) {
+                    best = Some(Truncation { error, order, modes, circle });
                 }
             }
         }
-        let (_, order, modes, circle) = best?;
+        let Truncation { order, modes, circle, .. } = best?;
         let powers = powers.map(|mut list| {
             list.truncate(order);
             list
@@ -190,7 +202,7 @@ impl<S: RoundedSpecial> Modal<S> {
         Some(Expansion { powers, modes, circle })
     }
 
-    /// `F_m`, m < 8: X by the recurrence of an exponential, Γ by the binomial series.
+    /// Computes `F_m`, m < 8: X by the recurrence of an exponential, Γ by the binomial series.
     fn powers(&self, trips: &Estimate<S>) -> [Vec<Estimate<S>>; 3] {
         let square = self.damping.square();
         let zero = || trips.zero();
@@ -217,7 +229,7 @@ impl<S: RoundedSpecial> Modal<S> {
     }
 }
 
-/// `Σ F_m (−iε)^m`.
+/// Computes `Σ F_m (−iε)^m`.
 fn polynomial<S: Rounded>(powers: &[Estimate<S>], step: &Estimate<S>) -> [Estimate<S>; 2] {
     let mut parts = [step.zero(), step.zero()];
     let mut power = step.one();
@@ -231,34 +243,34 @@ fn polynomial<S: Rounded>(powers: &[Estimate<S>], step: &Estimate<S>) -> [Estima
 }
 
 /// `U_m` at `τ + a` and at `τ − a`.
-struct Closed<S> {
+struct ClosedSums<S> {
     later: Vec<Estimate<S>>,
     earlier: Vec<Estimate<S>>,
 }
 
-impl<S: Rounded> Closed<S> {
+impl<S: Rounded> ClosedSums<S> {
     fn new(trips: &Estimate<S>, a: &Estimate<S>, side: Side, count: usize) -> Option<Self> {
         let numbers = euler(trips, count);
-        Some(Closed {
+        Some(ClosedSums {
             later: lattice(&(trips.clone() + a), side, &numbers)?,
             earlier: lattice(&(trips.clone() - a), side, &numbers)?,
         })
     }
 
-    /// The closed sum; none for m = 0, which has no factor.
-    fn get(&self, shape: Shape, m: usize) -> Option<Estimate<S>> {
+    /// Returns the closed sum; `None` for m = 0, which has no factor.
+    fn get(&self, space: SpaceFactor, m: usize) -> Option<Estimate<S>> {
         let (later, earlier) = (self.later.get(m)?, self.earlier.get(m)?);
         let two = later.int(2);
-        match shape {
+        match space {
             _ if m == 0 => None,
-            Shape::Sine => Some((later.clone() - earlier) / two),
-            Shape::Cosine => Some((later.clone() + earlier) / two),
-            Shape::Mean => Some(later.clone()),
+            SpaceFactor::Sine => Some((later.clone() - earlier) / two),
+            SpaceFactor::Cosine => Some((later.clone() + earlier) / two),
+            SpaceFactor::Mean => Some(later.clone()),
         }
     }
 }
 
-/// `c_j = E_j/(2^j j!)` with Euler's numbers, from `Σ c_j z^j = 1/cosh(z/2)`.
+/// Computes `c_j = E_j/(2^j j!)` with Euler's numbers, from `Σ c_j z^j = 1/cosh(z/2)`.
 fn euler<S: Rounded>(like: &Estimate<S>, count: usize) -> Vec<Estimate<S>> {
     // cosh(z/2) = Σ h_j z^j, j even.
     let mut cosh = vec![like.one()];
@@ -277,7 +289,7 @@ fn euler<S: Rounded>(like: &Estimate<S>, count: usize) -> Vec<Estimate<S>> {
     list
 }
 
-/// `U_m(α) = 4 Σ Re((−i)^m e^{iωα})/ω^m = (−1)^{⌊α⌋} E_{m−1}(α − ⌊α⌋)/(m−1)!`, m = 0 … (the first is a placeholder).
+/// Computes `U_m(α) = 4 Σ Re((−i)^m e^{iωα})/ω^m = (−1)^{⌊α⌋} E_{m−1}(α − ⌊α⌋)/(m−1)!`, m = 0 … (the first is a placeholder).
 ///
 /// `U_1` is the square wave, `U_m′ = U_{m−1}`, and each changes its sign over a round trip, which fixes the constant:
 /// Euler's polynomials, here by their expansion about 1/2.
@@ -299,7 +311,7 @@ fn lattice<S: Rounded>(alpha: &Estimate<S>, side: Side, numbers: &[Estimate<S>])
     Some(list)
 }
 
-/// `value`, with `e^log_tail` left out of it; a value that is no number is not known.
+/// Returns `value` with a bound that includes the tail `e^log_tail`; the bound of a value that is no number is infinite.
 pub(super) fn within<S: Rounded>(value: Estimate<S>, log_tail: f64) -> Estimate<S> {
     let error = value.error() + (log_tail - value.log2_roundoff() * std::f64::consts::LN_2).exp();
     let known = value.is_finite() && !error.is_nan();

@@ -16,9 +16,9 @@ fn problem(damping: Option<&str>) -> Problem {
 #[test]
 fn without_damping() {
     let found = march(&problem(None), 16).unwrap();
-    assert!((found.stress + 4.5).abs() < 1e-13, "{found:?}");
+    assert!((found.strain + 4.5).abs() < 1e-13, "{found:?}");
     let centre = -4.5 - 1.125 + (3.375 + 0.5625);
-    assert!((found.at(1.5).unwrap().x - centre).abs() < 1.0 / (16.0 * 16.0), "{found:?} {centre}");
+    assert!((found.state_at(1.5).unwrap().centre - centre).abs() < 1.0 / (16.0 * 16.0), "{found:?} {centre}");
     let released = march(&Problem { run: Run::Impacts(1), ..problem(None) }, 16).unwrap();
     assert!((released.events[1].1 - 2.0).abs() < 1.0 / 16.0, "{released:?}");
 }
@@ -31,7 +31,7 @@ fn with_damping() {
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
     let truth = FirstContact::new(&rod.carry()).energy(&1.5.carry()).total.into_value();
     for cells in [16, 64, 256] {
-        let wrong = (march(&problem, cells).unwrap().at(1.5).unwrap().z - truth).abs();
+        let wrong = (march(&problem, cells).unwrap().state_at(1.5).unwrap().energy - truth).abs();
         assert!(wrong < 0.2 * 1.5 / cells as f64 * truth, "{cells}: {wrong:e}");
     }
 }

@@ -1,7 +1,7 @@
-//! The paper's integrals as they are printed, by adaptive quadrature: what a reader would program from the page.
+//! The paper's integrals as printed, by adaptive quadrature: the program that a reader would write from the page.
 //!
-//! No code is shared with the closed forms: I₀ is the integral (2.16), not a series; the extension of the data is a
-//! square wave; integrals nest as deep as in print, three for an energy.
+//! The closed forms share no code with it: I₀ is the integral (2.16), not a series; the extended data are a square wave;
+//! integrals nest as deep as in print, three for an energy.
 
 use super::quadrature::Quadrature;
 use dalembert::problem::Parameters;
@@ -19,13 +19,13 @@ use dalembert::problem::Parameters;
 ///
 /// ```
 /// # use dalembert::Parameters;
-/// # use dalembert_verify::paper::Printed;
+/// # use dalembert_verify::paper::PrintedIntegrals;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
-/// assert!((Printed::new(&rod, 1e-10).strain(1.0) + 4.0).abs() < 1e-14);
+/// assert!((PrintedIntegrals::new(&rod, 1e-10).strain(1.0) + 4.0).abs() < 1e-14);
 /// ```
 #[derive(Debug)]
-pub struct Printed {
+pub struct PrintedIntegrals {
     l: f64,
     c: f64,
     r: f64,
@@ -34,21 +34,21 @@ pub struct Printed {
     quadrature: Quadrature,
 }
 
-impl Printed {
-    /// The integrals of `rod` to `tolerance`.
+impl PrintedIntegrals {
+    /// Prepares the integrals of `rod`, to be computed to `tolerance`.
     pub fn new(rod: &Parameters<f64>, tolerance: f64) -> Self {
         let Parameters { length: l, wave_speed: c, damping: r, gravity: g, speed: mu } = *rod;
-        Printed { l, c, r, g, mu, quadrature: Quadrature::new(tolerance) }
+        PrintedIntegrals { l, c, r, g, mu, quadrature: Quadrature::new(tolerance) }
     }
 
-    /// The same, for no longer than `seconds` from now: then integrals are cut short, see [`Printed::is_late`].
-    pub fn limited_to(mut self, seconds: f64) -> Self {
+    /// Sets a deadline `seconds` from now, after which integrals are cut short, see [`PrintedIntegrals::is_late`].
+    pub(crate) fn limited_to(mut self, seconds: f64) -> Self {
         self.quadrature = self.quadrature.limited_to(seconds);
         self
     }
 
-    /// Whether an integral was cut short by [`Printed::limited_to`].
-    pub fn is_late(&self) -> bool {
+    /// Returns whether the deadline of [`PrintedIntegrals::limited_to`] has cut an integral short.
+    pub(crate) fn is_late(&self) -> bool {
         self.quadrature.is_late()
     }
 
@@ -56,29 +56,29 @@ impl Printed {
         self.quadrature.integral([a, b], cuts, 0.0, f)
     }
 
-    /// The symmetric extension of 1.
+    /// Returns the symmetric extension of 1 at `y`.
     fn sign(&self, y: f64) -> f64 {
         if (y / (2.0 * self.l)).floor() as i64 % 2 == 0 { 1.0 } else { -1.0 }
     }
 
-    /// Where the extended data jump, as far as the cone of `(x,t)` reaches.
+    /// Returns the jumps of the extended data within `reach` of the origin.
     fn lattice(&self, reach: f64) -> Vec<f64> {
         let most = (reach / (2.0 * self.l)).ceil() as i64 + 1;
         (-most..=most).map(|k| 2.0 * self.l * k as f64).collect()
     }
 
-    /// `t₁`.
+    /// Returns `t₁`.
     fn round_trip(&self) -> f64 {
         2.0 * self.l / self.c
     }
 
-    /// `t₁, 2t₁, …` up to `t`.
+    /// Returns `t₁, 2t₁, …` up to `t`.
     fn trips(&self, t: f64) -> Vec<f64> {
         let t1 = self.round_trip();
         (1..=(t / t1).ceil() as i64).map(|k| k as f64 * t1).collect()
     }
 
-    /// `∫_{x−cτ}^{x+cτ} kernel(λs, x − y) 1^e(y) dy`.
+    /// Computes `∫_{x−cτ}^{x+cτ} kernel(λs, x − y) 1^e(y) dy`.
     fn cone(&self, x: f64, tau: f64, kernel: &dyn Fn(f64, f64) -> f64) -> f64 {
         let lambda = self.r / self.c;
         let ct = self.c * tau;
@@ -88,22 +88,22 @@ impl Printed {
         })
     }
 
-    /// `∫₀ᵗ f(τ) dτ`, cut where the cone meets the lattice.
+    /// Computes `∫₀ᵗ f(τ) dτ`, cut where the cone meets the lattice.
     fn duhamel(&self, x: f64, t: f64, f: &dyn Fn(f64) -> f64) -> f64 {
         if self.g == 0.0 {
             return 0.0;
         }
         let cuts: Vec<f64> = self.lattice(x + self.c * t).iter().map(|y| (y - x).abs() / self.c).collect();
-        // On the ground the cone cancels by symmetry: what is left of it there is rounding.
+        // On the ground the cone cancels by symmetry, up to rounding.
         let noise = 16.0 * f64::EPSILON * self.g * t * self.c * t * (self.r * t).exp() * i0(self.r * t);
         self.quadrature.integral([0.0, t], &cuts, noise, f)
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`, with the limits from later times on a ray.
+    /// Computes `v`, `v_t`, `v_x` at `(x,t)`, with the limits from later times on a ray.
     ///
     /// **Source**: (2.24), (2.23), (2.22), as the appendix combines them.
     pub fn field(&self, x: f64, t: f64) -> [f64; 3] {
-        let Printed { c, r, g, mu, .. } = *self;
+        let PrintedIntegrals { c, r, g, mu, .. } = *self;
         let lambda = r / c;
         let source = |tau: f64| -g * (r * (t - tau)).exp();
         let kernel = |z: f64, _: f64| i0(z);
@@ -124,7 +124,7 @@ impl Printed {
         [decay * w, decay * (w_t - r * w), decay * w_x]
     }
 
-    /// `H_r(t)`. **Source**: (2.27), with the k of (2.26) from a division.
+    /// Computes `H_r(t)`. **Source**: (2.27), with the k of (2.26) from a division.
     pub fn impact_kernel(&self, t: f64) -> f64 {
         let t1 = self.round_trip();
         let ray = |j: i64| {
@@ -136,7 +136,7 @@ impl Printed {
         i0(self.r * t) + (1..=rays).map(ray).sum::<f64>()
     }
 
-    /// `Ψ_r(t)`. **Source**: (2.28).
+    /// Computes `Ψ_r(t)`. **Source**: (2.28).
     fn psi(&self, t: f64) -> f64 {
         let history = if self.g == 0.0 {
             0.0
@@ -146,69 +146,69 @@ impl Printed {
         -self.mu / self.c * self.impact_kernel(t) - self.g / self.c * history
     }
 
-    /// `v_x(0,t) = e^{−rt} Ψ_r(t)`, the limit from later times. **Source**: (2.28).
+    /// Computes `v_x(0,t) = e^{−rt} Ψ_r(t)`, the limit from later times. **Source**: (2.28).
     pub fn strain(&self, t: f64) -> f64 {
         (-self.r * t).exp() * self.psi(t)
     }
 
-    /// `P(t)` in contact. **Source**: (3.38), with `t` for `(1 − e^{−2rt})/2r` where `r = 0`.
+    /// Computes `P(t)` in contact. **Source**: (3.38), with `t` for `(1 − e^{−2rt})/2r` where `r = 0`.
     pub fn momentum(&self, t: f64) -> f64 {
-        let Printed { l, c, r, g, mu, .. } = *self;
+        let PrintedIntegrals { l, c, r, g, mu, .. } = *self;
         let push = self.integral(0.0, t, &self.trips(t), &|tau| (r * tau).exp() * self.psi(tau));
         let lost = (-2.0 * r * t).exp();
         let fallen = if r == 0.0 { t } else { (1.0 - lost) / (2.0 * r) };
         -c * c * lost * push - g * l * fallen - mu * l * lost
     }
 
-    /// `P(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.43).
+    /// Computes `P(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.43).
     pub fn flight_momentum(&self, release: f64, t: f64) -> f64 {
         let limit = self.g * self.l / (2.0 * self.r);
         (self.momentum(release) + limit) * (-2.0 * self.r * (t - release)).exp() - limit
     }
 
-    /// `∫₀ᴸ f(v, v_t, v_x) dx`, cut at the ray inside.
+    /// Computes `∫₀ᴸ f(v, v_t, v_x) dx`, cut at the ray inside.
     fn over_rod(&self, t: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
         let ray = (self.c * t) % (2.0 * self.l);
         self.integral(0.0, self.l, &[ray, 2.0 * self.l - ray], &|x| f(self.field(x, t)))
     }
 
-    /// `h(t)` in contact. **Source**: (3.39), the mean of (2.24).
+    /// Computes `h(t)` in contact. **Source**: (3.39), the mean of (2.24).
     pub fn centre(&self, t: f64) -> f64 {
         self.over_rod(t, |[v, _, _]| v) / self.l
     }
 
-    /// `h(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.44).
+    /// Computes `h(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.44).
     pub fn flight_centre(&self, release: f64, t: f64) -> f64 {
-        let Printed { l, r, g, .. } = *self;
+        let PrintedIntegrals { l, r, g, .. } = *self;
         let (h0, h1, since) = (self.centre(release), self.momentum(release) / l, t - release);
         let lost = (-2.0 * r * since).exp();
         (h1 + 2.0 * r * h0 - g * since - h1 * lost) / (2.0 * r) + g / (4.0 * r * r) * (1.0 - lost)
     }
 
-    /// `E(t)`. **Source**: (3.54): three integrals, one in the other.
+    /// Computes `E(t)`. **Source**: (3.54): three integrals, one in the other.
     pub fn energy(&self, t: f64) -> f64 {
         self.over_rod(t, |[v, v_t, v_x]| 0.5 * (v_t * v_t + self.c * self.c * v_x * v_x) + self.g * v)
     }
 
-    /// The right-hand side of (2.32): the least μ that bounces at `t₁`.
-    pub fn threshold(&self) -> f64 {
+    /// Computes the right-hand side of (2.32): the least μ that bounces at `t₁`.
+    pub(crate) fn threshold(&self) -> f64 {
         let (t1, r) = (self.round_trip(), self.r);
         let weight = self.integral(0.0, t1, &[], &|tau| (r * (t1 - tau)).exp() * i0(r * tau));
         self.g * weight / (2.0 - i0(r * t1))
     }
 }
 
-/// `I₀(z)` by the integral (2.16). **Accuracy**: within a few roundings.
-pub fn i0(z: f64) -> f64 {
+/// Computes `I₀(z)` by the integral (2.16). **Accuracy**: within a few roundings.
+pub(crate) fn i0(z: f64) -> f64 {
     period(z, |_| 1.0)
 }
 
-/// `I₁(z)/z`, from the same integral by parts. **Accuracy**: within a few roundings.
+/// Computes `I₁(z)/z` by the same integral, integrated by parts. **Accuracy**: within a few roundings.
 fn i1_over_z(z: f64) -> f64 {
     period(z, |angle| angle.sin().powi(2))
 }
 
-/// The mean of `weight(θ) cosh(z cos θ)` over a period by the trapezoidal rule, which converges geometrically.
+/// Computes the mean of `weight(θ) cosh(z cos θ)` over a period by the trapezoidal rule, which converges geometrically.
 fn period(z: f64, weight: impl Fn(f64) -> f64) -> f64 {
     // The rule leaves 2 I_{2n}(z): below a roundoff of I₀ for all z.
     let n = 12 + (2.0 * z.sqrt() + 0.6 * z) as i32;
@@ -220,5 +220,5 @@ fn period(z: f64, weight: impl Fn(f64) -> f64) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "tests/bessel.rs"]
+#[path = "tests/integrals.rs"]
 mod tests;

@@ -9,9 +9,8 @@ fn the_threshold_lies_within_its_bound() {
     for k in 0..=1807 {
         let r: Number = format!("{k}e-3").parse().unwrap();
         let found = threshold(&Estimate::from_number(&r, &())).unwrap();
-        // The paper's is μ over r, with t₁ = 2 and g = 1.
-        let half = Float::from_number(&r, &140) / 2;
-        let truth = crate::paper::formulas::threshold(&half) / 2;
+        let ThresholdRatio { numerator, denominator } = ThresholdRatio::new(&Float::from_number(&r, &140));
+        let truth = numerator / denominator;
         let off = Scalar::to_f64(&(Float::with_val(140, found.value()) - truth)).abs();
         // Each function has some ten roundings, and a part of 2 − I₀ has all of them.
         let condition = 1.0 + 2.0 * found.value();

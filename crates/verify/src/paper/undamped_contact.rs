@@ -1,10 +1,9 @@
 //! The undamped first contact, `r = 0`, from the paper's closed forms: (3.47)–(3.53), (3.66)–(3.72), Corollary 1,
 //! Remark 2.
 //!
-//! Nothing here is derived anew: each method is the printed formula, so that it can be held against the other engines.
-//! Between the printed formulas themselves the following hold, exactly, in fractions: `P = L h′`, `P` and `h`
-//! continuous at `t₁` and `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. All of them pass; only the case `μ = μ₀`
-//! is left out in print, see [`UndampedContact::momentum_restitution`].
+//! Each method is the printed formula, to be compared with the engines. In fractions the printed formulas satisfy
+//! exactly: `P = L h′`, `P` and `h` continuous at `t₁` and `t_b`, `E_h = P²/2L + L g h`, `E_h + E_z = μ²L/2`. Only the
+//! case `μ = μ₀` is left out in print, see [`UndampedContact::momentum_restitution`].
 
 use dalembert::Side;
 use dalembert::number::Scalar;
@@ -32,12 +31,12 @@ use dalembert::problem::Parameters;
 pub struct UndampedContact<S> {
     rod: Parameters<S>,
     round_trip: S,
-    /// `μ ≥ μ₀`: the case `t_b = t₁`.
+    /// Whether `μ ≥ μ₀`: the case `t_b = t₁`.
     strong: bool,
 }
 
 impl<S: Scalar + PartialOrd> UndampedContact<S> {
-    /// The first contact of the rod that hits the ground undeformed with uniform velocity `−μ`.
+    /// Builds the first contact of the rod that hits the ground undeformed with uniform velocity `−μ`.
     ///
     /// **Errors**: `None` where the rod is damped.
     pub fn new(rod: &Parameters<S>) -> Option<Self> {
@@ -46,7 +45,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         undamped.then(|| UndampedContact { round_trip: rod.round_trip(), rod: rod.clone(), strong })
     }
 
-    /// `t_b`: `t₁` for `μ ≥ μ₀`, otherwise `2t₁ − μ/g`.
+    /// Computes `t_b`: `t₁` for `μ ≥ μ₀`, otherwise `2t₁ − μ/g`.
     ///
     /// **Source**: Corollary 1; Remark 1 for `g = 0`.
     pub fn bounce_time(&self) -> S {
@@ -56,7 +55,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         self.round_trip.int(2) * &self.round_trip - self.rod.speed.clone() / &self.rod.gravity
     }
 
-    /// `v_x(0,t) = Ψ₀(t)`: piecewise linear, zero in flight.
+    /// Computes `v_x(0,t) = Ψ₀(t)`: piecewise linear, zero in flight.
     ///
     /// **Source**: (2.28) with `r = 0`, as integrated before (3.52).
     pub fn strain(&self, time: &S, side: Side) -> S {
@@ -71,7 +70,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         }
     }
 
-    /// `P(t)`: momentum per linear density.
+    /// Computes `P(t)`: the momentum per linear density.
     ///
     /// **Source**: (3.50), (3.52).
     pub fn momentum(&self, time: &S) -> S {
@@ -92,7 +91,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         four + mu.square() * c / (n(2) * g) - (mu.clone() + &gt) * l
     }
 
-    /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    /// Computes `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
     ///
     /// **Source**: (3.51), (3.53).
     pub fn centre(&self, time: &S) -> (S, S) {
@@ -123,14 +122,14 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         (height, velocity)
     }
 
-    /// `E = μ²L/2`, at all times.
+    /// Computes `E = μ²L/2`, the energy at all times.
     ///
     /// **Source**: (3.66).
     pub fn total_energy(&self) -> S {
         self.rod.speed.square() * &self.rod.length / self.rod.speed.int(2)
     }
 
-    /// `E_h(t)`: the translational energy.
+    /// Computes `E_h(t)`: the translational energy.
     ///
     /// **Source**: (3.67), (3.68).
     pub fn translational_energy(&self, time: &S) -> S {
@@ -159,7 +158,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         l.clone() * &mu.square() * &form / (n(6) * &mu0.square())
     }
 
-    /// `E_z(t_b)`: the vibrational energy at the bounce, which the flight keeps.
+    /// Computes `E_z(t_b)`: the vibrational energy at the bounce, which the flight keeps.
     ///
     /// **Source**: Theorem 2, (3.69).
     pub fn vibrational_energy_at_bounce(&self) -> S {
@@ -171,14 +170,14 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         mu.square() * mu * l * &form / (mu0.square() * &l.int(6))
     }
 
-    /// `e_P = −P(t_b)/P(0)`: the momentum coefficient of restitution, `min(1, μ/μ₀)`.
+    /// Computes `e_P = −P(t_b)/P(0)`: the momentum coefficient of restitution, `min(1, μ/μ₀)`.
     ///
     /// **Source**: section 4.1. The paper leaves `μ = μ₀` out of both cases; both give 1 there.
     pub fn momentum_restitution(&self) -> S {
         if self.strong { self.rod.speed.one() } else { self.rod.speed.clone() / self.rod.critical_speed() }
     }
 
-    /// `e_E²`: the square of the energy coefficient of restitution.
+    /// Computes `e_E²`: the square of the energy coefficient of restitution.
     ///
     /// **Source**: (4.72). At `μ → 0` it is 1, at `μ = 2μ₀/3` it is least, 5/9.
     ///
@@ -193,7 +192,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         Some(form / (n(3) * &mu0.square()))
     }
 
-    /// `t*` and `h_max = h(t*)`: the top of the flight, provided that no impact comes first.
+    /// Computes `t*` and `h_max = h(t*)`: the top of the flight, provided that no impact comes first.
     ///
     /// **Source**: Remark 2.
     ///

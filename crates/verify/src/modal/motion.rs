@@ -1,11 +1,11 @@
-//! What is asked of the modes: stress, field, centre of mass, energy.
+//! Stress, field, centre of mass and energy as sums over the modes.
 
-use crate::motion::{Field, Side};
-use crate::number::{Analytic, Estimate, Scalar};
-use crate::problem::Parameters;
-use crate::special::{RoundedSpecial, phi1};
+use dalembert::number::{Analytic, Estimate, Scalar};
+use dalembert::problem::Parameters;
+use dalembert::special::{RoundedSpecial, phi1};
+use dalembert::{Field, Side};
 
-use super::sums::{History, MOST_MODES, Shape, series, within};
+use super::sums::{MOST_MODES, SpaceFactor, TimeFactor, series, within};
 
 /// The first contact by its modes.
 ///
@@ -17,7 +17,7 @@ use super::sums::{History, MOST_MODES, Shape, series, within};
 ///
 /// ```
 /// # use dalembert::{Parameters, Side};
-/// # use dalembert::engine::Modal;
+/// # use dalembert_verify::modal::Modal;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// let stress = Modal::new(&rod, 64).strain(&1.0, Side::Right);
@@ -35,7 +35,7 @@ pub struct Modal<S> {
 }
 
 impl<S: RoundedSpecial> Modal<S> {
-    /// The sum over at least `modes` modes.
+    /// Prepares the sums over at least `modes` modes.
     pub fn new(rod: &Parameters<S>, modes: u32) -> Self {
         let rod = rod.carry();
         let round_trip = rod.round_trip();
@@ -43,7 +43,7 @@ impl<S: RoundedSpecial> Modal<S> {
         Modal { critical: rod.critical_speed(), rod, round_trip, damping, modes: i64::from(modes.max(2)) }
     }
 
-    /// `v_x(0,t)`: the stress at the ground divided by the modulus.
+    /// Computes `v_x(0,t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
     pub fn strain(&self, time: &S, side: Side) -> Estimate<S> {
@@ -51,30 +51,31 @@ impl<S: RoundedSpecial> Modal<S> {
         self.combine(impact, weight, &(-self.rod.wave_speed.one() / &self.rod.wave_speed))
     }
 
-    /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; the second is left out where nothing weighs.
-    pub(crate) fn ground(&self, trips: &Estimate<S>, side: Side) -> [Estimate<S>; 2] {
+    /// Computes `e^{−rt} H_r` and `e^{−rt} G_r/t₁` at `t/t₁`; without gravity the second is zero.
+    fn ground(&self, trips: &Estimate<S>, side: Side) -> [Estimate<S>; 2] {
         let ground = trips.zero();
-        let first = series(0, History::Sine, Shape::Cosine);
+        let first = series(0, TimeFactor::Sine, SpaceFactor::Cosine);
         if self.critical.value().is_zero() {
             let [impact] = self.sums(trips, &ground, side, [first]);
             return [impact, ground];
         }
-        let [impact, weight] = self.sums(trips, &ground, side, [first, series(2, History::Rising, Shape::Cosine)]);
+        let [impact, weight] =
+            self.sums(trips, &ground, side, [first, series(2, TimeFactor::Rising, SpaceFactor::Cosine)]);
         [impact, trips.ratio(1, 2) - weight]
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    /// Computes `v`, `v_t`, `v_x` at `(x,t)`.
     ///
     /// **Source**: (2.24).
     pub fn field(&self, point: &S, time: &S, side: Side) -> Field<Estimate<S>> {
         let trips = self.trips(time);
         let a = Estimate::exact(point.clone()) / &self.rod.length / trips.int(2);
         let list = [
-            series(1, History::Sine, Shape::Sine),
-            series(1, History::Falling, Shape::Sine),
-            series(0, History::Sine, Shape::Cosine),
-            series(3, History::Rising, Shape::Sine),
-            series(2, History::Rising, Shape::Cosine),
+            series(1, TimeFactor::Sine, SpaceFactor::Sine),
+            series(1, TimeFactor::Falling, SpaceFactor::Sine),
+            series(0, TimeFactor::Sine, SpaceFactor::Cosine),
+            series(3, TimeFactor::Rising, SpaceFactor::Sine),
+            series(2, TimeFactor::Rising, SpaceFactor::Cosine),
         ];
         let [fallen, slowed, force, sag, bend] = self.sums(&trips, &a, side, list);
         let one = trips.one();
@@ -88,15 +89,15 @@ impl<S: RoundedSpecial> Modal<S> {
         }
     }
 
-    /// `h(t)` and `h′(t) = P/L`: the centre of mass.
+    /// Computes `h(t)` and `h′(t) = P/L`: the centre of mass.
     ///
     /// **Source**: (3.38), (3.39).
     pub fn centre(&self, time: &S) -> (Estimate<S>, Estimate<S>) {
         let trips = self.trips(time);
         let list = [
-            series(2, History::Sine, Shape::Mean),
-            series(2, History::Falling, Shape::Mean),
-            series(4, History::Rising, Shape::Mean),
+            series(2, TimeFactor::Sine, SpaceFactor::Mean),
+            series(2, TimeFactor::Falling, SpaceFactor::Mean),
+            series(4, TimeFactor::Rising, SpaceFactor::Mean),
         ];
         let two = trips.int(2);
         let [fallen, slowed, sag] = self.sums(&trips, &trips.zero(), Side::Right, list).map(|sum| sum * &two);
@@ -105,7 +106,7 @@ impl<S: RoundedSpecial> Modal<S> {
         (height, self.combine(-slowed, -fallen, &two.one()))
     }
 
-    /// `E(t)`: the energy, by Parseval's equation `(L/4) Σ (b² + ω²q²) + L g h` for `v_t = Σ b sin`,
+    /// Computes `E(t)`: the energy, by Parseval's equation `(L/4) Σ (b² + ω²q²) + L g h` for `v_t = Σ b sin`,
     /// `c v_x = Σ ωq cos`.
     ///
     /// **Source**: (3.54).
@@ -140,7 +141,7 @@ impl<S: RoundedSpecial> Modal<S> {
         (elastic + height * &self.rod.gravity) * &self.rod.length
     }
 
-    /// `t/t₁`, and exactly k at the k-th lattice time.
+    /// Returns `t/t₁`: exactly k at the k-th lattice time.
     fn trips(&self, time: &S) -> Estimate<S> {
         let (trips, period) = (Estimate::exact(time.clone()) / &self.round_trip, self.round_trip.value());
         match (trips.value().clone() + time.ratio(1, 2)).floor_int() {
@@ -149,18 +150,18 @@ impl<S: RoundedSpecial> Modal<S> {
         }
     }
 
-    /// `(μ impact + μ₀ weight) factor`.
+    /// Returns `(μ impact + μ₀ weight) factor`.
     fn combine(&self, impact: Estimate<S>, weight: Estimate<S>, factor: &Estimate<S>) -> Estimate<S> {
         (impact * &self.rod.speed + weight * &self.critical) * factor
     }
 
-    /// Damped `S`, `C − RS`, `C + RS` of one mode.
+    /// Computes damped `S`, `C − RS`, `C + RS` of one mode.
     ///
     /// `q = (ω−R)(ω+R)` is off by less than `8uω(ω+R)`, with the rounding of R, and `|dS/dq| = |τC − S|/2|q|` and
     /// `|dC/dq| = τ|S|/2` are below `min(τ³/6, (τ + |q|^{−1/2})/2|q|)` and `min(τ²/2, τ|q|^{−1/2}/2)` times the growth,
     /// 1 or `cosh κτ`.
     pub(super) fn direct(&self, omega: &Estimate<S>, trips: &Estimate<S>) -> [Estimate<S>; 3] {
-        let (c, s, q) = self.pair(omega.value(), trips.value());
+        let [c, s, q] = self.cosine_and_sine(omega.value(), trips.value());
         let (w, r, tau, q) = (omega.to_f64(), self.damping.to_f64(), trips.to_f64(), q.to_f64());
         let growth = if q < 0.0 { c.to_f64().abs() } else { (-r * tau).exp() };
         let root = q.abs().sqrt();
@@ -173,11 +174,11 @@ impl<S: RoundedSpecial> Modal<S> {
         [s, c.clone() - &damped, c + &damped]
     }
 
-    /// `e^{−Rτ} C` and `e^{−Rτ} S`, regular where `ω = R`, and `Ω²`.
+    /// Computes `e^{−Rτ} C` and `e^{−Rτ} S`, regular where `ω = R`, and `Ω²`.
     ///
     /// For `ω < R`, with `κ² = R² − ω²`: `e^{−Rτ} cosh κτ = e^{−(R−κ)τ} (1 + e^{−2κτ})/2`, the sine
     /// `τ e^{−(R−κ)τ} φ₁(−2κτ)`, and `R − κ = ω²/(R + κ)`.
-    fn pair(&self, omega: &S, trips: &S) -> (S, S, S) {
+    fn cosine_and_sine(&self, omega: &S, trips: &S) -> [S; 3] {
         let r = self.damping.value();
         let square = (omega.clone() - r) * &(omega.clone() + r);
         if square.is_negative() {
@@ -185,12 +186,12 @@ impl<S: RoundedSpecial> Modal<S> {
             let slow = (-(omega.square() / &(r.clone() + &kappa) * trips)).exp();
             let fall = -(kappa * trips * &trips.int(2));
             let even = (fall.exp() + trips.one()) / &trips.int(2);
-            return (even * &slow, phi1(&fall) * trips * &slow, square);
+            return [even * &slow, phi1(&fall) * trips * &slow, square];
         }
         let frequency = square.sqrt();
         let fade = (-(r.clone() * trips)).exp();
         let angle = frequency.clone() * trips;
         let sine = if frequency.is_zero() { trips.clone() } else { angle.sin() / &frequency };
-        (angle.cos() * &fade, sine * &fade, square)
+        [angle.cos() * &fade, sine * &fade, square]
     }
 }

@@ -1,5 +1,5 @@
-//! The first contact as a sum over the modes `sin((2n+1)πx/2L)`: a route of its own beside the rays, and the stable one
-//! late in the contact, where every ray is large and their sum is small.
+//! The first contact as a sum over the modes `sin((2n+1)πx/2L)`: it shares no formula with the rays, and is stable late
+//! in the contact, where every ray is large and their sum is small.
 //!
 //! With time in round trips, `τ = t/t₁`, `a = x/2L`, `ω = (2n+1)π`, `ε = 1/ω`, `Ω² = ω² − R²`, and with
 //! `C = cos Ωτ`, `S = sin(Ωτ)/Ω` (cosh and sinh where `ω < R`, 1 and τ between), damped by `e^{−Rτ}`:
