@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use dalembert::quantity::restitution;
 use dalembert::{
-    Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
-    Units, Warning,
+    Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
+    TypedHistory, Units, Warning,
 };
 use dalembert_plot::{Canvas, Drawing, Drawn, Pose, Sizes};
 use wasm_bindgen::prelude::*;
@@ -59,7 +59,7 @@ fn optional<S: Scalar>(x: Option<&S>) -> String {
 #[wasm_bindgen]
 pub struct Run {
     scene: Scene,
-    history: History<f64>,
+    history: TypedHistory<f64>,
     sizes: Sizes,
 }
 
@@ -78,7 +78,7 @@ impl Run {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         });
-        match plan.solve(&scene.problem, observe) {
+        match plan.solve_typed(&scene.problem, observe) {
             Ok(Solution::Double(history)) => {
                 let sizes = Sizes::of(&history).map_err(failed)?;
                 Ok(Run { scene, history, sizes })
@@ -130,7 +130,7 @@ impl Run {
 
     /// Times of impacts and releases, in turns, an impact first.
     pub fn events(&self) -> Vec<f64> {
-        self.history.events().iter().map(|event| event.time).collect()
+        self.history.events().iter().map(|event| event.t).collect()
     }
 
     /// Contact by contact: beginning, end, duration, `e_P`, `e_E²`, and `E`, `E_h`, `E_z` at the end.
@@ -139,10 +139,10 @@ impl Run {
             |motion| {
                 let row = |contact: &Contact<_>| {
                     let e = restitution(motion, contact.times())?;
-                    let energy = contact.to.as_ref().map(|to| motion.energy(to)).transpose()?;
-                    let time = contact.to.clone().map(|to| to - &contact.from);
-                    let mut row = vec![Some(contact.from.clone()), contact.to.clone(), time];
-                    row.extend([e.momentum.ok(), e.energy_squared.ok()]);
+                    let energy = contact.release.as_ref().map(|to| motion.energy(to)).transpose()?;
+                    let time = contact.release.clone().map(|to| to - &contact.impact);
+                    let mut row = vec![Some(contact.impact.clone()), contact.release.clone(), time];
+                    row.extend([e.e_p.ok(), e.e_e2.ok()]);
                     row.extend(energy.map_or([None, None, None], |e| numbers(e).map(Some)));
                     Ok(row)
                 };

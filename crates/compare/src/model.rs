@@ -7,7 +7,7 @@ use dalembert::Error;
 use dalembert::Side;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 
 /// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
 /// integral does not see how far a front is spread about its time, and changes steadily with the values of the scene.
@@ -36,9 +36,9 @@ pub(super) struct Model<'a> {
     pub(super) step: f64,
 }
 
-pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
+pub(super) fn solved(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
     // A rounding further, for times that are as many.
-    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.solve()
+    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.doubles()
 }
 
 /// `start + ∫ values dt` by the trapezoidal rule.
@@ -143,8 +143,8 @@ impl<'a> Model<'a> {
         // The mass at the ground by itself: where it is stopped, and what of the time it lies there.
         let mut contacts = Vec::new();
         for contact in history.contacts() {
-            let before = history.columns(&[Quantity::EndVelocity], &[contact.from], Some(Side::Left))?;
-            contacts.push((contact.from, contact.to.unwrap_or(f64::INFINITY), before[0][0].abs()));
+            let before = history.columns(&[Quantity::EndVelocity], &[contact.impact], Some(Side::Left))?;
+            contacts.push((contact.impact, contact.release.unwrap_or(f64::INFINITY), before[0][0].abs()));
         }
         let given = |time: f64| -> f64 {
             let of = |(from, to, speed): &(f64, f64, f64)| speed + gravity * (time.min(*to) - from);

@@ -9,7 +9,7 @@ use dalembert::engine::Motion;
 use dalembert::number::Scalar;
 use dalembert::problem::{Problem, Top};
 use dalembert::quantity::flights;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 
 /// Parts of the rod, each of one colour.
 const PARTS: usize = 120;
@@ -33,16 +33,16 @@ impl Sizes {
     /// Those of a history.
     ///
     /// **Errors**: those of the history.
-    pub fn of<S: Target>(history: &History<S>) -> Result<Self, Error> {
+    pub fn of<S: Target>(history: &TypedHistory<S>) -> Result<Self, Error> {
         let query = |motion: &dyn Motion<S::Carried>| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
             for flight in flights(motion)? {
-                rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
+                rise = flight.top.iter().map(|height| height.to_f64()).fold(rise, f64::max);
             }
             let mut energy = [0.0f64; 2];
             for contact in motion.contacts().iter().take(CONTACTS) {
-                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
+                let (from, to) = (contact.impact.to_f64(), contact.release.as_ref().unwrap_or(&motion.end()).to_f64());
                 let middles = (0..MIDDLES).map(|k| from + (to - from) * (k as f64 + 0.5) / MIDDLES as f64);
                 for time in [from].into_iter().chain(middles) {
                     let found = motion.energy(&motion.end().double(time))?;
@@ -80,7 +80,7 @@ impl Pose {
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a time that it does not reach.
     pub fn draw<S: Target>(
         &self,
-        history: &History<S>,
+        history: &TypedHistory<S>,
         problem: &Problem,
         sizes: &Sizes,
         time: f64,

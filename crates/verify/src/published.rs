@@ -4,7 +4,7 @@ use dalembert::engine::Motion;
 use dalembert::number::{Estimate, Scalar};
 use dalembert::quantity::{Units, columns, of_contact};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Numbers, Question};
+use dalembert::solve::{Numbers, Question, TypedHistory};
 use dalembert::{Error, Scene, Target, builtin};
 
 type Double = Estimate<f64>;
@@ -38,7 +38,7 @@ impl PublishedScene {
     /// ```
     pub fn new(name: &str, scene: &Scene) -> Result<Self, Error> {
         let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
-        let history: History<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
+        let history: TypedHistory<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
         let compare = |motion: &dyn Motion<Double>| {
             scene.targets.iter().map(|target| ComparedValue::new(target, motion, &units)).collect()
         };

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use super::ladder::{Candidate, Family, Ladder, ladders};
 use super::timing::{Timing, check_budget, repeat};
 use crate::error::RouteError;
-use crate::routes::{NotCovered, RouteQuestion, RouteValue, Truth};
+use crate::routes::{NotCovered, RouteQuestion, Truth};
+use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::quantity::Quantity;
 use dalembert::solve::Plan;
@@ -201,7 +202,7 @@ pub fn work_precision(
 struct Measured {
     candidate: Candidate,
     ladder: usize,
-    value: RouteValue,
+    value: Value,
     timing: Timing,
 }
 

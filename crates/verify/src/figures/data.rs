@@ -166,7 +166,7 @@ type Bounce = Option<(Double, Row)>;
 type Values = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<Row, Error>;
 
 /// `e_E²`.
-const RESTITUTION: Values = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.energy_squared.ok()]);
+const RESTITUTION: Values = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.e_e2.ok()]);
 
 /// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
 const SHARES: Values = |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok).to_vec());
@@ -271,8 +271,8 @@ fn tenth_restitution(grid: &Grid, index: usize) -> Option<Double> {
         let contact = motion.contacts().get(9);
         contact.map(|contact| restitution(motion, contact.times())).transpose()
     };
-    let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
-    found.ok()??.energy_squared.ok()
+    let found = rod.doubles().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
+    found.ok()??.e_e2.ok()
 }
 
 /// Returns the speeds of the grid.

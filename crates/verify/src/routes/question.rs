@@ -1,14 +1,14 @@
 //! A question about one number of a problem, and the ways in which it is answered.
 
 use super::method::{Method, Query, evaluate};
-use super::value::{RouteNumber, RouteValue};
+use super::value::RouteNumber;
 use crate::error::RouteError;
 use dalembert::engine::{Motion, Scales};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Missing, Needs, One, Quantity, Units};
-use dalembert::solve::{self, History, Numbers, Plan, Solution, Target};
-use dalembert::{Error, Scene, Side};
+use dalembert::solve::{self, Numbers, Plan, Solution, Target, TypedHistory};
+use dalembert::{Error, Scene, Side, Value};
 
 /// A function of an answer, for claims of the paper that are no quantities of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +86,7 @@ impl RouteQuestion {
     fn at_default_time(scene: &Scene, quantity: Quantity) -> Result<Self, RouteError> {
         let is_zero = |question: &Self| {
             let answer = question.plan(Numbers::default()).and_then(|plan| question.ask_plan(&plan));
-            answer.is_ok_and(|value| value.to_f64().abs() <= value.bound())
+            answer.is_ok_and(|value| value.to_f64().abs() <= value.log2_error().exp2())
         };
         let time = 0.75 * Parameters::<f64>::of(&scene.problem, &())?.round_trip();
         let first = rounded(time).ok_or(RouteError::RoundTrip(time))?;
@@ -94,8 +94,8 @@ impl RouteQuestion {
         if !is_zero(&first) {
             return Ok(first);
         }
-        let Ok(history) = scene.problem.solve() else { return Ok(first) };
-        let events = history.events().iter().map(|event| event.time);
+        let Ok(history) = scene.problem.doubles() else { return Ok(first) };
+        let events = history.events().iter().map(|event| event.t);
         let mut times: Vec<f64> = [0.0].into_iter().chain(events).chain([*history.end()]).collect();
         times.dedup();
         let middles = times.windows(2).filter_map(|pair| rounded(0.5 * (pair[0] + pair[1])));
@@ -115,11 +115,7 @@ impl RouteQuestion {
     }
 
     /// Answers by a method of the first contact of `rod`.
-    pub(super) fn ask<S: RouteNumber>(
-        &self,
-        rod: &Parameters<S>,
-        method: &dyn Method<S>,
-    ) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask<S: RouteNumber>(&self, rod: &Parameters<S>, method: &dyn Method<S>) -> Result<Value, RouteError> {
         let quantity = self.one.quantity;
         let convert = |number: &Number| S::from_number(number, &rod.length.precision());
         let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(convert));
@@ -141,18 +137,18 @@ impl RouteQuestion {
     }
 
     /// Answers by an engine of the library.
-    pub(super) fn ask_engine<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_engine<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Value, RouteError> {
         self.find_in(motion)?.map(Into::into)
     }
 
     /// Answers in doubles by a plan, which computes nothing else.
-    pub(super) fn ask_plan(&self, plan: &Plan) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_plan(&self, plan: &Plan) -> Result<Value, RouteError> {
         let query = |motion: &dyn Motion<_>| self.find_in(motion);
         plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
     /// Answers by a solution, whatever its numbers.
-    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<Value, RouteError> {
         match solution {
             Solution::Double(history) => self.ask_history(history),
             Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_history(history),
@@ -161,7 +157,7 @@ impl RouteQuestion {
         }
     }
 
-    fn ask_history<S: Target<Carried: RouteNumber>>(&self, history: &History<S>) -> Result<RouteValue, RouteError> {
+    fn ask_history<S: Target<Carried: RouteNumber>>(&self, history: &TypedHistory<S>) -> Result<Value, RouteError> {
         history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 

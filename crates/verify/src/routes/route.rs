@@ -3,7 +3,6 @@
 use super::differences::march;
 use super::method::{ClosedForm, unbounded};
 use super::question::RouteQuestion;
-use super::value::RouteValue;
 use crate::error::RouteError;
 use crate::modal::Modal;
 use crate::paper::formulas::Constant;
@@ -12,8 +11,8 @@ use dalembert::engine::{Damped, Undamped};
 use dalembert::number::{Estimate, Rational, Scalar};
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::Quantity;
-use dalembert::solve::{self, History, Numbers, Plan};
-use dalembert::{Ending, Error};
+use dalembert::solve::{self, Numbers, Plan, TypedHistory};
+use dalembert::{Ending, Error, Value};
 
 /// A route to an answer.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +46,7 @@ const CONSTANT_DIGITS: u32 = 36;
 
 impl Route {
     /// Answers `question`, in about `seconds` where the route can stop itself.
-    pub(crate) fn run(self, question: &RouteQuestion, seconds: f64) -> Result<RouteValue, RouteError> {
+    pub(crate) fn run(self, question: &RouteQuestion, seconds: f64) -> Result<Value, RouteError> {
         let problem = &question.problem;
         match self {
             Route::Formula(_, formula) => Ok(unbounded(formula()).into()),
@@ -76,7 +75,7 @@ impl Route {
             Route::Differences(cells) => question.ask(&Parameters::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers @ Numbers::Double(_)) => question.ask_plan(&question.plan(numbers)?),
             Route::Planned(numbers) => {
-                question.ask_solution(&question.plan(numbers)?.solve(problem, solve::unobserved())?)
+                question.ask_solution(&question.plan(numbers)?.solve_typed(problem, solve::unobserved())?)
             }
             Route::ClosedForm(_) | Route::Lattice(_) => Err(RouteError::NoSuchNumbers),
         }
@@ -85,7 +84,7 @@ impl Route {
 
 /// Answers by `route`, a constant or the closed form, in numbers of `digits` digits.
 #[cfg(feature = "mp")]
-fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<RouteValue, RouteError> {
+fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Value, RouteError> {
     // Two bytes to spare.
     let bits = dalembert::number::bits_for_digits(digits) + 16;
     if let Route::Constant(_, constant) = route {
@@ -96,7 +95,7 @@ fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Rout
 }
 
 #[cfg(not(feature = "mp"))]
-fn in_digits(_: Route, _: &RouteQuestion, _: u32) -> Result<RouteValue, RouteError> {
+fn in_digits(_: Route, _: &RouteQuestion, _: u32) -> Result<Value, RouteError> {
     Err(Error::NoMultiprecision.into())
 }
 
@@ -131,7 +130,7 @@ pub(crate) fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), N
     }
     let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
     let first = question.problem.first_contact()?;
-    match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
+    match (first.contacts().first().and_then(|contact| contact.release), first.ending()) {
         (Some(end), _) if time > end * (1.0 + 1e-12) => Err(NotCovered::LaterTime(end)),
         (None, Ending::Undecided(_)) if time > *first.end() => Err(NotCovered::Undecided(*first.end())),
         _ => Ok(()),
@@ -140,7 +139,7 @@ pub(crate) fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), N
 
 /// Runs `problem` in doubles by its plan and returns the end of the run, or the energy there.
 pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, RouteError> {
-    let history: History<f64> = problem.answer(&solve::Question::run(numbers))?;
+    let history: TypedHistory<f64> = problem.answer(&solve::Question::run(numbers))?;
     Ok(if energies { history.energy(*history.end())?.total } else { *history.end() })
 }
 
