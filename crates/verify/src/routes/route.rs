@@ -95,8 +95,11 @@ fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Valu
 }
 
 #[cfg(not(feature = "mp"))]
-fn in_digits(_: Route, _: &RouteQuestion, _: u32) -> Result<Value, RouteError> {
-    Err(Error::NoMultiprecision.into())
+fn in_digits(route: Route, _: &RouteQuestion, _: u32) -> Result<Value, RouteError> {
+    match route {
+        Route::Constant(_, constant) => Ok(unbounded(constant.value(&1.0)).into()),
+        _ => Err(Error::NoMultiprecision.into()),
+    }
 }
 
 /// A reason why the first contact does not cover a question.

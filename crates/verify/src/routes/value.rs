@@ -13,12 +13,16 @@ macro_rules! with_exponential {
     ($($name:ty),*) => {$(
         impl RouteNumber for $name {
             fn try_exp(&self) -> Option<Self> {
-                Some(self.exp())
+                exponential(self)
             }
         }
     )*};
 }
 with_exponential!(Estimate<f64>, Estimate<Float>, Interval);
+
+fn exponential<S: Analytic>(x: &S) -> Option<S> {
+    Some(x.exp())
+}
 
 impl RouteNumber for Rational {
     fn try_exp(&self) -> Option<Self> {
