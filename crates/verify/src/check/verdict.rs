@@ -1,6 +1,6 @@
 //! The promises of routes, whether they keep them, and the verdict on a case.
 
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use crate::routes::{Truth, shown};
 use dalembert::Value;
 
@@ -98,7 +98,7 @@ impl Verdict {
 pub struct CheckedRoute {
     /// The route in words.
     pub route: String,
-    pub(super) answer: Result<Value, RouteError>,
+    pub(super) answer: Result<Value, VerifyError>,
     /// The promise of the route.
     pub promise: Promise,
     /// Number of right digits: `None` without a number, infinite for the truth itself.
@@ -114,7 +114,7 @@ impl CheckedRoute {
     pub fn answer(&self) -> String {
         match &self.answer {
             Ok(value) => shown(value),
-            Err(RouteError::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
+            Err(VerifyError::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
             Err(_) => "undecided".into(),
         }
     }
@@ -122,12 +122,12 @@ impl CheckedRoute {
 
 impl Promise {
     /// Judges an answer with so many right `digits`; `truth` is `None` for a motion without a bounce.
-    pub(super) fn outcome(self, truth: Option<&Truth>, answer: &Result<Value, RouteError>, digits: f64) -> Outcome {
+    pub(super) fn outcome(self, truth: Option<&Truth>, answer: &Result<Value, VerifyError>, digits: f64) -> Outcome {
         let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
         let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
         match (answer, truth, self) {
-            (Err(RouteError::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
-            (Err(RouteError::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
+            (Err(VerifyError::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
+            (Err(VerifyError::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
                 broken(matches!(promise, Promise::Fewer(_)))
             }
             (Err(_), _, Promise::Bound(0)) => Outcome::Undecided,

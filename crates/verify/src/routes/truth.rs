@@ -3,7 +3,7 @@
 use super::question::RouteQuestion;
 use super::route::{HAS_LONG_NUMBERS, Route};
 use super::value::{encloses, log10_distance, log10_radius};
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::solve::Numbers;
@@ -34,7 +34,7 @@ impl Truth {
     /// Computes the answer to `question` with at least `digits` decimal digits: a fraction where the undamped run stays
     /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine. A build
     /// without long numbers computes doubles where fractions end.
-    pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, RouteError> {
+    pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
         if question.problem.rod.damping.is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
