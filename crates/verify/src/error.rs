@@ -1,13 +1,14 @@
-//! Reasons for which a question or a route has no answer.
+//! The errors of the crate.
 
+use crate::regimes::GridError;
 use dalembert::number::{Number, NumberError};
 use dalembert::problem::ProblemError;
 use dalembert::{Error, SceneError};
 
-/// A reason for which a question or a route has no answer.
+/// A reason for which a question, a route or a figure has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum RouteError {
+pub enum VerifyError {
     /// An error of the library.
     #[error(transparent)]
     Library(#[from] Error),
@@ -17,6 +18,12 @@ pub enum RouteError {
     /// A scene that cannot be read.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A grid that cannot be built.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The numbers of a figure without the map that it shows.
+    #[error("no map")]
+    NoMap,
     /// A quantity that the motion does not have.
     #[error("found {quantity} asked of a scene that has none: {why}; expected another quantity")]
     NoSuchQuantity {
@@ -28,15 +35,9 @@ pub enum RouteError {
     /// A question that the motion leaves undecided, for this reason.
     #[error("{0}")]
     Undecided(String),
-    /// A quantity for which the route has no formula.
+    /// A quantity for which the route has no formula, in such numbers or for such a rod.
     #[error("this route does not give that")]
     NotGiven,
-    /// Numbers in which the route does not run.
-    #[error("this route has no such numbers")]
-    NoSuchNumbers,
-    /// A damped rod, asked of formulas that are printed without damping.
-    #[error("they are printed for r = 0")]
-    Damped,
     /// A search without a release.
     #[error("no tensile stress in 64 round trips")]
     NoTensileStress,
@@ -68,15 +69,15 @@ pub enum RouteError {
     Budget(f64),
 }
 
-impl RouteError {
+impl VerifyError {
     /// Builds the error for a quantity that the motion does not have; the question adds the name of the quantity.
     pub(crate) fn none(why: impl Into<String>) -> Self {
-        RouteError::NoSuchQuantity { quantity: "", why: why.into() }
+        VerifyError::NoSuchQuantity { quantity: "", why: why.into() }
     }
 }
 
-impl From<ProblemError> for RouteError {
+impl From<ProblemError> for VerifyError {
     fn from(error: ProblemError) -> Self {
-        RouteError::Library(error.into())
+        VerifyError::Library(error.into())
     }
 }

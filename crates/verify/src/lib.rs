@@ -29,5 +29,5 @@ pub mod published;
 pub mod regimes;
 mod routes;
 
-pub use error::RouteError;
-pub use routes::{NotCovered, RouteQuestion, Truth};
+pub use error::VerifyError;
+pub use routes::{RouteQuestion, Truth};

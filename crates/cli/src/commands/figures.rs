@@ -11,7 +11,8 @@ use crate::failure::{self, Failure};
 use crate::file::{self, Format};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use dalembert_plot::draw::Size;
-use dalembert_verify::figures::{FIGURES, Figure, FigureData, FigureError};
+use dalembert_verify::VerifyError;
+use dalembert_verify::figures::{FIGURES, Figure, FigureData};
 
 #[derive(Args, Debug)]
 #[command(
@@ -58,7 +59,7 @@ impl Figures {
     }
 
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-        let data = figures.iter().map(|figure| FigureData::new(figure)).collect::<Result<Vec<_>, FigureError>>()?;
+        let data = figures.iter().map(|figure| FigureData::new(figure)).collect::<Result<Vec<_>, VerifyError>>()?;
         let files = (0..figures.len())
             .into_par_iter()
             .map(|k| {

@@ -6,9 +6,8 @@ use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use dalembert::number::Analytic;
 use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Shape, Sheet, Stroke};
-use dalembert_verify::figures::{
-    DAMPINGS, Figure, FigureData, FigureError, FigureKind, HELD_DAMPINGS, Limits, threshold_speed,
-};
+use dalembert_verify::VerifyError;
+use dalembert_verify::figures::{DAMPINGS, Figure, FigureData, FigureKind, HELD_DAMPINGS, Limits, threshold_speed};
 
 const LINE: f64 = 0.4;
 const THIN: f64 = 0.2;
@@ -30,7 +29,7 @@ pub(crate) fn figure_data(figure: &Figure, data: &FigureData) -> Dataset {
 }
 
 /// What stands beside the files, whose pictures have these `endings`.
-pub(crate) fn figures_index(figures: &[&Figure], data: &[FigureData], endings: &[&str]) -> Result<String, FigureError> {
+pub(crate) fn figures_index(figures: &[&Figure], data: &[FigureData], endings: &[&str]) -> Result<String, VerifyError> {
     let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
         "# Figures\n\nOf F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an elastic \
@@ -78,7 +77,7 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[FigureData], endings: &
 
 type Row = Vec<Option<f64>>;
 
-pub(crate) fn figure_sheet(figure: &Figure, data: &FigureData) -> Result<Sheet, FigureError> {
+pub(crate) fn figure_sheet(figure: &Figure, data: &FigureData) -> Result<Sheet, VerifyError> {
     let rows = &data.values();
     let panel = match figure.kind {
         FigureKind::HeldStress => kernel(rows),
@@ -89,7 +88,7 @@ pub(crate) fn figure_sheet(figure: &Figure, data: &FigureData) -> Result<Sheet, 
         FigureKind::EnergyKept => shares(rows, "E(t₁)/E(0)"),
         FigureKind::EnergyOverDecay => shares(rows, "E(t₁)/(E(0) exp(−2r t₁))"),
         FigureKind::IntegrationRegions => regions(rows),
-        FigureKind::Regimes => data.map.as_ref().map(regimes_panel).ok_or(FigureError::NoMap)?,
+        FigureKind::Regimes => data.map.as_ref().map(regimes_panel).ok_or(VerifyError::NoMap)?,
         FigureKind::TenthBounce => tenth(rows),
     };
     Ok(Sheet { title: Vec::new(), panels: vec![panel] })
@@ -161,7 +160,7 @@ fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
     panel
 }
 
-fn restitution(rows: &[Row]) -> Result<Panel, FigureError> {
+fn restitution(rows: &[Row]) -> Result<Panel, VerifyError> {
     let (x, y) = (Axis::new("μ", "", [0.0, 12.5]), Axis::new("e_E²", "", [0.0, 1.05]));
     let mut panel = Panel::new("restitution of the first bounce: c = L = g = 1", x, y);
     let mut begins = Vec::new();

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::verdict::{CheckedRoute, Outcome, Promise, Verdict};
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use crate::paper::PrintedIntegrals;
 use crate::paper::formulas::Constant;
 use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion, Transform, Truth};
@@ -45,7 +45,7 @@ impl Rod {
         Rod { scene, ..unit("0", "1") }
     }
 
-    fn problem(&self) -> Result<Problem, RouteError> {
+    fn problem(&self) -> Result<Problem, VerifyError> {
         if !self.scene.is_empty() {
             return Ok(Scene::parse(self.scene)?.problem);
         }
@@ -147,7 +147,7 @@ impl CaseQuestion {
         self
     }
 
-    fn question(&self) -> Result<RouteQuestion, RouteError> {
+    fn question(&self) -> Result<RouteQuestion, VerifyError> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
         let (point, time) = (number(self.point)?, number(self.time)?);
         let one = One { quantity: self.quantity, point, time, side: self.side };

@@ -1,7 +1,8 @@
 //! The promises of routes, whether they keep them, and the verdict on a case.
 
-use crate::error::RouteError;
-use crate::routes::{RouteValue, Truth};
+use crate::error::VerifyError;
+use crate::routes::{Truth, shown};
+use dalembert::Value;
 
 /// The one truth that is no number.
 pub(super) const NO_BOUNCE: &str = "no bounce";
@@ -97,7 +98,7 @@ impl Verdict {
 pub struct CheckedRoute {
     /// The route in words.
     pub route: String,
-    pub(super) answer: Result<RouteValue, RouteError>,
+    pub(super) answer: Result<Value, VerifyError>,
     /// The promise of the route.
     pub promise: Promise,
     /// Number of right digits: `None` without a number, infinite for the truth itself.
@@ -112,8 +113,8 @@ impl CheckedRoute {
     /// Returns the answer in words: `no bounce`, or a number.
     pub fn answer(&self) -> String {
         match &self.answer {
-            Ok(value) => value.to_string(),
-            Err(RouteError::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
+            Ok(value) => shown(value),
+            Err(VerifyError::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
             Err(_) => "undecided".into(),
         }
     }
@@ -121,17 +122,12 @@ impl CheckedRoute {
 
 impl Promise {
     /// Judges an answer with so many right `digits`; `truth` is `None` for a motion without a bounce.
-    pub(super) fn outcome(
-        self,
-        truth: Option<&Truth>,
-        answer: &Result<RouteValue, RouteError>,
-        digits: f64,
-    ) -> Outcome {
+    pub(super) fn outcome(self, truth: Option<&Truth>, answer: &Result<Value, VerifyError>, digits: f64) -> Outcome {
         let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
         let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
         match (answer, truth, self) {
-            (Err(RouteError::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
-            (Err(RouteError::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
+            (Err(VerifyError::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
+            (Err(VerifyError::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
                 broken(matches!(promise, Promise::Fewer(_)))
             }
             (Err(_), _, Promise::Bound(0)) => Outcome::Undecided,
@@ -141,9 +137,9 @@ impl Promise {
             (Ok(_), Some(_), Promise::Exact) => kept(digits == f64::INFINITY),
             (Ok(answer), Some(truth), Promise::Bound(least)) => {
                 let scale = 10f64.powf(truth.log10_scale());
-                let useful = answer.bound() <= 10f64.powi(-(least as i32)) * scale;
+                let useful = answer.log2_error().exp2() <= 10f64.powi(-(least as i32)) * scale;
                 // An error below the uncertainty of the truth cannot be seen.
-                let within = digits >= truth.most_digits() || 10f64.powf(-digits) * scale <= answer.bound();
+                let within = digits >= truth.most_digits() || 10f64.powf(-digits) * scale <= answer.log2_error().exp2();
                 kept(useful && within)
             }
         }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::timing::{Timing, batch_size, check_budget, sample};
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use crate::routes::{run_engine, run_planned};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run, Speed, Start, Top};
@@ -58,7 +58,7 @@ pub fn effects(
     energies: bool,
     seconds: f64,
     mut observe: impl FnMut(f64, &str),
-) -> Result<Vec<EffectCost>, RouteError> {
+) -> Result<Vec<EffectCost>, VerifyError> {
     check_budget(seconds)?;
     let numbers = Numbers::Double(scene.accuracy);
     let called_effects = scene.called_effects();
@@ -82,7 +82,7 @@ pub fn effects(
 }
 
 /// Returns the problem of `scene` without `effect`.
-fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, RouteError> {
+fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, VerifyError> {
     let mut problem = scene.problem.clone();
     match effect {
         Effect::Damping => problem.rod.damping = None,
@@ -106,16 +106,16 @@ fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, RouteError> {
     Ok(problem)
 }
 
-fn number(speed: f64) -> Result<Number, RouteError> {
+fn number(speed: f64) -> Result<Number, VerifyError> {
     Ok(format!("{speed:e}").parse()?)
 }
 
 /// Measures both runs in turns, so that a slow moment of the machine slows both.
 fn in_turns(
     slot: f64,
-    with: impl Fn() -> Result<f64, RouteError>,
-    without: impl Fn() -> Result<f64, RouteError>,
-) -> Result<EffectCost, RouteError> {
+    with: impl Fn() -> Result<f64, VerifyError>,
+    without: impl Fn() -> Result<f64, VerifyError>,
+) -> Result<EffectCost, VerifyError> {
     let start = Instant::now();
     with()?;
     without()?;

@@ -1,7 +1,10 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
 use super::work_precision::OmissionReason;
-use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion, covered_by_first_contact};
+use crate::error::VerifyError;
+use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion};
+use dalembert::Ending;
+use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
 use dalembert::solve::{Engine, Numbers, Plan};
 
@@ -69,7 +72,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
         Ok(ladder) => ladders.push(ladder),
         Err(why) => left_out.push((family, why)),
     };
-    let first = covered_by_first_contact(question).map_err(OmissionReason::NotCovered);
+    let first = covered_by_first_contact(question);
     take(Family::ClosedForm, first.clone().map(|()| closed_form()));
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
@@ -190,4 +193,21 @@ fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
         chosen: chosen == Some(digits),
     };
     settings.into_iter().enumerate().map(candidate).collect()
+}
+
+/// Checks that the first contact alone answers `question`, and lasts as long as the question asks.
+fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReason> {
+    if !question.problem.has_closed_form() {
+        return Err(OmissionReason::NoClosedForm);
+    }
+    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+        return Err(OmissionReason::LaterEvent);
+    }
+    let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
+    let first = question.problem.first_contact().map_err(VerifyError::from)?;
+    match (first.contacts().first().and_then(|contact| contact.release), first.ending()) {
+        (Some(end), _) if time > end * (1.0 + 1e-12) => Err(OmissionReason::LaterTime(end)),
+        (None, Ending::Undecided(_)) if time > *first.end() => Err(OmissionReason::Undecided(*first.end())),
+        _ => Ok(()),
+    }
 }

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use crate::error::RouteError;
+use crate::error::VerifyError;
 
 /// The time of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +36,8 @@ impl Timing {
 }
 
 /// Checks that a budget is a time.
-pub(super) fn check_budget(seconds: f64) -> Result<(), RouteError> {
-    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(RouteError::Budget(seconds)) }
+pub(super) fn check_budget(seconds: f64) -> Result<(), VerifyError> {
+    if seconds > 0.0 && seconds <= 86_400.0 { Ok(()) } else { Err(VerifyError::Budget(seconds)) }
 }
 
 /// Measures the seconds of one call, averaged over `batch` calls.

@@ -4,8 +4,9 @@ use std::time::{Duration, Instant};
 
 use super::ladder::{Candidate, Family, Ladder, ladders};
 use super::timing::{Timing, check_budget, repeat};
-use crate::error::RouteError;
-use crate::routes::{NotCovered, RouteQuestion, RouteValue, Truth};
+use crate::error::VerifyError;
+use crate::routes::{RouteQuestion, Truth};
+use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::quantity::Quantity;
 use dalembert::solve::Plan;
@@ -49,12 +50,21 @@ pub struct Omission {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OmissionReason {
-    /// The first contact does not cover the question.
-    #[error(transparent)]
-    NotCovered(NotCovered),
     /// The route has no answer.
     #[error(transparent)]
-    NoAnswer(RouteError),
+    NoAnswer(#[from] VerifyError),
+    /// The start or the top has no closed form.
+    #[error("the start or the top is not the paper's, so the first contact has no closed form")]
+    NoClosedForm,
+    /// The event comes after the first contact.
+    #[error("it covers the first contact only")]
+    LaterEvent,
+    /// The time comes after the end of the first contact.
+    #[error("it covers the first contact only, which ends at t = {0:.6}")]
+    LaterTime(f64),
+    /// The first contact is not shown to last up to the time.
+    #[error("it is undecided whether the first contact lasts beyond t = {0:.6}")]
+    Undecided(f64),
     /// The lattice has no damping.
     #[error("the scene has damping, which couples the characteristics")]
     Damping,
@@ -75,7 +85,7 @@ pub enum OmissionReason {
     TooSlow(f64),
     /// The truth cannot be computed to the digits of the setting.
     #[error("no truth to hold it against: {0}")]
-    NoTruth(RouteError),
+    NoTruth(VerifyError),
 }
 
 /// One quantity by every route.
@@ -112,7 +122,7 @@ pub fn work_precision(
     plan: &Plan,
     seconds: f64,
     mut observe: impl FnMut(f64, &str),
-) -> Result<CostTable, RouteError> {
+) -> Result<CostTable, VerifyError> {
     check_budget(seconds)?;
     let start = Instant::now();
     let spent = || start.elapsed().as_secs_f64();
@@ -201,7 +211,7 @@ pub fn work_precision(
 struct Measured {
     candidate: Candidate,
     ladder: usize,
-    value: RouteValue,
+    value: Value,
     timing: Timing,
 }
 

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use std::iter::once;
 
-use super::{Figure, FigureError, FigureKind};
+use super::{Figure, FigureKind};
+use crate::error::VerifyError;
 use crate::paper::formulas::restitution_limit;
 use crate::regimes::{Axis, Grid, Map, threshold_near};
 use dalembert::engine::{FirstContact, Motion};
@@ -51,9 +52,9 @@ impl FigureData {
     /// // Figure 8 has the corners of its regions: x − c t₁ = −3/2 is one for L = c = 1, x = 1/2, t₁ = 2.
     /// let data = FigureData::new(&FIGURES[7])?;
     /// assert_eq!(data.values()[0], [Some(1.0), Some(-1.5), Some(0.0)]);
-    /// # Ok::<(), dalembert_verify::figures::FigureError>(())
+    /// # Ok::<(), dalembert_verify::VerifyError>(())
     /// ```
-    pub fn new(figure: &Figure) -> Result<Self, FigureError> {
+    pub fn new(figure: &Figure) -> Result<Self, VerifyError> {
         let (columns, rows) = match figure.kind {
             FigureKind::HeldStress => held_stresses()?,
             FigureKind::VibrationalEnergy | FigureKind::EnergyShares => energies()?,
@@ -81,7 +82,7 @@ impl FigureData {
 type Columns = (Vec<&'static str>, Vec<Row>);
 
 /// Computes Figures 2 and 3: both energies at the bounce, and their shares of `E(0)`.
-fn energies() -> Result<Columns, FigureError> {
+fn energies() -> Result<Columns, VerifyError> {
     let grid = grid("0", "0.01..8:800")?;
     let bounces = bounces(&grid, ENERGIES, ACCURACY)?;
     let rows = speeds(&grid).into_iter().zip(bounces).map(|(speed, bounce)| {
@@ -95,7 +96,7 @@ fn energies() -> Result<Columns, FigureError> {
 }
 
 /// Computes Figure 4: `e_E²`.
-fn restitutions() -> Result<Columns, FigureError> {
+fn restitutions() -> Result<Columns, VerifyError> {
     let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
     let bounces = bounces(&grid, RESTITUTION, RESTITUTION_ACCURACY)?;
     let rows = bounces.into_iter().enumerate().map(|(k, bounce)| {
@@ -106,7 +107,7 @@ fn restitutions() -> Result<Columns, FigureError> {
 }
 
 /// Computes Figures 5 to 7: a share of the energy at `t₁`, its limit for `μ → ∞`, and the limit that the paper supposes.
-fn shares(kind: FigureKind) -> Result<Columns, FigureError> {
+fn shares(kind: FigureKind) -> Result<Columns, VerifyError> {
     let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
     let bounces = bounces(&grid, SHARES, ACCURACY)?;
     let limits = DAMPINGS.into_iter().map(Limits::new).collect::<Result<Vec<_>, _>>()?;
@@ -142,7 +143,7 @@ fn regions() -> Columns {
 }
 
 /// Computes `e_E²` of the first and of the tenth bounce.
-fn tenth_bounces() -> Result<Columns, FigureError> {
+fn tenth_bounces() -> Result<Columns, VerifyError> {
     let grid = grid("0", "0.005..10:2000")?;
     let tenth: Vec<_> = (0..grid.len()).into_par_iter().map(|index| tenth_restitution(&grid, index)).collect();
     let first = bounces(&grid, RESTITUTION, ACCURACY)?;
@@ -177,18 +178,18 @@ const ENERGIES: Values =
 
 /// Computes the first bounces of a grid over `impact.speed` and `rod.damping`, to `accuracy` of the numbers, or of 1 where
 /// they are less.
-fn bounces(grid: &Grid, values: Values, accuracy: f64) -> Result<Vec<Bounce>, FigureError> {
+fn bounces(grid: &Grid, values: Values, accuracy: f64) -> Result<Vec<Bounce>, VerifyError> {
     (0..grid.len()).into_par_iter().map(|index| bounce(&grid.problem(index)?, values, accuracy)).collect()
 }
 
 /// Builds the grid of the paper's rod, `c = L = g = 1`, with the speed varying fastest.
-fn grid(dampings: &str, speeds: &str) -> Result<Grid, FigureError> {
+fn grid(dampings: &str, speeds: &str) -> Result<Grid, VerifyError> {
     let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
     let axes = [format!("rod.damping={dampings}"), format!("impact.speed={speeds}")];
     Ok(Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?)?)
 }
 
-fn bounce(problem: &Problem, values: Values, accuracy: f64) -> Result<Bounce, FigureError> {
+fn bounce(problem: &Problem, values: Values, accuracy: f64) -> Result<Bounce, VerifyError> {
     let plan = Plan::of(problem, &Question::bounce(Numbers::Double(Some(accuracy))))?;
     let query = |motion: &dyn Motion<Double>| {
         let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(None) };
@@ -218,7 +219,7 @@ pub struct Limits {
 
 impl Limits {
     /// Computes the limits for a damping: the motion is linear in `μ` and `g`, so the ratios are those of `g = 0`.
-    pub fn new(damping: &str) -> Result<Self, FigureError> {
+    pub fn new(damping: &str) -> Result<Self, VerifyError> {
         let rod = Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(1).build()?;
         let shares = bounce(&rod, SHARES, 1e-13)?.map_or(Vec::new(), |(_, shares)| shares);
         let share = |k: usize| shares.get(k).cloned().flatten();
@@ -235,7 +236,7 @@ pub fn threshold_speed(damping: &str) -> f64 {
 
 /// Computes Figure 1: `r`, `t`, the side of the limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. A whole `t` has
 /// two rows, one for each limit.
-fn held_stresses() -> Result<Columns, FigureError> {
+fn held_stresses() -> Result<Columns, VerifyError> {
     let rows = HELD_DAMPINGS.into_iter().map(held_stress).collect::<Result<Vec<_>, _>>()?;
     Ok((vec!["damping", "t", "side", "psi", "bounce_time"], rows.concat()))
 }
@@ -243,7 +244,7 @@ fn held_stresses() -> Result<Columns, FigureError> {
 /// Computes the rows of Figure 1 for one damping.
 ///
 /// **Source**: (2.28), `Ψ_r = e^{rt} v_x(0,t)` while the end is held.
-fn held_stress(damping: &str) -> Result<Vec<Row>, FigureError> {
+fn held_stress(damping: &str) -> Result<Vec<Row>, VerifyError> {
     let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?;
     let form = FirstContact::new(&Parameters::<Double>::of(&rod, &())?);
     let r = Double::from_number(&damping.parse()?, &());

@@ -2,12 +2,6 @@
 
 mod data;
 
-use dalembert::Error;
-use dalembert::number::NumberError;
-use dalembert::problem::ProblemError;
-
-use crate::regimes::GridError;
-
 pub use data::{DAMPINGS, FigureData, HELD_DAMPINGS, Limits, threshold_speed};
 
 /// A figure of the paper, or one that is added.
@@ -46,27 +40,6 @@ pub enum FigureKind {
     Regimes,
     /// `e_E²` of the tenth bounce.
     TenthBounce,
-}
-
-/// A reason for which a figure has no numbers.
-#[derive(Clone, Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum FigureError {
-    /// An error of the library.
-    #[error(transparent)]
-    Library(#[from] Error),
-    /// A problem that cannot be built.
-    #[error(transparent)]
-    Problem(#[from] ProblemError),
-    /// A text that spells no number.
-    #[error(transparent)]
-    Number(#[from] NumberError),
-    /// A grid that cannot be built.
-    #[error(transparent)]
-    Grid(#[from] GridError),
-    /// Numbers without the map that the figure shows.
-    #[error("no map")]
-    NoMap,
 }
 
 /// All figures, in the order in which they are shown.

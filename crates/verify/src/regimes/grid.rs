@@ -6,7 +6,7 @@ use dalembert::problem::{Builder, Problem, ProblemError, Written};
 const MOST_POINTS: usize = 10_000_000;
 
 /// A reason for which a grid, an axis or a map cannot be built.
-#[derive(Clone, Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GridError {
     /// A text without a path and values.

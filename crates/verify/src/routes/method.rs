@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use super::differences::March;
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use crate::modal::Modal;
 use crate::paper::{PrintedIntegrals, UndampedContact, first_release};
 use dalembert::engine::{Bounce, FirstContact};
@@ -29,7 +29,7 @@ pub(super) struct Query<'a, S> {
 pub(super) trait Method<S: Scalar> {
     /// Computes `quantity` by a formula of the method itself; `None` where the method has none. Energies are per linear
     /// density. A value without a bound has an infinite one.
-    fn formula(&self, quantity: Quantity, query: &Query<'_, S>) -> Option<Result<S, RouteError>>;
+    fn formula(&self, quantity: Quantity, query: &Query<'_, S>) -> Option<Result<S, VerifyError>>;
 }
 
 /// Computes `quantity` by the method's own formula, or from other quantities that it has.
@@ -37,14 +37,14 @@ pub(super) fn evaluate<S: Scalar>(
     method: &dyn Method<S>,
     quantity: Quantity,
     query: &Query<'_, S>,
-) -> Result<S, RouteError> {
+) -> Result<S, VerifyError> {
     if let Some(value) = method.formula(quantity, query) {
         return value;
     }
     let of = |quantity: Quantity| evaluate(method, quantity, query);
     let end = || {
         let (time, point) = (of(Quantity::BounceTime)?, query.rod.length.zero());
-        Ok::<_, RouteError>(Query { time, point, ..*query })
+        Ok::<_, VerifyError>(Query { time, point, ..*query })
     };
     match quantity {
         Quantity::LastEvent => of(Quantity::BounceTime),
@@ -59,11 +59,11 @@ pub(super) fn evaluate<S: Scalar>(
         Quantity::EnergyRestitution => {
             let first = first_energy(query.rod);
             if first.positive() != Ok(true) {
-                return Err(RouteError::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
+                return Err(VerifyError::none("E_h ≤ 0 where the contact begins: nothing to compare with"));
             }
             let last = evaluate(method, Quantity::TranslationalEnergy, &end()?)?;
             if last.negative() == Ok(true) {
-                return Err(RouteError::none("E_h < 0 where the contact ends"));
+                return Err(VerifyError::none("E_h < 0 where the contact ends"));
             }
             Ok(last / first)
         }
@@ -72,7 +72,7 @@ pub(super) fn evaluate<S: Scalar>(
             Ok(evaluate(method, Quantity::TranslationalEnergy, &end)? / evaluate(method, Quantity::Energy, &end)?)
         }
         Quantity::EnergyKept => Ok(evaluate(method, Quantity::Energy, &end()?)? / first_energy(query.rod)),
-        _ => Err(RouteError::NotGiven),
+        _ => Err(VerifyError::NotGiven),
     }
 }
 
@@ -119,20 +119,20 @@ impl<N: BoundedSpecial> ClosedForm<N> {
     }
 
     /// Computes the time and the height of the top of the flight.
-    fn top(&self) -> Result<(N, N), RouteError> {
-        let Bounce::At { time: end, .. } = self.bounce() else { return Err(RouteError::none("no bounce")) };
-        self.contact.rebound(end).highest().ok_or_else(|| RouteError::none("no top"))
+    fn top(&self) -> Result<(N, N), VerifyError> {
+        let Bounce::At { time: end, .. } = self.bounce() else { return Err(VerifyError::none("no bounce")) };
+        self.contact.rebound(end).highest().ok_or_else(|| VerifyError::none("no top"))
     }
 }
 
 impl<N: BoundedSpecial> Method<N> for ClosedForm<N> {
-    fn formula(&self, quantity: Quantity, query: &Query<'_, N>) -> Option<Result<N, RouteError>> {
+    fn formula(&self, quantity: Quantity, query: &Query<'_, N>) -> Option<Result<N, VerifyError>> {
         let field = || self.contact.field(&query.point, &query.time, query.side);
         Some(Ok(match quantity {
             Quantity::BounceTime => match self.bounce() {
                 Bounce::At { time, .. } => time.clone(),
-                Bounce::Never(reason) => return Some(Err(RouteError::none(reason.to_string()))),
-                Bounce::Undecided { why, .. } => return Some(Err(RouteError::Undecided(why.to_string()))),
+                Bounce::Never(reason) => return Some(Err(VerifyError::none(reason.to_string()))),
+                Bounce::Undecided { why, .. } => return Some(Err(VerifyError::Undecided(why.to_string()))),
             },
             Quantity::Strain => self.contact.strain(&query.time, query.side),
             Quantity::PointDisplacement => field().displacement,
@@ -153,12 +153,12 @@ impl<N: BoundedSpecial> Method<N> for ClosedForm<N> {
 /// Samples of the stress in each round trip in the search for a release.
 const SAMPLES: i64 = 8;
 
-fn searched(release: Option<f64>) -> Result<Double, RouteError> {
-    release.map(unbounded).ok_or(RouteError::NoTensileStress)
+fn searched(release: Option<f64>) -> Result<Double, VerifyError> {
+    release.map(unbounded).ok_or(VerifyError::NoTensileStress)
 }
 
 impl Method<Double> for Modal<f64> {
-    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, RouteError>> {
+    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, VerifyError>> {
         let time = query.time.value();
         let field = || self.field(query.point.value(), time, query.side);
         Some(Ok(match quantity {
@@ -181,7 +181,7 @@ impl Method<Double> for Modal<f64> {
 }
 
 impl Method<Double> for PrintedIntegrals {
-    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, RouteError>> {
+    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, VerifyError>> {
         let time = *query.time.value();
         Some(Ok(unbounded(match quantity {
             Quantity::BounceTime => return Some(searched(self.release(query.rod.round_trip().into_value(), SAMPLES))),
@@ -195,8 +195,8 @@ impl Method<Double> for PrintedIntegrals {
 }
 
 impl<S: Scalar + PartialOrd> Method<S> for UndampedContact<S> {
-    fn formula(&self, quantity: Quantity, query: &Query<'_, S>) -> Option<Result<S, RouteError>> {
-        let (time, no_top) = (&query.time, || RouteError::none("no top"));
+    fn formula(&self, quantity: Quantity, query: &Query<'_, S>) -> Option<Result<S, VerifyError>> {
+        let (time, no_top) = (&query.time, || VerifyError::none("no top"));
         Some(match quantity {
             Quantity::BounceTime => Ok(self.bounce_time()),
             Quantity::Strain => Ok(self.strain(time, query.side)),
@@ -206,11 +206,11 @@ impl<S: Scalar + PartialOrd> Method<S> for UndampedContact<S> {
             Quantity::TranslationalEnergy => Ok(self.translational_energy(time)),
             Quantity::VibrationalEnergy => {
                 let at_bounce = time.compare(&self.bounce_time()).is_ok_and(Ordering::is_eq);
-                if at_bounce { Ok(self.vibrational_energy_at_bounce()) } else { Err(RouteError::NotGiven) }
+                if at_bounce { Ok(self.vibrational_energy_at_bounce()) } else { Err(VerifyError::NotGiven) }
             }
             Quantity::MomentumRestitution => Ok(self.momentum_restitution()),
             Quantity::EnergyRestitution => {
-                self.energy_restitution_squared().ok_or_else(|| RouteError::none("nothing moves"))
+                self.energy_restitution_squared().ok_or_else(|| VerifyError::none("nothing moves"))
             }
             Quantity::TopTime => self.highest().map(|top| top.0).ok_or_else(no_top),
             Quantity::Top => self.highest().map(|top| top.1).ok_or_else(no_top),
@@ -220,14 +220,14 @@ impl<S: Scalar + PartialOrd> Method<S> for UndampedContact<S> {
 }
 
 impl Method<Double> for March {
-    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, RouteError>> {
-        let state = self.state_at(*query.time.value()).ok_or(RouteError::TimeNotKept);
+    fn formula(&self, quantity: Quantity, query: &Query<'_, Double>) -> Option<Result<Double, VerifyError>> {
+        let state = self.state_at(*query.time.value()).ok_or(VerifyError::TimeNotKept);
         let value = match quantity {
             Quantity::BounceTime => {
                 let release = self.events.iter().find(|(kind, _)| *kind == EventKind::Release);
-                release.map(|(_, time)| *time).ok_or(RouteError::NoRelease)
+                release.map(|(_, time)| *time).ok_or(VerifyError::NoRelease)
             }
-            Quantity::LastEvent => self.events.last().map(|(_, time)| *time).ok_or(RouteError::NoEvent),
+            Quantity::LastEvent => self.events.last().map(|(_, time)| *time).ok_or(VerifyError::NoEvent),
             Quantity::Strain => Ok(self.strain),
             Quantity::Centre => state.map(|state| state.centre),
             Quantity::CentreVelocity => state.map(|state| state.velocity),

@@ -9,7 +9,6 @@ mod value;
 
 pub use question::RouteQuestion;
 pub(crate) use question::Transform;
-pub use route::NotCovered;
-pub(crate) use route::{HAS_LONG_NUMBERS, Route, covered_by_first_contact, run_engine, run_planned};
+pub(crate) use route::{HAS_LONG_NUMBERS, Route, run_engine, run_planned};
 pub use truth::Truth;
-pub(crate) use value::RouteValue;
+pub(crate) use value::shown;

@@ -1,14 +1,14 @@
 //! A question about one number of a problem, and the ways in which it is answered.
 
 use super::method::{Method, Query, evaluate};
-use super::value::{RouteNumber, RouteValue};
-use crate::error::RouteError;
+use super::value::RouteNumber;
+use crate::error::VerifyError;
 use dalembert::engine::{Motion, Scales};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Missing, Needs, One, Quantity, Units};
 use dalembert::solve::{self, Numbers, Plan, Solution, Target, TypedHistory};
-use dalembert::{Error, Scene, Side};
+use dalembert::{Error, Scene, Side, Value};
 
 /// A function of an answer, for claims of the paper that are no quantities of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl RouteQuestion {
     /// default time is three quarters of a round trip; where the quantity is zero then, it is the middle of the first
     /// contact or flight of the scene in which it is not.
     ///
-    /// **Errors**: [`RouteError::Time`] for a time below zero, or one for a quantity that has no time.
+    /// **Errors**: [`VerifyError::Time`] for a time below zero, or one for a quantity that has no time.
     ///
     /// ```
     /// use dalembert::{Quantity, Scene};
@@ -50,7 +50,7 @@ impl RouteQuestion {
     /// assert_eq!(question.time().map(|time| time.to_f64()), Some(0.5));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn from_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, RouteError> {
+    pub fn from_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, VerifyError> {
         let quantity = quantity.unwrap_or(match scene.problem.run {
             Run::Impacts(1) => Quantity::BounceTime,
             _ => Quantity::LastEvent,
@@ -59,10 +59,10 @@ impl RouteQuestion {
         if let Some(found) = time.clone() {
             if !has_time {
                 let expected = format!("none: {} is not asked at a time", quantity.name());
-                return Err(RouteError::Time { found, expected });
+                return Err(VerifyError::Time { found, expected });
             }
             if found.to_f64() < 0.0 {
-                return Err(RouteError::Time { found, expected: "one from 0 on".into() });
+                return Err(VerifyError::Time { found, expected: "one from 0 on".into() });
             }
         }
         if time.is_none() && has_time {
@@ -83,13 +83,13 @@ impl RouteQuestion {
     }
 
     /// Builds the question at the first default time at which the answer in doubles is not zero.
-    fn at_default_time(scene: &Scene, quantity: Quantity) -> Result<Self, RouteError> {
+    fn at_default_time(scene: &Scene, quantity: Quantity) -> Result<Self, VerifyError> {
         let is_zero = |question: &Self| {
             let answer = question.plan(Numbers::default()).and_then(|plan| question.ask_plan(&plan));
-            answer.is_ok_and(|value| value.to_f64().abs() <= value.bound())
+            answer.is_ok_and(|value| value.to_f64().abs() <= value.log2_error().exp2())
         };
         let time = 0.75 * Parameters::<f64>::of(&scene.problem, &())?.round_trip();
-        let first = rounded(time).ok_or(RouteError::RoundTrip(time))?;
+        let first = rounded(time).ok_or(VerifyError::RoundTrip(time))?;
         let first = Self::new(scene, quantity, Some(first));
         if !is_zero(&first) {
             return Ok(first);
@@ -109,7 +109,7 @@ impl RouteQuestion {
     }
 
     /// Plans the answer in `numbers`, and nothing more.
-    pub fn plan(&self, numbers: Numbers) -> Result<Plan, RouteError> {
+    pub fn plan(&self, numbers: Numbers) -> Result<Plan, VerifyError> {
         let One { quantity, time, .. } = &self.one;
         Ok(Plan::of(&self.problem, &solve::Question::of(*quantity, time.as_ref(), numbers))?)
     }
@@ -119,7 +119,7 @@ impl RouteQuestion {
         &self,
         rod: &Parameters<S>,
         method: &dyn Method<S>,
-    ) -> Result<RouteValue, RouteError> {
+    ) -> Result<Value, VerifyError> {
         let quantity = self.one.quantity;
         let convert = |number: &Number| S::from_number(number, &rod.length.precision());
         let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(convert));
@@ -141,18 +141,18 @@ impl RouteQuestion {
     }
 
     /// Answers by an engine of the library.
-    pub(super) fn ask_engine<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_engine<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Value, VerifyError> {
         self.find_in(motion)?.map(Into::into)
     }
 
     /// Answers in doubles by a plan, which computes nothing else.
-    pub(super) fn ask_plan(&self, plan: &Plan) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_plan(&self, plan: &Plan) -> Result<Value, VerifyError> {
         let query = |motion: &dyn Motion<_>| self.find_in(motion);
         plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
     /// Answers by a solution, whatever its numbers.
-    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<RouteValue, RouteError> {
+    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<Value, VerifyError> {
         match solution {
             Solution::Double(history) => self.ask_history(history),
             Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_history(history),
@@ -161,27 +161,24 @@ impl RouteQuestion {
         }
     }
 
-    fn ask_history<S: Target<Carried: RouteNumber>>(
-        &self,
-        history: &TypedHistory<S>,
-    ) -> Result<RouteValue, RouteError> {
+    fn ask_history<S: Target<Carried: RouteNumber>>(&self, history: &TypedHistory<S>) -> Result<Value, VerifyError> {
         history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 
     /// Answers by a motion. **Errors**: the outer ones may be settled by more bits.
-    fn find_in<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Result<S, RouteError>, Error> {
+    fn find_in<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Result<S, VerifyError>, Error> {
         let find = |one: &One| match one.of(motion, &self.units, &self.problem.run)? {
             Ok([value, _]) => Ok(value),
-            Err(Missing { open: true, why }) => Err(RouteError::Undecided(why)),
-            Err(Missing { why, .. }) => Err(RouteError::none(why)),
+            Err(Missing { open: true, why }) => Err(VerifyError::Undecided(why)),
+            Err(Missing { why, .. }) => Err(VerifyError::none(why)),
         };
-        let rod = Parameters::of(&self.problem, &motion.end().precision()).map_err(RouteError::from);
+        let rod = Parameters::of(&self.problem, &motion.end().precision()).map_err(VerifyError::from);
         let found = rod.and_then(|rod| {
             let bounce = || find(&One::new(Quantity::BounceTime, None));
             self.transformed(&rod, |side| find(&One { side, ..self.one.clone() }), bounce)
         });
         match found {
-            Err(RouteError::Library(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
+            Err(VerifyError::Library(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
             found => Ok(found),
         }
     }
@@ -190,10 +187,10 @@ impl RouteQuestion {
     fn transformed<S: RouteNumber>(
         &self,
         rod: &Parameters<S>,
-        find: impl Fn(Side) -> Result<S, RouteError>,
-        bounce: impl Fn() -> Result<S, RouteError>,
-    ) -> Result<S, RouteError> {
-        let no_fraction = || RouteError::none("no fraction");
+        find: impl Fn(Side) -> Result<S, VerifyError>,
+        bounce: impl Fn() -> Result<S, VerifyError>,
+    ) -> Result<S, VerifyError> {
+        let no_fraction = || VerifyError::none("no fraction");
         let exponential = |exponent: S| exponent.try_exp().ok_or_else(no_fraction);
         let transformed = || {
             let value = find(self.one.side)?;
@@ -208,8 +205,8 @@ impl RouteQuestion {
             })
         };
         transformed().map_err(|error| match error {
-            RouteError::NoSuchQuantity { why, .. } => {
-                RouteError::NoSuchQuantity { quantity: self.one.quantity.name(), why }
+            VerifyError::NoSuchQuantity { why, .. } => {
+                VerifyError::NoSuchQuantity { quantity: self.one.quantity.name(), why }
             }
             other => other,
         })

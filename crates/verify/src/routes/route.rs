@@ -3,17 +3,15 @@
 use super::differences::march;
 use super::method::{ClosedForm, unbounded};
 use super::question::RouteQuestion;
-use super::value::RouteValue;
-use crate::error::RouteError;
+use crate::error::VerifyError;
 use crate::modal::Modal;
 use crate::paper::formulas::Constant;
 use crate::paper::{PrintedIntegrals, UndampedContact};
 use dalembert::engine::{Damped, Undamped};
 use dalembert::number::{Estimate, Rational, Scalar};
-use dalembert::problem::{Parameters, Problem, Run};
-use dalembert::quantity::Quantity;
+use dalembert::problem::{Parameters, Problem};
 use dalembert::solve::{self, Numbers, Plan, TypedHistory};
-use dalembert::{Ending, Error};
+use dalembert::Value;
 
 /// A route to an answer.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +45,7 @@ const CONSTANT_DIGITS: u32 = 36;
 
 impl Route {
     /// Answers `question`, in about `seconds` where the route can stop itself.
-    pub(crate) fn run(self, question: &RouteQuestion, seconds: f64) -> Result<RouteValue, RouteError> {
+    pub(crate) fn run(self, question: &RouteQuestion, seconds: f64) -> Result<Value, VerifyError> {
         let problem = &question.problem;
         match self {
             Route::Formula(_, formula) => Ok(unbounded(formula()).into()),
@@ -59,12 +57,12 @@ impl Route {
             Route::ClosedForm(Numbers::Digits(digits)) => in_digits(self, question, digits),
             Route::PrintedForms => {
                 let rod = Parameters::<Rational>::of(problem, &())?;
-                question.ask(&rod, &UndampedContact::new(&rod).ok_or(RouteError::Damped)?)
+                question.ask(&rod, &UndampedContact::new(&rod).ok_or(VerifyError::NotGiven)?)
             }
             Route::PrintedIntegrals(tolerance) => {
                 let printed = PrintedIntegrals::new(&Parameters::of(problem, &())?, tolerance).limited_to(seconds);
                 let answer = question.ask(&Parameters::of(problem, &())?, &printed);
-                if printed.is_late() { Err(RouteError::TooSlow) } else { answer }
+                if printed.is_late() { Err(VerifyError::TooSlow) } else { answer }
             }
             Route::Modes(modes) => {
                 let modal = Modal::<f64>::new(&Parameters::of(problem, &())?, modes);
@@ -78,14 +76,14 @@ impl Route {
             Route::Planned(numbers) => {
                 question.ask_solution(&question.plan(numbers)?.solve_typed(problem, solve::unobserved())?)
             }
-            Route::ClosedForm(_) | Route::Lattice(_) => Err(RouteError::NoSuchNumbers),
+            Route::ClosedForm(_) | Route::Lattice(_) => Err(VerifyError::NotGiven),
         }
     }
 }
 
 /// Answers by `route`, a constant or the closed form, in numbers of `digits` digits.
 #[cfg(feature = "mp")]
-fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<RouteValue, RouteError> {
+fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Value, VerifyError> {
     // Two bytes to spare.
     let bits = dalembert::number::bits_for_digits(digits) + 16;
     if let Route::Constant(_, constant) = route {
@@ -96,56 +94,21 @@ fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Rout
 }
 
 #[cfg(not(feature = "mp"))]
-fn in_digits(_: Route, _: &RouteQuestion, _: u32) -> Result<RouteValue, RouteError> {
-    Err(Error::NoMultiprecision.into())
-}
-
-/// A reason why the first contact does not cover a question.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotCovered {
-    /// A start or a top without a closed form.
-    #[error("the start or the top is not the paper's, so the first contact has no closed form")]
-    NoClosedForm,
-    /// An event after the first contact.
-    #[error("it covers the first contact only")]
-    LaterEvent,
-    /// A time after the end of the first contact.
-    #[error("it covers the first contact only, which ends at t = {0:.6}")]
-    LaterTime(f64),
-    /// A time up to which the first contact is not shown to last.
-    #[error("it is undecided whether the first contact lasts beyond t = {0:.6}")]
-    Undecided(f64),
-    /// An error of the first contact.
-    #[error(transparent)]
-    FirstContact(#[from] Error),
-}
-
-/// Checks that the first contact alone answers `question`, and lasts as long as the question asks.
-pub(crate) fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), NotCovered> {
-    if !question.problem.has_closed_form() {
-        return Err(NotCovered::NoClosedForm);
-    }
-    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
-        return Err(NotCovered::LaterEvent);
-    }
-    let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
-    let first = question.problem.first_contact()?;
-    match (first.contacts().first().and_then(|contact| contact.release), first.ending()) {
-        (Some(end), _) if time > end * (1.0 + 1e-12) => Err(NotCovered::LaterTime(end)),
-        (None, Ending::Undecided(_)) if time > *first.end() => Err(NotCovered::Undecided(*first.end())),
-        _ => Ok(()),
+fn in_digits(route: Route, _: &RouteQuestion, _: u32) -> Result<Value, VerifyError> {
+    match route {
+        Route::Constant(_, constant) => Ok(unbounded(constant.value(&1.0)).into()),
+        _ => Err(dalembert::Error::NoMultiprecision.into()),
     }
 }
 
 /// Runs `problem` in doubles by its plan and returns the end of the run, or the energy there.
-pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, RouteError> {
+pub(crate) fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, VerifyError> {
     let history: TypedHistory<f64> = problem.answer(&solve::Question::run(numbers))?;
     Ok(if energies { history.energy(*history.end())?.total } else { *history.end() })
 }
 
 /// Runs `problem` by calling the engine of its plan; returns the same as [`run_planned`].
-pub(crate) fn run_engine(problem: &Problem, energies: bool) -> Result<f64, RouteError> {
+pub(crate) fn run_engine(problem: &Problem, energies: bool) -> Result<f64, VerifyError> {
     let plan = Plan::of(problem, &solve::Question::run(Numbers::Double(None)))?;
     let engine = <f64 as solve::Target>::run(problem, &plan, plan.rung, &solve::unobserved())?;
     let end = engine.end();

@@ -2,15 +2,16 @@
 
 use super::question::RouteQuestion;
 use super::route::{HAS_LONG_NUMBERS, Route};
-use super::value::RouteValue;
-use crate::error::RouteError;
+use super::value::{encloses, log10_distance, log10_radius};
+use crate::error::VerifyError;
+use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::solve::Numbers;
 
 /// A number and the distance that it may have from the truth.
 #[derive(Clone, Debug)]
 pub struct Truth {
-    pub(crate) value: RouteValue,
+    pub(crate) value: Value,
     /// `log₁₀` of the greatest distance from the truth, −∞ where the number is exact. Where it is not proved, it is
     /// twice the distance of two computations, one in far more digits than the other.
     pub log10_half_width: f64,
@@ -33,7 +34,7 @@ impl Truth {
     /// Computes the answer to `question` with at least `digits` decimal digits: a fraction where the undamped run stays
     /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine. A build
     /// without long numbers computes doubles where fractions end.
-    pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, RouteError> {
+    pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
         if question.problem.rod.damping.is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
@@ -46,7 +47,7 @@ impl Truth {
             return Ok(Truth { value, log10_half_width, proved: false });
         }
         if let Ok(value) = run(Route::Planned(Numbers::Certified(digits)))
-            && let Some(log10_half_width) = value.log10_radius()
+            && let Some(log10_half_width) = log10_radius(&value)
         {
             return Ok(Truth { value, log10_half_width, proved: true });
         }
@@ -58,7 +59,7 @@ impl Truth {
             let scale = value.to_f64().abs().log10().max(-290.0);
             // Two values that are equal to the last bit are no better than the shorter of them.
             let rounding = scale - f64::from(digits + more) - 12.0;
-            let log10_half_width = (value.log10_distance(&near) + std::f64::consts::LOG10_2).max(rounding);
+            let log10_half_width = (log10_distance(&near, &value) + std::f64::consts::LOG10_2).max(rounding);
             if log10_half_width <= scale - f64::from(digits) || more >= 4 * digits.max(50) {
                 return Ok(Truth { value, log10_half_width, proved: false });
             }
@@ -78,8 +79,8 @@ impl Truth {
     }
 
     /// Returns `log₁₀` of the relative error of `value`, −∞ where there is none.
-    pub(crate) fn log10_error(&self, value: &RouteValue) -> f64 {
-        value.log10_distance(&self.value) - self.log10_scale()
+    pub(crate) fn log10_error(&self, value: &Value) -> f64 {
+        log10_distance(value, &self.value) - self.log10_scale()
     }
 
     /// Returns the number of digits to which the truth is known.
@@ -90,10 +91,10 @@ impl Truth {
     /// Returns the number of right digits of `value`: `−log₁₀` of the relative error, as far as the truth is known. Those
     /// of an enclosure are the digits that both ends share with the truth, none where it lies outside. The truth itself
     /// has infinitely many.
-    pub(crate) fn right_digits(&self, value: &RouteValue) -> f64 {
-        let log10_error = match value.log10_radius() {
+    pub(crate) fn right_digits(&self, value: &Value) -> f64 {
+        let log10_error = match log10_radius(value) {
             None => self.log10_error(value),
-            Some(_) if !value.encloses(&self.value, self.log10_half_width) => f64::INFINITY,
+            Some(_) if !encloses(value, &self.value, self.log10_half_width) => f64::INFINITY,
             Some(radius) => radius - self.log10_scale(),
         };
         (-log10_error).clamp(0.0, self.most_digits())

@@ -1,85 +1,67 @@
-//! The answer of a route, in the number system of the route.
+//! The numbers in which routes answer, and the distance of two answers.
 
-use dalembert::number::{Analytic, Bounded, Estimate, Float, Interval, Number, Rational, Scalar, show};
+use dalembert::Value;
+use dalembert::number::{Analytic, Estimate, Float, Interval, IntoValue, Number, Rational, Scalar, show};
 
-/// The answer of a route, with its bound.
-#[derive(Clone, Debug)]
-pub(crate) enum RouteValue {
-    Double(Estimate<f64>),
-    Float(Estimate<Float>),
-    Fraction(Rational),
-    Enclosure(Box<Interval>),
+/// A number system in which routes answer.
+pub(super) trait RouteNumber: IntoValue {
+    /// Returns `eˣ`; `None` for a fraction whose exponential is none.
+    fn try_exp(&self) -> Option<Self>;
+}
+
+macro_rules! with_exponential {
+    ($($name:ty),*) => {$(
+        impl RouteNumber for $name {
+            fn try_exp(&self) -> Option<Self> {
+                exponential(self)
+            }
+        }
+    )*};
+}
+with_exponential!(Estimate<f64>, Estimate<Float>, Interval);
+
+fn exponential<S: Analytic>(x: &S) -> Option<S> {
+    Some(x.exp())
+}
+
+impl RouteNumber for Rational {
+    fn try_exp(&self) -> Option<Self> {
+        (self.vanishes() == Ok(true)).then(|| self.one())
+    }
 }
 
 /// Decimal digits beyond those of a binary number that make its decimal text as good as exact.
 const SPARE_DIGITS: u32 = 40;
 
-impl RouteValue {
-    /// Returns the nearest double; of an enclosure, that of its middle.
-    pub(crate) fn to_f64(&self) -> f64 {
-        match self {
-            RouteValue::Double(value) => *value.value(),
-            RouteValue::Float(value) => Scalar::to_f64(value),
-            RouteValue::Fraction(value) => Scalar::to_f64(value),
-            RouteValue::Enclosure(value) => value.decimal(25).parse().unwrap_or(f64::NAN),
-        }
-    }
-
-    /// Returns the bound of the error; infinite where the route gives none.
-    pub(crate) fn bound(&self) -> f64 {
-        match self {
-            RouteValue::Double(value) => value.bound(),
-            RouteValue::Float(value) => value.log2_error().exp2(),
-            RouteValue::Fraction(_) => 0.0,
-            RouteValue::Enclosure(value) => value.log2_error().exp2(),
-        }
-    }
-
-    /// Returns `log₁₀` of half the width of an enclosure; `None` for any other number.
-    pub(crate) fn log10_radius(&self) -> Option<f64> {
-        match self {
-            RouteValue::Enclosure(value) => Some(value.log2_error() * std::f64::consts::LOG10_2),
-            _ => None,
-        }
-    }
-
-    /// Returns the value as a fraction; of an enclosure, its middle. `None` for what is not finite.
-    fn fraction(&self) -> Option<Rational> {
-        fn of_text<S: Scalar>(number: &S) -> Option<Rational> {
-            let digits = number.bits()? / 3 + SPARE_DIGITS;
-            rational(&number.decimal(digits))
-        }
-        match self {
-            RouteValue::Double(value) => {
-                Some(*value.value()).filter(|value| value.is_finite()).map(|value| Rational::default().double(value))
-            }
-            RouteValue::Float(value) => of_text(value),
-            RouteValue::Fraction(value) => Some(value.clone()),
-            RouteValue::Enclosure(value) => of_text(&**value),
-        }
-    }
-
-    /// Returns `log₁₀` of the distance to `other`, between the middles of enclosures: −∞ where there is none, ∞ where
-    /// one of both is not finite. An error of a thousand digits has no double.
-    pub(crate) fn log10_distance(&self, other: &RouteValue) -> f64 {
-        let (Some(a), Some(b)) = (self.fraction(), other.fraction()) else { return f64::INFINITY };
-        log10((a - b).magnitude())
-    }
-
-    /// Returns whether this is an enclosure of a number that is within `10^log10_slack` of `truth`; `log10_slack` is
-    /// a whole number or −∞.
-    pub(crate) fn encloses(&self, truth: &RouteValue, log10_slack: f64) -> bool {
-        let RouteValue::Enclosure(value) = self else { return false };
-        let ends = value.ends(value.bits().unwrap_or(0) / 3 + SPARE_DIGITS);
-        let ends = ends.and_then(|[low, high]| Some([rational(&low)?, rational(&high)?]));
-        let slack = if log10_slack.is_finite() { rational(&format!("1e{log10_slack}")) } else { Some(0.into()) };
-        let (Some([low, high]), Some(truth), Some(slack)) = (ends, truth.fraction(), slack) else { return false };
-        low <= truth.clone() + &slack && high >= truth - slack
-    }
+/// Returns a number of decimal digits that spell `number` as good as exactly.
+fn decimal_digits<S: Scalar>(number: &S) -> u32 {
+    number.bits().unwrap_or(0) / 3 + SPARE_DIGITS
 }
 
-fn rational(text: &str) -> Option<Rational> {
+fn parsed(text: &str) -> Option<Rational> {
     text.parse::<Number>().ok().map(|number| number.to_rational())
+}
+
+/// Returns `value` as a fraction; of an enclosure, its middle. `None` for a value that is not finite.
+fn fraction(value: &Value) -> Option<Rational> {
+    if let Some(value) = value.as_double() {
+        return value.is_finite().then(|| Rational::default().double(*value.value()));
+    }
+    let of_float = value.as_float().and_then(|value| parsed(&value.decimal(decimal_digits(value))));
+    let of_interval = || value.as_interval().and_then(|value| parsed(&value.decimal(decimal_digits(value))));
+    value.as_rational().cloned().or(of_float).or_else(of_interval)
+}
+
+/// Returns `log₁₀` of half the width of an enclosure; `None` for any other number.
+pub(super) fn log10_radius(value: &Value) -> Option<f64> {
+    value.as_interval().map(|value| value.log2_error() * std::f64::consts::LOG10_2)
+}
+
+/// Returns `log₁₀ |a − b|`, between the middles of enclosures: −∞ for equal numbers, ∞ where one is not finite. An error
+/// of a thousand digits has no double.
+pub(super) fn log10_distance(a: &Value, b: &Value) -> f64 {
+    let (Some(a), Some(b)) = (fraction(a), fraction(b)) else { return f64::INFINITY };
+    log10((a - b).magnitude())
 }
 
 /// Returns `log₁₀ x` of `x ≥ 0`, which may lie outside of the range of doubles.
@@ -97,48 +79,25 @@ fn log10(mut x: Rational) -> f64 {
     }
 }
 
-impl std::fmt::Display for RouteValue {
-    /// Writes at most eighteen digits.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            RouteValue::Double(value) => match *value.value() {
-                0.0 => f.write_str("0"),
-                value if (1e-4..1e9).contains(&value.abs()) || !value.is_finite() => write!(f, "{value}"),
-                value => write!(f, "{value:e}"),
-            },
-            RouteValue::Float(value) => f.write_str(&value.decimal(18)),
-            RouteValue::Fraction(value) => f.write_str(&value.text()),
-            RouteValue::Enclosure(value) => f.write_str(&show(&**value, 18)),
-        }
+/// Returns whether `value` is an enclosure of a number that is within `10^log10_slack` of `truth`; `log10_slack` is a
+/// whole number or −∞.
+pub(super) fn encloses(value: &Value, truth: &Value, log10_slack: f64) -> bool {
+    let ends = value.as_interval().and_then(|value| value.ends(decimal_digits(value)));
+    let ends = ends.and_then(|[low, high]| Some([parsed(&low)?, parsed(&high)?]));
+    let slack = if log10_slack.is_finite() { parsed(&format!("1e{log10_slack}")) } else { Some(0.into()) };
+    let (Some([low, high]), Some(truth), Some(slack)) = (ends, fraction(truth), slack) else { return false };
+    low <= truth.clone() + &slack && high >= truth - slack
+}
+
+/// Writes at most eighteen digits of `value`, as the catalogue shows it.
+pub(crate) fn shown(value: &Value) -> String {
+    if let Some(value) = value.as_double() {
+        return match *value.value() {
+            0.0 => "0".into(),
+            value if (1e-4..1e9).contains(&value.abs()) || !value.is_finite() => value.to_string(),
+            value => format!("{value:e}"),
+        };
     }
-}
-
-/// A number system in which routes answer.
-pub(crate) trait RouteNumber: Bounded + Into<RouteValue> {
-    /// Returns `eˣ`; `None` for a fraction whose exponential is none.
-    fn try_exp(&self) -> Option<Self>;
-}
-
-macro_rules! route_numbers {
-    ($($name:ty: $variant:ident, $exponential:expr;)*) => {$(
-        impl From<$name> for RouteValue {
-            #[allow(clippy::useless_conversion, reason = "an enclosure is boxed")]
-            fn from(value: $name) -> Self {
-                RouteValue::$variant(value.into())
-            }
-        }
-
-        impl RouteNumber for $name {
-            fn try_exp(&self) -> Option<Self> {
-                let exponential: fn(&Self) -> Option<Self> = $exponential;
-                exponential(self)
-            }
-        }
-    )*};
-}
-route_numbers! {
-    Interval: Enclosure, |x| Some(Analytic::exp(x));
-    Estimate<f64>: Double, |x| Some(Analytic::exp(x));
-    Estimate<Float>: Float, |x| Some(Analytic::exp(x));
-    Rational: Fraction, |x| (x.vanishes() == Ok(true)).then(|| x.one());
+    let of_float = value.as_float().map(|value| value.decimal(18)).or(value.as_rational().map(Scalar::text));
+    of_float.unwrap_or_else(|| value.as_interval().map_or(String::new(), |value| show(value, 18)))
 }
