@@ -9,7 +9,7 @@ use tempfile::NamedTempFile;
 
 use crate::failure::{self, Failure};
 #[cfg(feature = "raster")]
-use dalembert_plot::draw::Rendered;
+use dalembert_plot::draw::ParsedSvg;
 use dalembert_plot::draw::Size;
 
 /// A format of output.
@@ -223,14 +223,14 @@ pub(crate) fn picture(format: Format, svg: String, size: Size) -> Result<Vec<u8>
     if format == Format::Svg {
         return Ok(svg.into_bytes());
     }
-    let drawn = Rendered::of(&svg).and_then(|rendered| {
-        let missing = rendered.missing();
+    let drawn = ParsedSvg::new(&svg).and_then(|parsed| {
+        let missing = parsed.missing_letters();
         if !missing.is_empty() {
             crate::terminal::note(format!(
                 "the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters"
             ));
         }
-        if format == Format::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
+        if format == Format::Pdf { parsed.pdf() } else { parsed.png(size.scale()) }
     });
     drawn.map_err(|error| failure!("cannot draw: {error}"))
 }

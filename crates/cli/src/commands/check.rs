@@ -9,8 +9,8 @@ use crate::failure::Failure;
 use crate::file::{Format, formats, write_all};
 use crate::output::{check_json, check_page, check_summary, check_table, json_bytes};
 use crate::{source, terminal};
-use dalembert_verify::Published;
-use dalembert_verify::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
+use dalembert_verify::check::{CATALOGUE, Case, CheckedCase, Group, UnknownName, Verdict, select};
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
@@ -42,7 +42,7 @@ impl Check {
         let cases: Vec<String> = cases.into_iter().cloned().collect();
         let groups = if is_everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
         let groups = groups.map_err(unknown)?;
-        let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
+        let count = groups.iter().map(|selection| selection.cases.len() as u64).sum();
         let bar = terminal::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
         let run = |case: &'static Case| {
             bar.set_message(case.name);
@@ -50,10 +50,11 @@ impl Check {
             bar.inc(1);
             checked
         };
-        let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
-        let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
+        let groups =
+            groups.into_iter().map(|selection| (selection.group, selection.cases.into_iter().map(run).collect()));
+        let checked: Vec<(Group, Vec<CheckedCase>)> = groups.collect();
         bar.finish_and_clear();
-        let published = if is_everything || !targets.is_empty() { Published::builtin()? } else { Vec::new() };
+        let published = if is_everything || !targets.is_empty() { PublishedScene::builtin()? } else { Vec::new() };
         write_all(&destinations, |format| {
             Ok(match format {
                 Format::Table if self.summary => check_summary(&checked, &published).into_bytes(),
@@ -63,13 +64,13 @@ impl Check {
             })
         })?;
         let has_failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
-        let (count, agreed) = Published::count(&published);
+        let (count, agreed) = PublishedScene::count(&published);
         Ok(ExitCode::from(u8::from(has_failed || agreed < count)))
     }
 }
 
 /// Builds the failure for a name that is neither a group nor a case.
-fn unknown(name: String) -> Failure {
+fn unknown(UnknownName(name): UnknownName) -> Failure {
     let groups: Vec<&str> = CATALOGUE.iter().map(|group| group.name).chain([TARGETS]).collect();
     let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
     let suggestion = source::nearest(&name, groups.iter().chain(&cases).copied());

@@ -11,8 +11,8 @@ use crate::{source, terminal};
 use dalembert::number::Number;
 use dalembert::quantity::{Measure, Quantity};
 use dalembert_plot::draw::Size;
+use dalembert_verify::RouteQuestion;
 use dalembert_verify::cost;
-use dalembert_verify::{Question, plan};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity e_E2 -o cost.svg\n  \
@@ -25,7 +25,8 @@ pub(crate) struct Cost {
     /// or the last event of a scene with several impacts
     #[arg(long, value_parser = NameParser::new(&[Scope::SingleNumber], []))]
     quantity: Option<String>,
-    /// The time of a quantity over time; by default three quarters of a round trip
+    /// The time of a quantity over time; by default three quarters of a round trip, or, if the quantity is zero then, the
+    /// middle of the first contact or flight in which it is not
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     /// Instead: the cost of each effect of the scene, and that effects which it does not call for cost nothing
@@ -66,8 +67,8 @@ impl Cost {
             let energies = quantity.is_some_and(is_of_energy);
             (effects_data(&cost::effects(&scene, energies, self.seconds, observe)?, title), None)
         } else {
-            let question = Question::of_scene(&scene, quantity, self.time.clone())?;
-            let plan = plan(&question, self.numbers.numbers(&scene))?;
+            let question = RouteQuestion::from_scene(&scene, quantity, self.time.clone())?;
+            let plan = question.plan(self.numbers.numbers(&scene))?;
             let table = cost::work_precision(&question, &plan, self.seconds, observe)?;
             (cost_data(&table, title), Some(cost_svg(&table, title)))
         };

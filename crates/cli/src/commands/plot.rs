@@ -18,7 +18,7 @@ use dalembert::number::{Number, Scalar};
 use dalembert::quantity::Units;
 use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
 use dalembert_plot::draw::Size;
-use dalembert_plot::{Along, Asked, Gathered, Picture, heading, sheet};
+use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -37,8 +37,8 @@ pub(crate) struct Plot {
     #[arg(value_parser = NameParser::new(&[Scope::OverTime], pictures()))]
     quantity: Vec<String>,
     /// Quantity that the colours of xt show
-    #[arg(long, value_parser = words::<Along>(), default_value_t)]
-    field: Along,
+    #[arg(long, value_parser = words::<FieldQuantity>(), default_value_t)]
+    field: FieldQuantity,
     /// Draw the places of points of the rod in xt, in place of the field
     #[arg(long)]
     deformed: bool,
@@ -65,7 +65,8 @@ const ACCURACY: f64 = 1e-6;
 
 /// Returns the names of pictures that are no quantities.
 fn pictures() -> impl Iterator<Item = PossibleValue> {
-    Picture::NAMES.iter().map(|(name, _)| PossibleValue::new(*name).help("a picture"))
+    let names = Picture::names().filter(|name| !matches!(name.parse(), Ok(Picture::Quantity(_))));
+    names.map(|name| PossibleValue::new(name).help("a picture"))
 }
 
 impl Plot {
@@ -88,30 +89,30 @@ impl Plot {
             (true, 1) => Picture::SHEET.to_vec(),
             (true, _) => Picture::COMPARED.to_vec(),
         };
-        let along = pictures.contains(&Picture::Along);
-        if !along && (self.deformed || self.field != Along::default()) {
+        let has_field = pictures.contains(&Picture::SpaceTime);
+        if !has_field && (self.deformed || self.field != FieldQuantity::default()) {
             let option = if self.deformed { "--deformed" } else { "--field" };
             return Err(failure!("found {option} without xt, expected it with --quantity xt"));
         }
-        if self.deformed && self.field != Along::default() {
+        if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
-        let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
+        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to };
         let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, _>>()?;
-        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &asked);
+        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &request);
         let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {
             [scene] => {
                 // What comes from standard input has no name.
                 let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
-                heading(scene.title.as_deref().or(name), &scene.problem, &gathered[0], &asked)
+                gathered[0].heading(scene.title.as_deref().or(name), &scene.problem, &request)
             }
             _ => {
                 name_by_differences(&mut gathered);
                 Vec::new()
             }
         };
-        let sheet = sheet(&asked, &gathered, title).map_err(|found| failure!("{found}, expected one unit"))?;
+        let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
         let svg = sheet.svg(self.size);
         write_all(&destinations, |format| file::picture(format, svg.clone(), self.size))
     }
@@ -120,11 +121,11 @@ impl Plot {
     fn pictures(&self) -> Result<Vec<Picture>, Failure> {
         let mut pictures = Vec::new();
         for name in &self.quantity {
-            match Picture::named(name) {
-                Some(picture) => pictures.push(picture),
-                None => {
+            match name.parse::<Picture>() {
+                Ok(picture) => pictures.push(picture),
+                Err(_) => {
                     let quantities = Scope::OverTime.resolve(std::slice::from_ref(name), true)?;
-                    let drawn = quantities.iter().map(|quantity| Picture::named(quantity.name()));
+                    let drawn = quantities.iter().map(|quantity| quantity.name().parse::<Picture>().ok());
                     let drawn = drawn.collect::<Option<Vec<_>>>();
                     pictures.extend(drawn.ok_or_else(|| failure!("found --quantity {name}, which has no picture"))?);
                 }
@@ -133,7 +134,7 @@ impl Plot {
         Ok(pictures)
     }
 
-    fn gather(&self, name: &str, scene: &Scene, asked: &Asked) -> Result<Gathered, Failure> {
+    fn gather(&self, name: &str, scene: &Scene, request: &Request) -> Result<SceneData, Failure> {
         let numbers = match self.numbers.numbers(scene) {
             Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
             numbers => numbers,
@@ -144,30 +145,30 @@ impl Plot {
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
         let Answer { history, info, progress } = solve(scene, &question)?;
-        let found = history.visit(Gather { name: file, scene, asked, units: info.units.clone() })?;
+        let found = history.visit(Gather { name: file, request, units: info.units.clone() })?;
         drop(progress);
         RunInfo { warnings: history.warnings(), ..info }.print_warnings();
-        note_span(file, asked, &found, &history);
+        note_span(file, request, &found, &history);
         Ok(found)
     }
 }
 
 /// Prints notes on the part of a history that is drawn.
-fn note_span(name: &str, asked: &Asked, found: &Gathered, history: &History) {
+fn note_span(name: &str, request: &Request, found: &SceneData, history: &History) {
     let ([from, to], end) = (found.span, found.end);
     let note = |text: String| terminal::note(format!("{name}: {text}"));
     let short = |time: f64| time.decimal(6);
     let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
-    let is_short = asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
+    let is_short = request.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
     if end < history.end().to_f64() {
         note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
-    } else if asked.over_time() && asked.to.is_none() && (to < end || from > asked.from.unwrap_or(0.0)) {
+    } else if request.shows_span() && request.to.is_none() && (to < end || from > request.from.unwrap_or(0.0)) {
         let (from, to, end) = (short(from), short(to), short(end));
         note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
     } else if is_short {
         note(format!("the history ends at t = {}: {}", short(end), history.ending()));
     }
-    if let Some(columns) = found.coarse() {
+    if let Some(columns) = found.coarse_columns() {
         note(format!(
             "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
             columns.decimal(2)
@@ -179,8 +180,8 @@ fn note_span(name: &str, asked: &Asked, found: &Gathered, history: &History) {
 const MAX_DIFFERENT: usize = 3;
 
 /// Names scenes by the values in which they differ, if these are few.
-fn name_by_differences(scenes: &mut [Gathered]) {
-    let values = |scene: &Gathered| {
+fn name_by_differences(scenes: &mut [SceneData]) {
+    let values = |scene: &SceneData| {
         let rod = &scene.rod;
         [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
     };
@@ -198,15 +199,14 @@ fn name_by_differences(scenes: &mut [Gathered]) {
 /// A request for the data of the pictures of a history, whatever its numbers.
 struct Gather<'a> {
     name: &'a str,
-    scene: &'a Scene,
-    asked: &'a Asked,
+    request: &'a Request,
     units: Units,
 }
 
 impl Visitor for Gather<'_> {
-    type Output = Result<Gathered, dalembert::Error>;
+    type Output = Result<SceneData, dalembert::Error>;
 
     fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        self.asked.gather(self.name.into(), &self.scene.problem, self.units, history)
+        self.request.gather(self.name.into(), self.units, history)
     }
 }

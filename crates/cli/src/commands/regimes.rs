@@ -8,7 +8,7 @@ use crate::file::{self, Format, formats, write_all};
 use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, rows_bytes, threshold_data};
 use crate::terminal;
 use dalembert_plot::draw::Size;
-use dalembert_verify::regimes::{Map, SweepError};
+use dalembert_verify::regimes::{GridError, Map};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
@@ -50,7 +50,7 @@ impl Regimes {
         let map = in_threads(self.threads, || {
             let map = Map::new(&self.damping_ratio, speeds, &|| bar.inc(1))?;
             let is_drawn = destinations.iter().any(|destination| destination.format.is_picture());
-            Ok::<_, SweepError>(if is_drawn { map.with_regions(&|| bar.inc(1)) } else { map })
+            Ok::<_, GridError>(if is_drawn { map.with_regions(&|| bar.inc(1)) } else { map })
         })??;
         bar.finish_and_clear();
         write_all(&destinations, |format| match format {

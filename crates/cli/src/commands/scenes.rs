@@ -12,7 +12,7 @@ use crate::output::{rows_bytes, targets_data};
 use crate::{source, terminal};
 use dalembert::builtin;
 use dalembert_compare::aligned::table;
-use dalembert_verify::Published;
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(
@@ -69,23 +69,23 @@ impl Scenes {
     /// if one differs.
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
-            None => Published::builtin()?,
+            None => PublishedScene::builtin()?,
             Some(name) => scene_files(name)?
                 .into_iter()
                 .map(|name| {
-                    let found = Published::of(&name, &source::read(&name)?);
+                    let found = PublishedScene::new(&name, &source::read(&name)?);
                     found.map_err(|error| failure!("{name}: {error}"))
                 })
                 .collect::<Result<Vec<_>, _>>()?,
         };
         for published in &all {
             for warning in &published.warnings {
-                terminal::warn(format!("{}: {warning}", published.scene));
+                terminal::warn(format!("{}: {warning}", published.name));
             }
         }
         let data = targets_data(&all, self.wide);
         write_all(&self.output.destinations(self.format, ROWS)?, |format| rows_bytes(&data, format))?;
-        let (count, agreed) = Published::count(&all);
+        let (count, agreed) = PublishedScene::count(&all);
         Ok(ExitCode::from(u8::from(agreed < count)))
     }
 }

@@ -13,11 +13,12 @@ use crate::failure::{self, Failure};
 use crate::file::{Format, formats, write_all};
 use crate::output::{rows_bytes, sweep_data};
 use crate::quantities::{NameParser, Scope, has_material};
-use crate::sweep::{self, Axis, Grid, Journal, Point, Request, SweepError, journal_path};
+use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
 use crate::{source, terminal};
 use dalembert::number::Number;
 use dalembert::problem::Builder;
 use dalembert::quantity::Needs;
+use dalembert_verify::regimes::GridError;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
@@ -68,17 +69,14 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
 
 /// Parses an axis. An error shows the grammar, or the nearest path.
 fn axis(text: &str) -> Result<Axis, Failure> {
-    text.parse().map_err(|error: SweepError| {
-        let failure = Failure::from(error);
-        let path = text.split_once('=').map(|(path, _)| path.trim());
-        let paths = Builder::NUMBERS.iter().map(|(_, path)| *path);
-        match path.filter(|path| !paths.clone().any(|known| known == *path)) {
-            Some(path) => match source::nearest(path, paths) {
-                Some(near) => failure.help(format!("did you mean {near}?")),
-                None => failure,
-            },
-            None => failure.help("--vary is PATH=V1,V2,…, PATH=A..B:N for N values from A to B, or PATH=A..B:N:log"),
+    let grammar = "--vary is PATH=V1,V2,…, PATH=A..B:N for N values from A to B, or PATH=A..B:N:log";
+    text.parse().map_err(|error| match &error {
+        GridError::UnknownPath(path) => {
+            let near = source::nearest(path, Builder::NUMBERS.iter().map(|(_, path)| *path));
+            let help = near.map_or_else(|| grammar.into(), |near| format!("did you mean {near}?"));
+            Failure::from(error).help(help)
         }
+        _ => Failure::from(error).help(grammar),
     })
 }
 
@@ -89,14 +87,13 @@ impl Sweep {
         let scene = source::read(&self.scene)?;
         let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
-            return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
+            return Err(failure!("found time {time}, expected one from 0 on"));
         }
         let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(&scene))?;
         if let Some(time) = &self.time
             && let Some(quantity) = quantities.iter().find(|quantity| quantity.needs() != Needs::Time)
         {
-            let expected = format!("none: {} is not asked at a time", quantity.name());
-            return Err(SweepError::new(format!("time {time}"), expected).into());
+            return Err(failure!("found time {time}, expected none: {quantity} is not asked at a time"));
         }
         let (time, numbers) = (self.time.clone(), self.numbers.numbers(&scene));
         let request = Request { quantities, time, numbers, units: scene.units };
@@ -153,13 +150,11 @@ impl Sweep {
 fn unopened(output: &Path, error: std::io::Error) -> Failure {
     let journal = journal_path(output).display().to_string();
     match error.kind() {
-        ErrorKind::AlreadyExists => SweepError::new(
-            format!("{journal}, which an interrupted sweep left"),
-            "--resume to go on with it, or the file removed",
-        )
-        .into(),
+        ErrorKind::AlreadyExists => failure!(
+            "found {journal}, which an interrupted sweep left, expected --resume to go on with it, or the file removed"
+        ),
         ErrorKind::InvalidData => {
-            SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
+            failure!("found {journal} of another sweep, expected the same command, or the file removed")
         }
         _ => failure::cannot(&format!("write {journal}"))(error),
     }

@@ -142,9 +142,12 @@ impl RowWriter {
                     }
                 }
             }
-            Format::Table => self.table.extend((0..count).map(|row| {
-                self.columns.iter().map(|(column, place)| self.text(column.kind, &cells[*place][row])).collect()
-            })),
+            Format::Table => {
+                let text = |(column, place): &(Column, usize), row: usize| self.text(column.kind, &cells[*place][row]);
+                let row = |row: usize| self.columns.iter().map(|column| text(column, row)).collect();
+                let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+                self.table.extend(rows);
+            }
             _ => {
                 let mut text = Vec::with_capacity(BUFFER);
                 for row in 0..count {
