@@ -7,11 +7,11 @@ use crate::error::VerifyError;
 use crate::modal::Modal;
 use crate::paper::formulas::Constant;
 use crate::paper::{PrintedIntegrals, UndampedContact};
+use dalembert::Value;
 use dalembert::engine::{Damped, Undamped};
 use dalembert::number::{Estimate, Rational, Scalar};
 use dalembert::problem::{Parameters, Problem};
 use dalembert::solve::{self, Numbers, Plan, TypedHistory};
-use dalembert::Value;
 
 /// A route to an answer.
 #[derive(Clone, Copy, Debug)]
