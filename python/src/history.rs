@@ -171,16 +171,15 @@ impl History {
 
     /// The sheet of pictures that tells the scene, as SVG.
     fn sheet(&self, py: Python<'_>) -> PyResult<String> {
-        let (rod, units) = self.solved.clone();
+        let units = self.solved.1.clone();
         self.ask(py, move |solution| {
-            each!(solution, |history, _| Drawing::default().draw(history, &rod, units)).map(|drawn| drawn.svg)
+            each!(solution, |history, _| Drawing::default().draw(history, units)).map(|drawn| drawn.svg)
         })
     }
 
     /// The first and the last time of that sheet.
     fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
-        let rod = self.solved.0.clone();
-        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history, &rod)))
+        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history)))
     }
 
     fn error_estimate(&self) -> f64 {

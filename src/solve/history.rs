@@ -1,4 +1,5 @@
-//! The answer, in the numbers that were asked for and without their type.
+//! The answer in `Value`s, whatever its number system.
+#![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
 use super::ladder::Target;
@@ -258,8 +259,8 @@ impl History {
         typed!(self, history => {
                         let field = history.ask(
                 |motion| {
-                    let precision = motion.end().precision();
-                    motion.field(&Scalar::spelling(&point, &precision), &Scalar::spelling(&time, &precision), Side::Right)
+                    let lift = |x: &Number| Scalar::spelling(x, &motion.end().precision());
+                    motion.field(&lift(&point), &lift(&time), Side::Right)
                 },
                 |field| field.numbers().to_vec(),
             )?;

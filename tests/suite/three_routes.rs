@@ -89,12 +89,10 @@ fn the_reference_cases() {
         }
     }
     all::<f64>(&(), 1024, 1e-10);
-    #[cfg(feature = "mp")]
     all::<rug::Float>(&200, 128, 1e-10);
 }
 
 /// The rate that is promised, `N^{1−K−p}`: with K = 8 each doubling divides the bound of the stress by 2⁷.
-#[cfg(feature = "mp")]
 #[test]
 fn the_rate_of_convergence() {
     let lift = |x: f64| rug::Float::with_val(300, x);

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::dataset::{Column, Dataset};
 use dalembert::number::Number;
-use dalembert_plot::draw::{Axis, Key, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
+use dalembert_plot::draw::{Axis, Key, Mark, Panel, Sheet, Size, Stroke, power_of_ten, without_subscripts};
 use dalembert_verify::cost::{CostRow, CostTable, EffectCost, Family};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
@@ -211,15 +211,16 @@ pub(crate) fn cost_svg(cost: &CostTable, title: Option<&str>) -> String {
         let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
         let (color, mark) = look(rows[0].family);
         panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
-        panel.add("marks", Shape::Marks(lines.concat(), mark, color));
-        panel.legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+        panel.marks("marks", lines.concat(), mark, color);
+        panel.legend.push(Key::mark(rows[0].family.name(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     for mark in [Mark::Ring, Mark::Star] {
-        panel.add("chosen", Shape::Marks(chosen.clone(), mark, "#000000"));
+        panel.marks("chosen", chosen.clone(), mark, "#000000");
     }
-    panel.legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
-    Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
+    panel.legend.push(Key::mark("the plan's choice", Mark::Star, "#000000"));
+    Sheet { title: vec![without_subscripts(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }
+        .svg(Size::Page)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use dalembert::number::Analytic;
-use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Shape, Sheet, Stroke};
+use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Sheet, Stroke};
 use dalembert_verify::VerifyError;
 use dalembert_verify::figures::{DAMPINGS, Figure, FigureData, FigureKind, HELD_DAMPINGS, Limits, threshold_speed};
 
@@ -119,7 +119,7 @@ fn color(k: usize) -> &'static str {
 }
 
 fn dots(panel: &mut Panel, points: Vec<DVec2>, color: &'static str) {
-    panel.add_over("marks", Shape::Marks(points, Mark::Dot, color));
+    panel.marks_unclipped("marks", points, Mark::Dot, color);
 }
 
 fn kernel(rows: &[Row]) -> Panel {
@@ -135,11 +135,11 @@ fn kernel(rows: &[Row]) -> Panel {
         let jumps = stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect();
         panel.lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5"));
         panel.lines("curve", stretches, stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
         let bounce = rows.first().and_then(|row| row[4]);
         bounce.into_iter().for_each(|time| dots(&mut panel, vec![DVec2::new(time, 0.0)], LINES[k]));
     }
-    panel.legend.push(Key::Mark("first bounce, t_b".into(), Mark::Dot, BLACK));
+    panel.legend.push(Key::mark("first bounce, t_b", Mark::Dot, BLACK));
     panel
 }
 
@@ -153,10 +153,10 @@ fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
         let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
         dots(&mut panel, dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED);
         if columns.len() > 1 {
-            panel.legend.push(Key::Line((*name).into(), stroke));
+            panel.legend.push(Key::line(*name, stroke));
         }
     }
-    panel.legend.push(Key::Mark("μ = μ₀".into(), Mark::Dot, UNDAMPED));
+    panel.legend.push(Key::mark("μ = μ₀", Mark::Dot, UNDAMPED));
     panel
 }
 
@@ -175,11 +175,11 @@ fn restitution(rows: &[Row]) -> Result<Panel, VerifyError> {
         let about = pairs.filter(|pair| (pair[0].x..pair[1].x).contains(&at));
         begins.extend(about.map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))));
         panel.lines("curve", curve, stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
     }
     dots(&mut panel, begins, BLACK);
-    panel.legend.push(Key::Mark("t_b = t₁ from here on".into(), Mark::Dot, BLACK));
-    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    panel.legend.push(Key::mark("t_b = t₁ from here on", Mark::Dot, BLACK));
+    panel.legend.push(Key::line("limit for μ → ∞", Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
     Ok(panel)
 }
 
@@ -197,10 +197,10 @@ fn shares(rows: &[Row], label: &str) -> Panel {
             }
         }
         panel.lines("curve", stretches(of(rows, damping), 1, 2), stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
     }
-    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
-    panel.legend.push(Key::Line("as the paper supposes".into(), supposed));
+    panel.legend.push(Key::line("limit for μ → ∞", Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    panel.legend.push(Key::line("as the paper supposes", supposed));
     panel
 }
 
@@ -216,12 +216,12 @@ fn regions(rows: &[Row]) -> Panel {
         let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
         let edge = corners.iter().chain(corners.first()).copied().collect();
-        panel.add("area", Shape::Areas(vec![corners], color));
+        panel.areas("area", vec![corners], color);
         panel.lines("curve", vec![edge], Stroke::new(BLACK, THIN));
-        panel.add("note", Shape::Note(middle, Anchor::Middle, name.into()));
+        panel.note("note", middle, Anchor::Middle, name);
     }
     dots(&mut panel, vec![DVec2::new(0.5, 2.0)], BLACK);
-    panel.legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
+    panel.legend = vec![Key::area("g continued as −g", REGIONS[0]), Key::area("as g", REGIONS[1])];
     panel
 }
 
@@ -232,9 +232,8 @@ fn tenth(rows: &[Row]) -> Panel {
     let first = Stroke::new(UNDAMPED, LINE);
     // It jumps wherever an earlier landing comes or goes: points, without lines between them.
     let tenth = stretches(rows.iter(), 0, 2).concat();
-    panel.add("marks", Shape::Marks(tenth, Mark::Point, LINES[0]));
+    panel.marks("marks", tenth, Mark::Point, LINES[0]);
     panel.lines("curve", stretches(rows.iter(), 0, 1), first);
-    panel.legend =
-        vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
+    panel.legend = vec![Key::line("first bounce", first), Key::mark("tenth bounce", Mark::Point, LINES[0])];
     panel
 }

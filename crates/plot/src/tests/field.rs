@@ -1,15 +1,15 @@
 use super::*;
 
-/// The polygons cover the strip once.
+/// The polygons cover the rectangle without overlaps.
 #[test]
-fn cells_cover_the_strip() {
+fn cells_cover_the_rectangle() {
     let rod = Parameters { length: 2.0, wave_speed: 3.0, damping: 0.0, gravity: 0.0, speed: 1.0 };
-    let strip = Strip { rod, span: [0.3, 5.1], trip: 4.0 / 3.0 };
-    let breaks: Vec<Break> =
-        (-3..40).map(|k| Break { time: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0 }).collect();
-    for fine in [None, Some(0.2)] {
-        let [up, down] = [0.0, strip.trip].map(|late| strip.knots(&breaks, late, fine));
-        let polygons = strip.polygons(&up, &down).unwrap();
+    let extent = Extent { rod, span: [0.3, 5.1] };
+    let rays: Vec<Ray> =
+        (-3..40).map(|k| Ray { departure: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0 }).collect();
+    for width in [None, Some(0.2)] {
+        let [rising, falling] = [0.0, extent.trip()].map(|delay| extent.characteristics(&rays, delay, width));
+        let polygons = extent.polygons(&rising, &falling).unwrap();
         let whole: f64 = polygons.iter().map(|polygon| clip::area(polygon).abs()).sum();
         assert!((whole - 4.8 * 2.0).abs() < 1e-9, "{whole}");
     }
