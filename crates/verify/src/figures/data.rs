@@ -195,9 +195,8 @@ fn bounce<const N: usize>(problem: &Problem, values: Values<N>, accuracy: f64) -
         let relative_time = to.clone() / Double::exact(*to.value());
         Ok((Some(relative_time), Bounce { time: Some(to), values }))
     };
-    let (_, bounce) = plan.ask::<f64, _>(problem, query, |(time, bounce)| {
-        time.iter().chain(bounce.values.iter().flatten()).collect()
-    })?;
+    let (_, bounce) = plan
+        .ask::<f64, _>(problem, query, |(time, bounce)| time.iter().chain(bounce.values.iter().flatten()).collect())?;
     Ok(bounce)
 }
 
