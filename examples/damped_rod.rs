@@ -2,7 +2,7 @@
 //!
 //! L = 1/2 and c = μ = 1, so that t₁ = 1 and R = r. Chapters 6 and 7 of the guide derive what is asserted here.
 
-use dalembert::{Error, History, Problem, Side};
+use dalembert::{Error, Problem, Side, TypedHistory};
 use std::f64::consts::PI;
 
 /// `I_n(z) = Σ (z/2)^{n+2k}/(k!(n+k)!)` for n = 0, 1.
@@ -11,8 +11,8 @@ fn bessel(n: u32, z: f64) -> f64 {
     nested * (z / 2.0).powi(n as i32)
 }
 
-fn solved(damping: &str) -> Result<History<f64>, Error> {
-    Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?.solve()
+fn solved(damping: &str) -> Result<TypedHistory<f64>, Error> {
+    Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build()?.doubles()
 }
 
 fn main() -> Result<(), Error> {

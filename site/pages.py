@@ -12,7 +12,7 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).parent.parent
 # Files of the repository that pages link to.
-FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.cff", "LICENSE-*", "src/draw/font/LICENSE"]
+FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.cff", "LICENSE-*", "crates/plot/src/draw/font/LICENSE"]
 COMMAND = ROOT / "target/debug/dalembert"
 COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes".split()
 GALLERY = {
@@ -50,7 +50,7 @@ def rust():
     lines = (ROOT / "src/lib.rs").read_text().splitlines()
     text = "\n".join(line[4:] for line in lines if line.startswith("//!")).replace("```\nuse ", "```rust\nuse ")
     text = re.sub(r"\[(`[^`]+`)\](?!\()", r"\1", re.sub(r"(?m)^# Ok.*\n", "", text))
-    add = "```sh\ncargo add dalembert --path ../dalembert --no-default-features\n```"
+    add = "```sh\ncargo add dalembert --path ../dalembert\n```"
     last = "`cargo doc --open` in a clone shows every item, with its source and accuracy."
     return f"# The library for Rust\n\n{add}\n\n{text}\n\n{last}\n"
 

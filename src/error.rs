@@ -9,6 +9,14 @@ pub enum Error {
     /// A problem that cannot be built.
     #[error(transparent)]
     Problem(#[from] ProblemError),
+    /// A time or a point that is no number.
+    #[error("{quantity}: {error}")]
+    Spelling {
+        /// The time or the point.
+        quantity: &'static str,
+        /// What is wrong with its text.
+        error: crate::number::NumberError,
+    },
     /// A fraction cannot hold a square root.
     #[error(
         "exact fractions cannot hold the {quantity} √({square}), expected a square, or digits in place of fractions"

@@ -208,7 +208,7 @@ impl<S: Scalar> StressPiece<S> {
     ///
     /// ```
     /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    /// let pieces = rod.solve()?.stress_history()?.pieces;
+    /// let pieces = rod.doubles()?.stress_history()?.pieces;
     /// // −(μ + g t)/c until the wave comes back.
     /// assert_eq!(pieces[0].eval(&0.5), -3.5);
     /// # Ok::<(), dalembert::Error>(())
@@ -240,7 +240,7 @@ impl<S: Scalar> StressPiece<S> {
     ///
     /// ```
     /// let rod = dalembert::Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    /// let pieces = rod.solve()?.stress_history()?.pieces;
+    /// let pieces = rod.doubles()?.stress_history()?.pieces;
     /// // −∫₀¹ (3 + s) ds.
     /// assert_eq!(pieces[0].integral(&1.0), -3.5);
     /// # Ok::<(), dalembert::Error>(())

@@ -39,7 +39,7 @@ impl<S> Field<S> {
 /// ```
 /// use dalembert::Problem;
 /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let waves = rod.solve()?.waves()?;
+/// let waves = rod.doubles()?.waves()?;
 /// // Behind the wave of the impact v_x = −(μ + g(t − x))/c.
 /// assert_eq!(waves.at(&0.25, &0.5).strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())

@@ -52,6 +52,7 @@ mod radical;
 mod rational;
 mod scalar;
 mod text;
+mod value;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
@@ -74,3 +75,4 @@ pub use rational::Rational;
 pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, shown_bound};
+pub use value::{Bound, IntoValue, Value};

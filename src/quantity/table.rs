@@ -100,7 +100,7 @@ macro_rules! quantities {
         /// ```
         /// use dalembert::{Problem, Quantity, Side};
         /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-        /// let history = rod.solve()?;
+        /// let history = rod.doubles()?;
         /// // In the first contact v_x(0,t) = −(μ + g t)/c: at t = 1 the force is 4, and ∫(3 + s)ds = 7/2 was given.
         /// let values = history.columns(&[Quantity::Force, Quantity::Impulse], &[1.0], Some(Side::Right))?;
         /// assert_eq!(values, [[4.0], [3.5]]);

@@ -75,7 +75,7 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 /// ```
 /// use dalembert::Scene;
 /// let scene = Scene::parse("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 2, gap = 3 }\n")?;
-/// let history = scene.problem.solve()?;
+/// let history = scene.problem.doubles()?;
 /// assert_eq!((history.contacts()[0].impact, history.contacts()[0].release), (1.5, Some(3.5))); // gap/μ, and 2L/c more
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

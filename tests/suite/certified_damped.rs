@@ -4,8 +4,8 @@ use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::quantity::{Needs, Slice, slices};
 use dalembert::{
-    Ending, Error, Estimate, EventKind, Field, Float, History, Interval, Number, Parameters, Problem, Profile,
-    Quantity, Run, Side, Speed, Start, Top, Warning,
+    Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Parameters, Problem, Profile, Quantity, Run,
+    Side, Speed, Start, Top, TypedHistory, Warning,
 };
 
 fn number_of(text: &str) -> Number {
@@ -27,7 +27,7 @@ fn holds(what: &str, found: &Interval, truth: &Float, digits: i32) {
 
 /// Events, contacts and values between them, held against a run in so many more digits; how many were compared. What is
 /// proved may end earlier.
-pub(crate) fn compare(name: &str, proved: &History<Interval>, digits: &History<Float>, known: i32) -> usize {
+pub(crate) fn compare(name: &str, proved: &TypedHistory<Interval>, digits: &TypedHistory<Float>, known: i32) -> usize {
     let mut count = 0;
     let mut check = |what: &str, found: &Interval, truth: &Float| {
         holds(&format!("{name}: {what}"), found, truth, known);
@@ -171,7 +171,7 @@ fn a_fixed_top_stops_a_rod_in_the_air() {
         assert!(truth > 1e-9);
         for (damping, truth) in [
             ("1e-9", truth),
-            ("0.4", rod(Some("0.4")).solve().unwrap().energy(time.parse().unwrap()).unwrap().vibrational),
+            ("0.4", rod(Some("0.4")).doubles().unwrap().energy(time.parse().unwrap()).unwrap().vibrational),
         ] {
             let rod = rod(Some(damping));
             let digits = rod.digits(20).unwrap().energy(Float::with_val(128, number_of(time).to_rational())).unwrap();

@@ -55,7 +55,7 @@ fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);
     let plan = Plan::of(&problem, &Question::between(400.into(), 400.into(), Numbers::Digits(15))).unwrap();
     let Solution::Digits(history, 15) =
-        plan.solve(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
+        plan.solve_typed(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
     else {
         panic!("digits were asked for")
     };

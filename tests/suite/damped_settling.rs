@@ -160,7 +160,7 @@ fn late_in_a_contact_every_value_is_within_its_bound() {
     for (gravity, speed, damping) in [("1", "0.001", "0.01"), ("1", "0.01", "0.1"), ("3", "1", "1.5")] {
         let mut problem = uniform("1/2", "1", gravity, speed, Run::Time(250.into()));
         problem.rod.damping = damping.parse().ok();
-        let history = problem.solve().unwrap();
+        let history = problem.doubles().unwrap();
         let modal = Modal::new(&Parameters::<f64>::of(&problem, &()).unwrap(), 4096);
         for t in [0.7, 3.3, 20.3, 50.7, 100.2, 249.3] {
             let time = Estimate::exact(t);
@@ -193,7 +193,8 @@ fn the_energy_of_a_sliver_is_within_its_bound() {
         let mut problem = uniform(length, wave_speed, gravity, speed, Run::Impacts(3));
         problem.rod.damping = damping.parse().ok();
         let motion = problem.to_builder().time(time + 1.0).build().unwrap();
-        let ours = motion.solve().unwrap().ask(|motion| motion.energy(&Estimate::exact(time)), |_| Vec::new()).unwrap();
+        let ours =
+            motion.doubles().unwrap().ask(|motion| motion.energy(&Estimate::exact(time)), |_| Vec::new()).unwrap();
         let truth = motion.digits(40).unwrap();
         let at = rug::Float::with_val(300, rug::Float::parse(time.to_string()).unwrap());
         let apart = (truth.energy(at).unwrap().vibrational - ours.vibrational.value()).to_f64().abs();

@@ -4,14 +4,14 @@
 use crate::common::{close, number, problem, reference};
 use dalembert::solve::Rung;
 use dalembert::{
-    Ending, EventKind, History, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, Solution,
+    Ending, EventKind, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, Solution, TypedHistory,
 };
 use serde_json::Value;
 use std::sync::Arc;
 
-fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> History<f64> {
+fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> TypedHistory<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve(problem, Arc::new(dalembert::engine::unobserved)).unwrap() else {
+    let Solution::Double(motion) = plan.solve_typed(problem, Arc::new(dalembert::engine::unobserved)).unwrap() else {
         panic!("doubles were asked for");
     };
     motion
@@ -275,7 +275,7 @@ fn ordinary_rods_are_settled_in_doubles() {
     for damping in ["0.001", "0.003", "0.01", "0.03", "0.05", "0.1"] {
         let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Impacts(10));
         problem.rod.damping = Some(damping.parse().unwrap());
-        let history = problem.solve().unwrap();
+        let history = problem.doubles().unwrap();
         assert_eq!(history.events().len(), 20);
         assert_eq!(history.flights().unwrap().len(), 10);
         assert_eq!(history.rung(), Rung::Double, "r = {damping}");
@@ -294,7 +294,7 @@ fn a_damped_run_is_observed() {
             note.lock().unwrap().push(done);
             std::ops::ControlFlow::Continue(())
         };
-        plan.solve(problem, Arc::new(observe)).unwrap();
+        plan.solve_typed(problem, Arc::new(observe)).unwrap();
         let seen = seen.lock().unwrap();
         seen.clone()
     };

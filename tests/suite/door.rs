@@ -103,7 +103,7 @@ fn without_long_numbers_they_are_an_error() {
 fn a_meeting_is_decided_by_fractions() {
     let solved = |name: &str| {
         let scene = dalembert::builtin::get(name).unwrap();
-        dalembert::Scene::parse(scene.source).unwrap().problem.solve().unwrap()
+        dalembert::Scene::parse(scene.source).unwrap().problem.doubles().unwrap()
     };
     let history = solved("doyen-ern-piperno");
     assert_eq!((history.rung(), history.warnings()), (dalembert::solve::Rung::Fractions, vec![]));
@@ -133,7 +133,7 @@ fn digits_never_fail_where_proofs_succeed() {
 /// What a time gives does not depend on which other times are asked, nor in which order.
 #[test]
 fn a_value_is_the_same_alone_and_among_others() {
-    let history = rod("3/2").to_builder().time(20).build().unwrap().solve().unwrap();
+    let history = rod("3/2").to_builder().time(20).build().unwrap().doubles().unwrap();
     let times: Vec<f64> = (0..40).map(|k| f64::from(k) / 2.0).collect();
     let forth: Vec<f64> = times.iter().map(|t| history.strain(*t, Side::Left).unwrap()).collect();
     let mut back: Vec<f64> = times.iter().rev().map(|t| history.strain(*t, Side::Left).unwrap()).collect();
@@ -152,10 +152,10 @@ fn a_value_is_the_same_alone_and_among_others() {
 #[cfg(feature = "mp")]
 #[test]
 fn doubles_turn_to_longer_numbers_by_themselves() {
-    let near = rod("3/2").to_builder().time(20).build().unwrap().solve().unwrap();
+    let near = rod("3/2").to_builder().time(20).build().unwrap().doubles().unwrap();
     assert_eq!(near.rung(), Rung::Double);
     let problem = rod("3/2").to_builder().time(120).build().unwrap();
-    let (far, truth) = (problem.solve().unwrap(), problem.digits(20).unwrap());
+    let (far, truth) = (problem.doubles().unwrap(), problem.digits(20).unwrap());
     assert!(matches!(far.rung(), Rung::Bits(_)), "{}", far.rung());
     assert_eq!(far.events().len(), truth.events().len());
     for (ours, truth) in far.events().iter().zip(truth.events()) {
@@ -167,7 +167,7 @@ fn doubles_turn_to_longer_numbers_by_themselves() {
 #[test]
 fn no_number_is_no_time() {
     for rod in [rod("3"), damped("0.1", "2"), rod("3").to_builder().impacts(5).build().unwrap()] {
-        let history = rod.solve().unwrap();
+        let history = rod.doubles().unwrap();
         for time in [f64::NAN, f64::INFINITY] {
             let mut said: Vec<Error> = Vec::new();
             for side in [Side::Left, Side::Right] {

@@ -134,11 +134,11 @@ fn close_to_the_overdamped_rod() {
 #[test]
 fn lost_digits_are_noticed_and_fetched() {
     use dalembert::solve::Rung;
-    use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
-    let solved = |damping: &str, accuracy: f64| -> History<f64> {
+    use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
+    let solved = |damping: &str, accuracy: f64| -> TypedHistory<f64> {
         let problem = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
         let plan = Plan::of(&problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-        match plan.solve(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
+        match plan.solve_typed(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
             Solution::Double(history) => history,
             other => panic!("{other:?}"),
         }

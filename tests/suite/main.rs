@@ -63,3 +63,4 @@ mod undamped_coincidences;
 #[cfg(feature = "mp")]
 mod undamped_properties;
 mod undamped_reference;
+mod values;

@@ -149,7 +149,7 @@ fn questions_beyond_the_end() {
     assert_eq!((found, ending), ("5".to_string(), weak.ending().to_string()));
     assert!(matches!(asked(-1), Error::TimeOutside { .. }));
     // Without gravity nothing follows the first bounce.
-    let free = rod.build().unwrap().solve().unwrap();
+    let free = rod.build().unwrap().doubles().unwrap();
     let beyond = free.energy(1e6).unwrap_err();
     assert!(matches!(&beyond, Error::BeyondEnd { ending, .. } if *ending == free.ending().to_string()), "{beyond}");
     assert!(matches!(free.ending(), Ending::NoFurtherImpact(_)));

@@ -22,7 +22,7 @@ fn above(gravity: &str, speed: &str, gap: &str) -> dalembert::problem::Builder {
 fn a_fall_by_hand() {
     let rod = above("1", "1", "4").time(7).build().unwrap();
     assert_eq!(rod.dimensionless().speed_ratio, Some(1.5));
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let events: Vec<_> = history.events().iter().map(|event| (event.kind, event.t, event.v_end)).collect();
     // The release velocity is that of μ = 3: the stress −(μ + g t)/c at t₁ = 2 jumps by 2μ/c.
     assert_eq!(events, [(EventKind::Impact, 2.0, -3.0), (EventKind::Release, 4.0, 1.0)]);
@@ -50,7 +50,7 @@ fn a_fall_by_hand() {
 /// Without gravity the touch is at gap/μ.
 #[test]
 fn a_flight_without_gravity_by_hand() {
-    let history = above("0", "1/4", "5").build().unwrap().solve().unwrap();
+    let history = above("0", "1/4", "5").build().unwrap().doubles().unwrap();
     assert_eq!(history.contacts()[0].impact, 20.0);
     assert_eq!(history.contacts()[0].release, Some(22.0));
     assert_eq!(history.events()[1].v_end, 0.25);
@@ -60,7 +60,7 @@ fn a_flight_without_gravity_by_hand() {
 /// end touches at ½; compressed by 1, it stays until the wave from the top arrives at 1, and leaves with +1.
 #[test]
 fn a_rod_that_is_stopped_at_its_top_by_hand() {
-    let history = above("0", "1", "1/2").fixed_top().time(2).build().unwrap().solve().unwrap();
+    let history = above("0", "1", "1/2").fixed_top().time(2).build().unwrap().doubles().unwrap();
     let contact = &history.contacts()[0];
     assert_eq!((contact.impact, contact.release, contact.impulse, contact.peak_strain), (0.5, Some(1.0), 0.5, -1.0));
     assert_eq!(history.events()[1].v_end, 1.0);
@@ -76,12 +76,12 @@ fn a_rod_that_is_stopped_at_its_top_by_hand() {
 fn some_never_touch() {
     // Let go undeformed under g = 1, the end swings down to −gL²/c² = −1 and back.
     let rod = above("1", "0", "2").fixed_top().build().unwrap();
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     assert!(history.contacts().is_empty() && matches!(history.ending(), Ending::NoFurtherImpact(_)));
     let lowest = history.ground_end(2.0, Side::Right).unwrap().0;
     assert!((lowest - 1.0).abs() < 1e-14, "{lowest}");
     // μ/2r = 5 is less than the gap.
-    let history = above("0", "1", "6").damping("0.1").build().unwrap().solve().unwrap();
+    let history = above("0", "1", "6").damping("0.1").build().unwrap().doubles().unwrap();
     assert!(history.contacts().is_empty() && matches!(history.ending(), Ending::NoFurtherImpact(_)));
 }
 
@@ -163,7 +163,7 @@ mod shifted {
                 }
                 let at = later(&time);
                 prop_assert_eq!(above.strain(at.clone(), side).unwrap(), touching.strain(time.clone(), side).unwrap());
-                let ends = |history: &dalembert::History<Rational>, time: &Rational| {
+                let ends = |history: &dalembert::TypedHistory<Rational>, time: &Rational| {
                     let ground = history.ground_end(time.clone(), side).unwrap();
                     (ground, history.top_end(time.clone(), side).unwrap())
                 };
@@ -207,7 +207,7 @@ mod shifted {
             let scale = exact.scales();
             let size = (Rational::from(&scale.time * &scale.velocity) * 10i64).to_f64();
             let near = |what: &str, found: f64, accuracy: f64| close(what, found, height.to_f64(), size, accuracy);
-            near("doubles", above.solve().unwrap().ground_end(at.to_f64(), Side::Right).unwrap().0, 1e-8);
+            near("doubles", above.doubles().unwrap().ground_end(at.to_f64(), Side::Right).unwrap().0, 1e-8);
             let float = rug::Float::with_val(200, &at);
             near("digits", above.digits(30).unwrap().ground_end(float, Side::Right).unwrap().0.to_f64(), 1e-15);
             let proved = above.certified(20).unwrap();
@@ -243,17 +243,17 @@ fn a_damped_flight_by_hand() {
         let rod = |speed: f64| Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(speed).time(8);
         let touch = -(-2.0 * damping * gap / speed).ln_1p() / (2.0 * damping);
         let slower = speed - 2.0 * damping * gap;
-        let above = rod(speed).gap(gap).build().unwrap().solve().unwrap();
-        let touching = rod(slower).build().unwrap().solve().unwrap();
+        let above = rod(speed).gap(gap).build().unwrap().doubles().unwrap();
+        let touching = rod(slower).build().unwrap().doubles().unwrap();
         close("touch", above.events()[0].t, touch, 1.0, 1e-12);
         close("speed", above.events()[0].v_end, -slower, 1.0, 1e-11);
         close("release", above.events()[1].t, touch + touching.events()[1].t, 1.0, 1e-11);
         close("rebound", above.events()[1].v_end, touching.events()[1].v_end, 1.0, 1e-10);
         for time in [0.3, 0.9, 1.7] {
-            let strain = |history: &dalembert::History<f64>, t: f64| history.strain(t, Side::Right).unwrap();
+            let strain = |history: &dalembert::TypedHistory<f64>, t: f64| history.strain(t, Side::Right).unwrap();
             close("strain", strain(&above, touch + time), strain(&touching, time), 1.0, 1e-10);
         }
-        let flown = |history: &dalembert::History<f64>, t: f64| history.ground_end(t, Side::Right).unwrap();
+        let flown = |history: &dalembert::TypedHistory<f64>, t: f64| history.ground_end(t, Side::Right).unwrap();
         close("flight", flown(&above, touch + 2.5).0, flown(&touching, 2.5).0, 1.0, 1e-10);
         let time = touch / 2.0;
         let fallen = speed * -(-2.0 * damping * time).exp_m1() / (2.0 * damping);

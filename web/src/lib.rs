@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use dalembert::quantity::restitution;
 use dalembert::{
-    Contact, Ending, Energy, Error, History, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
-    Units, Warning,
+    Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
+    TypedHistory, Units, Warning,
 };
 use dalembert_plot::{Canvas, Drawing, Drawn, Pose, Sizes};
 use wasm_bindgen::prelude::*;
@@ -59,7 +59,7 @@ fn optional<S: Scalar>(x: Option<&S>) -> String {
 #[wasm_bindgen]
 pub struct Run {
     scene: Scene,
-    history: History<f64>,
+    history: TypedHistory<f64>,
     sizes: Sizes,
 }
 
@@ -78,7 +78,7 @@ impl Run {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         });
-        match plan.solve(&scene.problem, observe) {
+        match plan.solve_typed(&scene.problem, observe) {
             Ok(Solution::Double(history)) => {
                 let sizes = Sizes::of(&history).map_err(failed)?;
                 Ok(Run { scene, history, sizes })

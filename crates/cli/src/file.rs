@@ -66,11 +66,8 @@ impl Format {
             return Err(failure!("found {path}, expected a file that ends in {endings}{or}"));
         };
         match format {
-            Format::Npz if !cfg!(feature = "npz") => {
-                Err(failure!("found NPZ in a build without the feature `npz`, expected another format"))
-            }
             Format::Png | Format::Pdf if !cfg!(feature = "raster") => {
-                Err(failure!("found {path} in a build without the feature `plot`, expected .svg"))
+                Err(failure!("found {path} in a build without the feature `raster`, expected .svg"))
             }
             format => Ok(format),
         }

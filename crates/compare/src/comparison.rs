@@ -15,7 +15,7 @@ use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Numbers, Observer, Plan, Question};
+use dalembert::solve::{Numbers, Observer, Plan, Question, TypedHistory};
 
 /// Data that cannot be compared, and why; the message says what was found and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -78,7 +78,7 @@ impl Options {
             (Some(to), _) => Some(to.to_f64()),
             (None, Run::Time(time)) => Some(time.to_f64()),
             (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
-                problem.solve().ok()?.contacts().last().and_then(|contact| contact.release)
+                problem.doubles().ok()?.contacts().last().and_then(|contact| contact.release)
             }
             (None, Run::Impacts(_)) => None,
         }
@@ -162,7 +162,7 @@ fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
         Run::Time(time) => Some(time.to_f64()),
         Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
-        Run::Impacts(_) => problem.solve().ok().map(|history| *history.end()),
+        Run::Impacts(_) => problem.doubles().ok().map(|history| *history.end()),
     }
 }
 
@@ -216,7 +216,7 @@ impl Prepared {
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
         let Prepared { problem, plan, data, until, options } = self;
-        let history = History::<f64>::solve(&problem, &plan, observer)?;
+        let history = TypedHistory::<f64>::solve(&problem, &plan, observer)?;
         let mut files = Vec::new();
         for (file, samples) in data {
             let ours = Ours::of(&history)?;

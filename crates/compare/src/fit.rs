@@ -9,7 +9,7 @@ use super::ours::Ours;
 use dalembert::Error;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::Quantity;
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FittedValue {
@@ -25,7 +25,7 @@ pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
-    pub(crate) history: History<f64>,
+    pub(crate) history: TypedHistory<f64>,
 }
 
 /// Why values cannot be fitted.

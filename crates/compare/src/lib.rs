@@ -1,8 +1,8 @@
 //! Other people's data held against a history: the same quantities at the same times, and what follows from them.
 //!
 //! ```
-//! use dalembert::compare::data::Source;
-//! use dalembert::compare::{Limit, Options, Prepared};
+//! use dalembert_compare::data::Source;
+//! use dalembert_compare::{Limit, Options, Prepared};
 //! use dalembert::quantity::UnitSystem;
 //! use dalembert::{Problem, Units, engine};
 //!
@@ -17,7 +17,7 @@
 //! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;
 //! let limits: Vec<Limit> = vec!["strain.linf=0.0101".parse()?, "strain.linf=0.0099".parse()?];
 //! let failed = found.outcomes(&limits)?.into_iter().filter(|outcome| outcome.failure.is_some());
-//! assert_eq!(failed.map(|outcome| outcome.expected).collect(), ["strain.linf ≤ 9.9e-3"]);
+//! assert_eq!(failed.map(|outcome| outcome.expected).collect::<Vec<_>>(), ["strain.linf ≤ 9.9e-3"]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -7,7 +7,7 @@ use dalembert::Error;
 use dalembert::Side;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 
 /// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
 /// integral does not see how far a front is spread about its time, and changes steadily with the values of the scene.
@@ -36,9 +36,9 @@ pub(super) struct Model<'a> {
     pub(super) step: f64,
 }
 
-pub(super) fn solved(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
+pub(super) fn solved(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
     // A rounding further, for times that are as many.
-    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.solve()
+    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.doubles()
 }
 
 /// `start + ∫ values dt` by the trapezoidal rule.

@@ -75,7 +75,7 @@ impl Grid {
     /// the limits at a jump, share what one would weigh.
     ///
     /// ```
-    /// use dalembert::compare::Grid;
+    /// use dalembert_compare::Grid;
     /// assert_eq!(Grid::new(vec![0.0, 1.0, 4.0], None).weights, [0.5, 2.0, 1.5]);
     /// let field = Grid::new(vec![0.0, 0.0, 1.0, 1.0], Some(vec![0.0, 3.0, 0.0, 3.0]));
     /// assert_eq!(field.weights, [0.75; 4]);
@@ -180,7 +180,7 @@ pub fn norms(
 /// The observed order of convergence `log(e₁/e₂)/log(h₁/h₂)` between two widths; `None` where it is not defined.
 ///
 /// ```
-/// assert_eq!(dalembert::compare::order((0.2, 0.04), (0.1, 0.01)), Some(2.0));
+/// assert_eq!(dalembert_compare::order((0.2, 0.04), (0.1, 0.01)), Some(2.0));
 /// ```
 pub fn order((coarse, error): (f64, f64), (fine, less): (f64, f64)) -> Option<f64> {
     let order = (error / less).log2() / (coarse / fine).log2();

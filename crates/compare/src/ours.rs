@@ -8,14 +8,14 @@ use dalembert::engine::{Motion, RayRegister};
 use dalembert::number::{Estimate, Number, Scalar};
 use dalembert::problem::{Material, Parameters};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 use dalembert::special::gauss_legendre;
 use dalembert::{Field, Side, StressPiece};
 
 /// A history with the times at which the end at the ground sees a ray.
 #[derive(Debug)]
 pub(super) struct Ours<'a> {
-    pub(super) history: &'a History<f64>,
+    pub(super) history: &'a TypedHistory<f64>,
     rod: Parameters<f64>,
     material: [f64; 3],
     pieces: Vec<StressPiece<f64>>,
@@ -35,7 +35,7 @@ impl<'a> Ours<'a> {
     /// The exact side of a history.
     ///
     /// **Source**: the register of rays. A time at which one is at the ground counts where the two limits differ.
-    pub(super) fn of(history: &'a History<f64>) -> Result<Self, Error> {
+    pub(super) fn of(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
         let material = match &problem.rod.material {

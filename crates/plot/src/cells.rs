@@ -7,7 +7,7 @@ use crate::draw::{Piece, clip};
 use dalembert::Error;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameters;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 use dalembert::{Field, Side};
 
 /// More rays than this are not drawn, and their jumps not looked up.
@@ -55,7 +55,7 @@ const FEW_COLUMNS: f64 = 8.0;
 /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and a
 /// cell is one polygon. Between those of a damped rod they are smooth, and a cell is cut into parts.
 pub fn of<S: Target>(
-    history: &History<S>,
+    history: &TypedHistory<S>,
     (along, factor): (Along, f64),
     strip: &Strip,
     breaks: Vec<Break>,
@@ -109,7 +109,7 @@ pub(super) fn settled<S: Scalar>(x: &S) -> f64 {
     if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
 }
 
-fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
+fn ask<S: Target>(history: &TypedHistory<S>, along: Along, strip: &Strip, points: &[DVec2]) -> Result<Vec<f64>, Error> {
     if !strip.is_damped() {
         let waves = history.waves()?.map(|x| x.to_f64());
         return Ok(points.iter().map(|point| along.part(waves.at(&point.y, &point.x))).collect());
@@ -128,7 +128,7 @@ fn ask<S: Target>(history: &History<S>, along: Along, strip: &Strip, points: &[D
 }
 
 /// Values at the middles of the grid, from the ground up, row by row.
-fn grid<S: Target>(history: &History<S>, along: Along, strip: &Strip) -> Result<Vec<f64>, Error> {
+fn grid<S: Target>(history: &TypedHistory<S>, along: Along, strip: &Strip) -> Result<Vec<f64>, Error> {
     let [across, up] = GRID;
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
     if !strip.is_damped() {

@@ -7,15 +7,16 @@ use crate::draw::{Canvas, Size, plain};
 use dalembert::Error;
 use dalembert::problem::{Parameters, Problem};
 use dalembert::quantity::Units;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 
 /// The pictures that tell a history, as SVG: the field along the rod with its rays and contacts, the stress at the
 /// ground, the motion, the energy.
 ///
 /// ```
-/// # use dalembert::{Problem, Units, plot::Drawing};
+/// # use dalembert::{Problem, Units};
+/// # use dalembert_plot::Drawing;
 /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let drawn = Drawing::default().draw(&rod.solve()?, &rod, Units::default())?;
+/// let drawn = Drawing::default().draw(&rod.doubles()?, &rod, Units::default())?;
 /// assert_eq!(drawn.svg.matches("class=\"panel\"").count(), 4);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
@@ -49,7 +50,7 @@ impl Drawing {
     /// **Accuracy**: that of the history, and a hundredth of a millimetre.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
-    pub fn draw<S: Target>(&self, history: &History<S>, problem: &Problem, units: Units) -> Result<Drawn, Error> {
+    pub fn draw<S: Target>(&self, history: &TypedHistory<S>, problem: &Problem, units: Units) -> Result<Drawn, Error> {
         let pictures = match self.canvas {
             Canvas::Page => &Picture::SHEET[..],
             Canvas::Screen { .. } => &[Picture::Along, Picture::Stress, Picture::Energy],
@@ -72,7 +73,7 @@ impl Drawing {
     /// The first and the last time that are drawn.
     ///
     /// **Errors**: as [`Drawing::draw`].
-    pub fn drawn_span<S: Target>(&self, history: &History<S>, problem: &Problem) -> Result<[f64; 2], Error> {
+    pub fn drawn_span<S: Target>(&self, history: &TypedHistory<S>, problem: &Problem) -> Result<[f64; 2], Error> {
         self.asked(&[]).span(history, Parameters::<f64>::of(problem, &())?.round_trip())
     }
 }

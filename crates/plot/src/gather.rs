@@ -10,7 +10,7 @@ use dalembert::number::Scalar;
 use dalembert::problem::{Parameters, Problem};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 use dalembert::{EventKind, Side, StressPiece};
 
 #[derive(Clone, Debug)]
@@ -105,7 +105,7 @@ impl Asked {
         name: String,
         problem: &Problem,
         units: Units,
-        history: &History<S>,
+        history: &TypedHistory<S>,
     ) -> Result<Gathered, Error> {
         let rod = Parameters::<f64>::of(problem, &())?;
         let end = known_until(history);
@@ -142,7 +142,7 @@ impl Asked {
     }
 
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
-    pub(super) fn span<S: Target>(&self, history: &History<S>, trip: f64) -> Result<[f64; 2], Error> {
+    pub(super) fn span<S: Target>(&self, history: &TypedHistory<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = known_until(history);
         let events: Vec<_> = history.events().iter().map(|event| (event.t.to_f64(), event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
@@ -164,7 +164,7 @@ impl Asked {
 
     fn gather_columns<S: Target>(
         &self,
-        history: &History<S>,
+        history: &TypedHistory<S>,
         strip: &Strip,
         breaks: &[Break],
     ) -> Result<Vec<(Quantity, Vec<Line>)>, Error> {
@@ -196,7 +196,7 @@ impl Asked {
 }
 
 /// Up to where values are settled: the end, or where the events are no longer told apart.
-fn known_until<S: Target>(history: &History<S>) -> f64 {
+fn known_until<S: Target>(history: &TypedHistory<S>) -> f64 {
     let open = history.warnings().into_iter().filter_map(|warning| match warning {
         Warning::EventsOverlap { from } | Warning::NotDetermined { from } => Some(from),
         _ => None,
@@ -205,7 +205,7 @@ fn known_until<S: Target>(history: &History<S>) -> f64 {
 }
 
 /// The rays of a history, by the time at which each leaves the ground: every ray that is in the rod during the span.
-fn breaks<S: Target>(history: &History<S>, strip: &Strip) -> Result<Vec<Break>, Error> {
+fn breaks<S: Target>(history: &TypedHistory<S>, strip: &Strip) -> Result<Vec<Break>, Error> {
     let Strip { span: [from, to], trip, .. } = *strip;
     let inside = |time: &f64| *time >= from - 1.001 * trip && *time <= to;
     let mut breaks: Vec<Break> = Vec::new();
@@ -291,7 +291,11 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, strip: &Strip, breaks: &[Break]) -> 
 }
 
 /// `v(x,t)` of points along the rod.
-fn world_lines<S: Target>(history: &History<S>, strip: &Strip, breaks: &[Break]) -> Result<Vec<(f64, Line)>, Error> {
+fn world_lines<S: Target>(
+    history: &TypedHistory<S>,
+    strip: &Strip,
+    breaks: &[Break],
+) -> Result<Vec<(f64, Line)>, Error> {
     let inner: Vec<f64> = (0..WORLD).map(|k| k as f64 / (WORLD - 1) as f64).collect();
     let found = history.ask(
         |motion| {

@@ -9,7 +9,7 @@ use dalembert::engine::Motion;
 use dalembert::number::Scalar;
 use dalembert::problem::{Problem, Top};
 use dalembert::quantity::flights;
-use dalembert::solve::{History, Target};
+use dalembert::solve::{Target, TypedHistory};
 
 /// Parts of the rod, each of one colour.
 const PARTS: usize = 120;
@@ -33,7 +33,7 @@ impl Sizes {
     /// Those of a history.
     ///
     /// **Errors**: those of the history.
-    pub fn of<S: Target>(history: &History<S>) -> Result<Self, Error> {
+    pub fn of<S: Target>(history: &TypedHistory<S>) -> Result<Self, Error> {
         let query = |motion: &dyn Motion<S::Carried>| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
@@ -80,7 +80,7 @@ impl Pose {
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a time that it does not reach.
     pub fn draw<S: Target>(
         &self,
-        history: &History<S>,
+        history: &TypedHistory<S>,
         problem: &Problem,
         sizes: &Sizes,
         time: f64,

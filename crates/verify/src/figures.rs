@@ -344,7 +344,7 @@ fn tenth(grid: &Grid) -> Result<Vec<Option<Double>>, Failed> {
             let contact = motion.contacts().get(9);
             contact.map(|contact| restitution(motion, contact.times())).transpose()
         };
-        let found = rod.solve().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
+        let found = rod.doubles().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
         found.ok()??.e_e2.ok()
     };
     (0..grid.len()).into_par_iter().map(|index| Ok(one(index))).collect::<Result<Vec<_>, _>>()

@@ -9,7 +9,7 @@ use dalembert::engine::{Motion, Scales};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Missing, Needs, One, Quantity, Units};
-use dalembert::solve::{History, Plan, Solution, Target};
+use dalembert::solve::{Plan, Solution, Target, TypedHistory};
 
 /// What is made of an answer: claims of the paper that are no quantities of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,7 +101,7 @@ impl Question {
         }
     }
 
-    fn ask_history<S: Target<Carried: System>>(&self, history: &History<S>) -> Result<Value, NoAnswer> {
+    fn ask_history<S: Target<Carried: System>>(&self, history: &TypedHistory<S>) -> Result<Value, NoAnswer> {
         history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 

@@ -14,7 +14,7 @@ use dalembert::number::{Estimate, Rational, Scalar};
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{One, Quantity};
 pub use dalembert::solve::Numbers;
-use dalembert::solve::{self, History, Plan};
+use dalembert::solve::{self, Plan, TypedHistory};
 
 #[derive(Clone, Copy, Debug)]
 pub enum Route {
@@ -87,7 +87,7 @@ fn planned(question: &Question, numbers: Numbers) -> Result<Value, NoAnswer> {
     let plan = plan(question, numbers)?;
     match numbers {
         Numbers::Double(_) => question.ask_plan(&plan),
-        _ => question.ask_solution(&plan.solve(&question.problem, solve::unobserved())?),
+        _ => question.ask_solution(&plan.solve_typed(&question.problem, solve::unobserved())?),
     }
 }
 
@@ -116,7 +116,7 @@ pub fn within_first_contact(question: &Question) -> Result<(), String> {
 
 /// The whole run of `problem` in doubles as its plan does it, with the energy at its end if that is asked for.
 pub fn run_planned(problem: &Problem, numbers: Numbers, energies: bool) -> Result<f64, NoAnswer> {
-    let history: History<f64> = problem.answer(&solve::Question::run(numbers))?;
+    let history: TypedHistory<f64> = problem.answer(&solve::Question::run(numbers))?;
     Ok(if energies { history.energy(*history.end())?.total } else { *history.end() })
 }
 

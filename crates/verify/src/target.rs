@@ -5,7 +5,7 @@ use dalembert::engine::Motion;
 use dalembert::number::{Estimate, Scalar};
 use dalembert::quantity::{Units, columns, of_contact};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Numbers, Question};
+use dalembert::solve::{Numbers, Question, TypedHistory};
 use dalembert::{Scene, Target, builtin};
 
 type Double = Estimate<f64>;
@@ -23,7 +23,7 @@ impl Published {
     /// What `scene` lists, beside its history in doubles to its accuracy.
     pub fn of(called: &str, scene: &Scene) -> Result<Self, Error> {
         let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
-        let history: History<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
+        let history: TypedHistory<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
         let reached = |motion: &dyn Motion<Double>| {
             scene.targets.iter().map(|target| Reached::of(target, motion, &units)).collect()
         };

@@ -5,7 +5,7 @@ use dalembert::number::Scalar;
 use dalembert::quantity::{Needs, Slice, Table, slices};
 use dalembert::solve::Target;
 use dalembert::{
-    Ending, Error, Estimate, EventKind, Float, History, Interval, Number, Quantity, Rational, Side, Warning,
+    Ending, Error, Estimate, EventKind, Float, Interval, Number, Quantity, Rational, Side, TypedHistory, Warning,
 };
 
 /// Bits in which numbers are compared.
@@ -114,7 +114,7 @@ pub(super) struct Account {
 
 impl Account {
     pub(super) fn of<S: Reads>(
-        history: &History<S>,
+        history: &TypedHistory<S>,
         times: &[Number],
         points: &[Number],
     ) -> Result<Self, (String, Error)> {

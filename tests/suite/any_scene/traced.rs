@@ -1,6 +1,6 @@
 //! An undamped rod traced back along its characteristics.
 
-use dalembert::{EventKind, History, Number, Problem, Rational, Side, Start, Top};
+use dalembert::{EventKind, Number, Problem, Rational, Side, Start, Top, TypedHistory};
 
 /// The characteristics of an undamped rod, from its start and the times of its events.
 pub(super) struct Traced<'a> {
@@ -14,7 +14,7 @@ pub(super) struct Traced<'a> {
 }
 
 impl<'a> Traced<'a> {
-    pub(super) fn of(problem: &'a Problem, history: &History<Rational>) -> Self {
+    pub(super) fn of(problem: &'a Problem, history: &TypedHistory<Rational>) -> Self {
         let scales = history.scales();
         Traced {
             length: problem.rod.length.to_rational(),

@@ -16,7 +16,7 @@ use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
 use dalembert::quantity::{Needs, Quantity};
-use dalembert::solve::{History, Numbers, Question, Target};
+use dalembert::solve::{Numbers, Question, Target, TypedHistory};
 use dalembert_plot::draw::Size;
 use dalembert_plot::{Along, Asked, Gathered, Picture, heading, sheet};
 
@@ -168,7 +168,12 @@ struct Gather<'a> {
 }
 
 impl Visit for Gather<'_> {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
         let found = self.asked.gather(self.name.into(), &self.scene.problem, head.units.clone(), history)?;
         drop(progress);
         warned(Head { warnings: history.warnings(), ..head }, false);

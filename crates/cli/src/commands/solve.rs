@@ -17,7 +17,7 @@ use dalembert::engine::Motion;
 use dalembert::number::{Number, Scalar};
 use dalembert::problem::{Parameter, Run};
 use dalembert::quantity::Table;
-use dalembert::solve::{History, Question, Target};
+use dalembert::solve::{Question, Target, TypedHistory};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
@@ -115,7 +115,12 @@ impl Solve {
 }
 
 impl Visit for Solve {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
         let head = Head { wide: self.output.wide, ..head };
         let mut record = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {

@@ -81,7 +81,7 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
     let history = dalembert::Scene::parse(dalembert::builtin::get("figure-4-r02").unwrap().source)
         .unwrap()
         .problem
-        .solve()
+        .doubles()
         .unwrap();
     let (said, lines) = stress("figure-4-r02", &[]);
     assert!(said.contains("within 1e-6 of the greatest v_x(0,t); the coefficients"), "{said}");

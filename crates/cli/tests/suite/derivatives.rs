@@ -7,7 +7,9 @@ use crate::command::{json, quiet};
 use crate::common::{compares, uniform};
 use dalembert::rug::{Float, Rational};
 use dalembert::solve::NoDerivative;
-use dalembert::{Derivative, Error, Estimate, History, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top};
+use dalembert::{
+    Derivative, Error, Estimate, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top, TypedHistory,
+};
 use proptest::prelude::*;
 
 use Quantity::{EventCentre, EventCentreVelocity, EventTime, EventVelocity};
@@ -27,7 +29,7 @@ fn by_name(name: &str) -> Parameter {
 }
 
 /// The derivatives of one quantity in doubles, which are the same from both sides.
-fn doubles(history: &History<f64>, by: &str, quantity: Quantity) -> Vec<Estimate<f64>> {
+fn doubles(history: &TypedHistory<f64>, by: &str, quantity: Quantity) -> Vec<Estimate<f64>> {
     let found = history.derivatives(by_name(by), &[quantity]).unwrap();
     found.iter().map(|row| row[0].as_ref().unwrap().value().unwrap().clone()).collect()
 }
@@ -52,7 +54,7 @@ fn the_second_landing() {
     // μ₀ = g t₁, so that ∂t₂/∂μ is that of t₂/t₁ by M over g = 10.
     let [left, right] = ["3/5", "3/25"].map(rational);
     assert_eq!(exact[2][0], Some(Derivative::Sides { left: Ok(left), right: Ok(right) }));
-    let found = doyen.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = doyen.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let [left, right] = found[2][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     meets(&left, 0.6);
     meets(&right, 0.12);
@@ -61,7 +63,7 @@ fn the_second_landing() {
     assert_eq!(exact[1][0], Some(Derivative::One(Rational::new())));
     for (n, m) in [(2.0, "1.1"), (2.0, "1.3"), (3.0, "1.7"), (3.0, "1.9")] {
         let rod = uniform("1", "2", "1", m, Run::Impacts(2));
-        let found = doubles(&rod.solve().unwrap(), "speed", EventTime);
+        let found = doubles(&rod.doubles().unwrap(), "speed", EventTime);
         meets(&found[2], slope(n, number(m).to_f64()));
     }
 }
@@ -74,7 +76,7 @@ fn a_weak_first_contact() {
     for (by, expected) in [("speed", "-1/5"), ("gravity", "7/25"), ("length", "2"), ("wave_speed", "-3")] {
         let found = exact.derivatives(by_name(by), &[EventTime]).unwrap();
         assert_eq!(found[1][0], Some(Derivative::One(rational(expected))), "{by}");
-        meets(&doubles(&rod.solve().unwrap(), by, EventTime)[1], rational(expected).to_f64());
+        meets(&doubles(&rod.doubles().unwrap(), by, EventTime)[1], rational(expected).to_f64());
     }
 }
 
@@ -221,7 +223,8 @@ fn exact_against_quotients(cases: u32, least: [u32; 3]) {
     let quantities = [&EVENT[..], &[Quantity::ContactImpulse, Quantity::PeakStrain, Quantity::MomentumRestitution]];
     let exactly = |found: &f64| Rational::from_f64(*found).unwrap();
     compares(cases, least, undamped(), |problem| {
-        let (exact, doubles, long) = (problem.exact().unwrap(), problem.solve().unwrap(), problem.digits(12).unwrap());
+        let (exact, doubles, long) =
+            (problem.exact().unwrap(), problem.doubles().unwrap(), problem.digits(12).unwrap());
         let (mut smooth, mut kinks, mut open, mut in_doubles) = (0, 0, 0, 0);
         for (by, _) in given(&problem) {
             for quantities in quantities {
@@ -292,7 +295,7 @@ fn what_has_no_derivative_is_refused() {
     let expected = "found the derivative by modulus asked for, expected a material: modulus and density";
     refused(exact.derivatives(Parameter::Modulus, &[EventTime]), expected);
     let expected = "found the derivative by gap asked for, expected a start above the ground";
-    refused(rod.solve().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
+    refused(rod.doubles().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
     let expected = "found the derivative by speed asked for, expected digits that need not be proved";
     refused(rod.certified(20).unwrap().derivatives(Parameter::Speed, &[EventTime]), expected);
 }
@@ -318,7 +321,7 @@ fn a_damped_bounce_between_rays() {
     for (mu, g) in [("1.6", "1"), ("2", "1"), ("2.4", "1"), ("1", "0.5")] {
         let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
         rod.rod.damping = Some(number("0.25"));
-        let history = rod.solve().unwrap();
+        let history = rod.doubles().unwrap();
         let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].t);
         assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
         let u = (t * t - t1 * t1).sqrt();
@@ -349,7 +352,7 @@ fn restitution_by_damping() {
     for r in ["0", "0.05", "0.1", "0.3"] {
         let mut rod = uniform("1", "1", "0", "1", Run::Impacts(1));
         rod.rod.damping = Some(number(r)).filter(|r| !r.is_zero());
-        let found = &doubles(&rod.solve().unwrap(), "damping", Quantity::MomentumRestitution)[0];
+        let found = &doubles(&rod.doubles().unwrap(), "damping", Quantity::MomentumRestitution)[0];
         // R = r t₁, t₁ = 2.
         let expected = 2.0 * slope(2.0 * number(r).to_f64());
         let off = (found.value() - expected).abs();
@@ -400,7 +403,7 @@ fn doubles_against_long_numbers(cases: u32, least: [u32; 1], impacts: std::ops::
         let mut given = given(&problem);
         given.push((Parameter::Damping, problem.rod.damping.as_ref().unwrap().to_rational()));
         let (by, value) = given[which % given.len()].clone();
-        let found = problem.solve().unwrap().derivatives(by, &EVENT).unwrap();
+        let found = problem.doubles().unwrap().derivatives(by, &EVENT).unwrap();
         let step = rational("1e-14");
         let runs = [-1, 0, 1].map(|side| {
             let run = times(&problem, by, &(Rational::from(1) + step.clone() * side)).digits(40).unwrap();
@@ -453,7 +456,7 @@ fn doubles_against_quotients_of_long_numbers_at_length() {
 /// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
 fn euler_identities_damped(cases: u32, least: [u32; 1]) {
     compares(cases, least, damped(1..=1), |problem| {
-        let history = problem.solve().unwrap();
+        let history = problem.doubles().unwrap();
         let mut given = given(&problem);
         given.extend(problem.rod.damping.as_ref().map(|damping| (Parameter::Damping, damping.to_rational())));
         let table: Vec<_> = given
@@ -505,7 +508,7 @@ fn thresholds() {
     assert_eq!(found[1][0], Some(sides(-1, 0)));
     // μ = 1 lands without speed at t = 31: of neighbours one lands with a root of the distance, and one does not.
     let rod = uniform("1", "1", "1", "1", Run::Time(number("35")));
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let found = history.derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let touch = history.events().iter().position(|event| (event.t - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
@@ -528,7 +531,7 @@ fn thresholds() {
     let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
     let mut rod = uniform("1", "1", "1", &threshold.to_string_radix(10, Some(90)), Run::Impacts(1));
     rod.rod.damping = Some(number("0.2"));
-    let found = rod.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = rod.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     for (found, expected) in [(left, slope), (right, 0.0)] {
         let off = (found.value() - expected).abs();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use dalembert::rug::Rational;
-use dalembert::{History, Problem, Side};
+use dalembert::{Problem, Side, TypedHistory};
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
@@ -111,7 +111,7 @@ fn answers(name: &str, parts: &[String]) {
 }
 
 /// `c = L = g = 1` in fractions, with enough impacts for every question here.
-fn unit(speed: &str, impacts: u32) -> History<Rational> {
+fn unit(speed: &str, impacts: u32) -> TypedHistory<Rational> {
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed);
     rod.impacts(impacts).build().unwrap().exact().unwrap()
 }
@@ -174,7 +174,7 @@ fn links_lead_to_files() {
 fn chapter_1() {
     holds("01-fall.md");
     let rod = Problem::builder().length("0.5").material("210e9", 7850, "1e-4").gravity("9.81");
-    let history = rod.drop_height(1).build().unwrap().solve().unwrap();
+    let history = rod.drop_height(1).build().unwrap().doubles().unwrap();
     let (contact, wave_speed) = (&history.contacts()[0], (210e9f64 / 7850.0).sqrt());
     let strain = history.strain(0.0, Side::Right).unwrap();
     let force = -contact.peak_strain * 210e9 * 1e-4;
@@ -244,7 +244,7 @@ fn chapter_5() {
 fn chapter_6() {
     holds("06-damping.md");
     let rod = Problem::builder().length(1).wave_speed(1).damping("1/2").impact_speed(1).build().unwrap();
-    let found = rod.solve().unwrap().restitution(0).unwrap();
+    let found = rod.doubles().unwrap().restitution(0).unwrap();
     let [momentum, energy] = [found.e_p, found.e_e2].map(Result::unwrap);
     let parts = [format!("= {momentum:.6}, against"), format!("= {:.6}:", (-1f64).exp()), format!("is {energy:.6},")];
     answers("06-damping.md", &parts);
@@ -255,7 +255,7 @@ fn chapter_7() {
     holds("07-never.md");
     let bounce = |damping: &str| {
         let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
-        rod.solve().unwrap().contacts()[0].release.unwrap()
+        rod.doubles().unwrap().contacts()[0].release.unwrap()
     };
     let swing = |r: f64| (std::f64::consts::PI.powi(2) - r * r).sqrt();
     let half = |r: f64| std::f64::consts::PI / swing(r);
@@ -273,7 +273,7 @@ fn chapter_7() {
 fn chapter_8() {
     holds("08-accuracy.md");
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed("0.999999999999").time(32);
-    let history = rod.build().unwrap().solve().unwrap();
+    let history = rod.build().unwrap().doubles().unwrap();
     answers("08-accuracy.md", &[format!("to {:.6}.", history.events().last().unwrap().t)]);
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 
 use dalembert::quantity::Table;
 #[cfg(feature = "mp")]
-use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
+use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
 
 use crate::command::{quiet, refused, run};
 use crate::common::close;
@@ -191,7 +191,7 @@ fn what_is_open_is_not_drawn() {
 }
 
 /// The number after a name in a PDF's text.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
     let rest = pdf.split(name).nth(1).unwrap();
     let numbers = rest.split([' ', '[', ']', '/', '\n']).filter(|word| !word.is_empty());
@@ -200,7 +200,7 @@ fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
 
 /// The parts of a PDF are where its table says, it is one page of the size of the SVG, and its texts are texts in the
 /// embedded font. The same picture has the same bytes.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 #[test]
 fn a_pdf_is_one_page_with_texts() {
     let folder = tempfile::tempdir().unwrap();
@@ -237,7 +237,7 @@ fn a_pdf_is_one_page_with_texts() {
 }
 
 /// Letters that the embedded font does not have are named.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 #[test]
 fn letters_without_a_sign_are_said() {
     let folder = tempfile::tempdir().unwrap();
@@ -320,10 +320,10 @@ fn figures_5_to_7_agree_with_cells_from_data() {
 }
 
 #[cfg(feature = "mp")]
-fn cells(rod: &Problem) -> History<f64> {
+fn cells(rod: &Problem) -> TypedHistory<f64> {
     let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
     assert_eq!(plan.engine, dalembert::Engine::Cells);
-    match plan.solve(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
+    match plan.solve_typed(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }
@@ -367,7 +367,7 @@ fn figures_1_to_4_hold_what_the_theory_says() {
     // All files, and an index that names them.
     let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
     for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
-        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "plot").then_some(".png")) {
+        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "raster").then_some(".png")) {
             let file = format!("{name}{ending}");
             assert!(index.contains(&file) && folder.path().join(&file).is_file(), "{file}");
         }

@@ -19,7 +19,7 @@ use dalembert::problem::Parameters;
 ///
 /// ```
 /// # use dalembert::Parameters;
-/// # use dalembert::paper::Printed;
+/// # use dalembert_verify::paper::Printed;
 /// // r = 0: the stress in the first round trip is −(μ + gt)/c.
 /// let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
 /// assert!((Printed::new(&rod, 1e-10).strain(1.0) + 4.0).abs() < 1e-14);

@@ -20,7 +20,7 @@ use dalembert::problem::Parameters;
 ///
 /// ```
 /// # use dalembert::{Number, Parameters, Problem};
-/// # use dalembert::paper::UndampedContact;
+/// # use dalembert_verify::paper::UndampedContact;
 /// // L = c = g = 1: μ₀ = 2, so μ = 1 stays on the ground for 2t₁ − μ/g = 3.
 /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(1));
 /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
@@ -201,7 +201,7 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
     ///
     /// ```
     /// # use dalembert::{Number, Parameters, Problem};
-    /// # use dalembert::paper::UndampedContact;
+    /// # use dalembert_verify::paper::UndampedContact;
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(4));
     /// let rod = UndampedContact::new(&Parameters::<f64>::of(&problem, &())?).unwrap();
     /// assert_eq!(rod.highest(), Some((6.0, 8.0 - 2.0 / 3.0)));

@@ -1,17 +1,17 @@
 //! Derivatives of the numbers of a history by a value of its problem.
 
 use super::derivative::{Asked, At, Derivatives};
-use super::history::History;
 use super::ladder::Target;
 use super::plan::Plan;
 use super::question::Question;
+use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Number;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
 
-impl<S: Target> History<S> {
+impl<S: Target> TypedHistory<S> {
     /// The derivatives of `quantities` of one kind by a value of the problem, for each event, contact or flight; with a
     /// material in its units. All other values stay as they are: a derivative by the wave speed is one at the same
     /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
@@ -51,7 +51,7 @@ impl<S: Target> History<S> {
     /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it,
     /// and one at the upper end by the length on the side of longer rods.
     ///
-    /// **Accuracy**, **Errors**: those of [`History::derivatives`] and [`History::columns`].
+    /// **Accuracy**, **Errors**: those of [`TypedHistory::derivatives`] and [`TypedHistory::columns`].
     ///
     /// ```
     /// use dalembert::{Parameter, Problem, Quantity, Side};
