@@ -21,7 +21,7 @@ use dalembert::{Ending, Side};
     after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \
     dalembert sample doyen-ern-piperno --quantity end,energy --times 0..16/3:9 --exact\n  \
     dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
-    dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives speed,damping"
+    dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives impact_speed,damping"
 )]
 pub(crate) struct Sample {
     /// A scene file, `-`, or a built-in scene. It is followed as far as the last time, whatever its own run says

@@ -89,7 +89,7 @@ impl Sweep {
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
-        let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
+        let vary = |axis: &Axis| json!({"path": axis.parameter.path(), "values": axis.values});
         // All that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),

@@ -257,7 +257,7 @@ peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
 e_P            −P(release)/P(impact), P = ρSL h′; below zero if h falls then
-e_E²           E_h(release)/E_h(impact): above 1 if the vibration gives energy back
+e_E²           E_h(release)/E_h(impact): above 1 if vibration gives it back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
 per ρS         divided by the linear density, known with a material only

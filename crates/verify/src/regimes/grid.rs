@@ -1,7 +1,8 @@
 //! Which values of a scene are varied, and the problem of each point.
 
+use dalembert::UnknownName;
 use dalembert::number::{List, Number};
-use dalembert::problem::{Builder, Problem, ProblemError, Written};
+use dalembert::problem::{Parameter, Problem, ProblemError, Written};
 
 const MOST_POINTS: usize = 10_000_000;
 
@@ -15,10 +16,10 @@ impl SweepError {
     }
 }
 
-/// One value that is varied: its path in a scene file, and what it takes in turn.
+/// One parameter that is varied, and its values in turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub path: &'static str,
+    pub parameter: Parameter,
     pub values: Vec<Number>,
 }
 
@@ -31,13 +32,15 @@ impl std::str::FromStr for Axis {
         let (path, list) = text
             .split_once('=')
             .ok_or_else(|| SweepError::new(found(text), "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log"))?;
-        let paths = Builder::NUMBERS.iter().map(|(_, path)| *path);
-        let known = paths.clone().find(|known| *known == path.trim());
-        let path = known.ok_or_else(|| {
-            let expected = format!("a number of a scene: {}", paths.collect::<Vec<_>>().join(", "));
-            SweepError::new(format!("the path `{}`", path.trim()), expected)
-        })?;
-        Ok(Axis { path, values: values(list)? })
+        let parameter: Parameter = path.parse().map_err(|error: UnknownName| SweepError(error.to_string()))?;
+        if !parameter.is_number() {
+            let known = Parameter::numbers().map(Parameter::path).collect::<Vec<_>>().join(", ");
+            return Err(SweepError::new(
+                format!("the parameter `{parameter}`"),
+                format!("a number of a scene: {known}"),
+            ));
+        }
+        Ok(Axis { parameter, values: values(list)? })
     }
 }
 
@@ -68,8 +71,8 @@ impl Grid {
     /// too many points.
     pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, SweepError> {
         for (k, axis) in axes.iter().enumerate() {
-            if axes[..k].iter().any(|other| other.path == axis.path) {
-                return Err(SweepError::new(format!("{} varied twice", axis.path), "each value once"));
+            if axes[..k].iter().any(|other| other.parameter == axis.parameter) {
+                return Err(SweepError::new(format!("{} varied twice", axis.parameter.path()), "each value once"));
             }
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
@@ -98,7 +101,9 @@ impl Grid {
 
     pub fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
         let values = self.axes.iter().zip(self.values(index));
-        values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()
+        values
+            .fold(self.problem.to_builder().from_scene(), |builder, (axis, value)| builder.set(axis.parameter, value))
+            .build()
     }
 }
 

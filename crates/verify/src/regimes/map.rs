@@ -11,7 +11,7 @@ use dalembert::Ending;
 use dalembert::engine::Motion;
 use dalembert::engine::{Bounce, FirstContact, Kernels};
 use dalembert::number::{Analytic, Estimate, Number, Scalar};
-use dalembert::problem::{Parameters, Problem, Speed, Start};
+use dalembert::problem::{Parameter, Parameters, Problem, Speed, Start};
 use dalembert::solve::{Engine, Numbers, Plan, Question, Rung};
 use dalembert::special::{i0_scaled, i1_scaled};
 use dalembert::{number::short, problem::Written};
@@ -55,8 +55,9 @@ impl Map {
     /// r` and `M = μ`. It is the same for any number of threads; `done` is called after each point.
     pub fn new(damping: &str, speed: &str, done: &(dyn Fn() + Sync)) -> Result<Self, SweepError> {
         let rod = unit_rod();
-        let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
-        let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
+        let axis = |parameter, text| Ok::<_, SweepError>(Axis { parameter, values: values(text)? });
+        let grid =
+            Grid::new(rod.clone(), vec![axis(Parameter::ImpactSpeed, speed)?, axis(Parameter::Damping, damping)?])?;
         // Before any point is solved.
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
