@@ -79,7 +79,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
             ahead.fly(self.medium, self.flights, piece.flight);
             let now = piece.flight.and_then(|k| self.flights.get(k));
             if piece.leap > 0 {
-                // At most two round trips of a leap are marched.
+                // The march covers at most two round trips of a leap.
                 let skipped = (from.clone() - &piece.from).floor_int().unwrap_or(0).clamp(0, piece.leap);
                 let end = ahead.state.round + piece.leap;
                 let fraction = ahead.state.segments[0].at.clone();

@@ -93,8 +93,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// - Hanging from a fixed top, `v_s′(0) > 0`, in flight: `B` and `B/2` from the top, less than the height of the
     ///   end.
     /// - Neither, `v_s′(0) = 0`: then `v_s` solves both contact and flight, and `B` holds after every event. Under a
-    ///   fixed top displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from a
-    ///   height of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most
+    ///   fixed top displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from
+    ///   a height of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most
     ///   `B/2r`; the end is at most `B/4` from it, and neither moves faster than `B`, whatever events follow.
     fn left(&self, time: f64) -> Option<(f64, f64)> {
         let Medium { slope, kappa, free_top, .. } = self.medium;
