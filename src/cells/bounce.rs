@@ -27,8 +27,7 @@ pub(super) struct Held<S> {
 }
 
 impl<S: RoundedSpecial> Held<S> {
-    /// Builds the motion up to `release`, in the units of the problem. A release within rounding of a lattice time is
-    /// moved to it.
+    /// Builds the motion up to `release`, in the units of the problem; rounds a release near a lattice time to it.
     pub(super) fn until(contact: &FirstContact<Estimate<S>>, data: &Data<S>, release: &S) -> Self {
         let trips = release.clone() / &data.units.time;
         let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
@@ -56,8 +55,7 @@ impl<S: RoundedSpecial> Held<S> {
         (velocity.clone() - &z_x, velocity + z_x, error)
     }
 
-    /// Returns the parts of `from ≤ x ≤ to` at time `t` between rays of the first contact that are longer than a
-    /// rounding.
+    /// Returns the parts of `from ≤ x ≤ to` at time `t` between rays of the first contact, if longer than a rounding.
     pub(super) fn between_rays(&self, t: &S, from: &S, to: &S) -> Vec<(S, S)> {
         if to <= from {
             return Vec::new();
@@ -118,8 +116,7 @@ impl<S: RoundedSpecial> Held<S> {
 
     /// Computes that state from the closed form.
     ///
-    /// Between the rays `q` has the form that the module `cell` proves to persist, so the medium's number of terms
-    /// suffices.
+    /// Between the rays `q` keeps the form given in the module `cell`, so the medium's number of terms suffices.
     fn closed(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
         let release = &self.release;
         let round = release.floor_int().unwrap_or(0);

@@ -46,8 +46,7 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn with_bounds(mut self) -> Result<Self, Error> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
             let Bounds { centre, end, rate, late, .. } = self.at_event(k);
-            // A proof shows two values to be exactly zero: the height on the ground, and the velocity at a release
-            // without a jump of the stress.
+            // A zero is proved where the rod lies on the ground, and where it leaves without a jump of the stress.
             let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
             let (moves, push) = (event.h_rate.to_f64().abs(), self.push(event.t.value(), late)?);
             Ok(Event {
@@ -110,8 +109,7 @@ impl<S: RoundedSpecial> Damped<S> {
         if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
     }
 
-    /// Returns the bounds near a time; at the time of an event that carries the bound of the event, those of the event
-    /// itself.
+    /// Returns the bounds near a time, or those of an event at its time if that carries the bound of the event.
     fn near(&self, time: &Estimate<S>) -> Bounds {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
@@ -150,7 +148,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
         let apart = self.apart(time);
-        // The bounds of an event itself include this.
+        // An event has bounds of its own.
         if apart == 0.0 || self.event_at(time).is_some() {
             return [0.0; 2];
         }
@@ -189,8 +187,7 @@ impl<S: RoundedSpecial> Damped<S> {
         Bounds { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
     }
 
-    /// Returns whether the rod still moves as a whole, before it touches the ground; a fixed top stops it from the
-    /// start on.
+    /// Returns whether the rod still moves as a whole, before it touches; a fixed top stops it from the start on.
     fn is_rigid(&self, time: &Estimate<S>) -> bool {
         let touches = self.course.events.first();
         let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.t.to_f64() - event.t_error;

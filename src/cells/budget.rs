@@ -108,8 +108,7 @@ const FADES: f64 = 0.74;
 const MOST_BENT: f64 = 0.01;
 
 /// Bounds the difference of `w′` and `−κe^{−κs} − κ`, where `∫₀¹ y dt = ∫₀¹ w(s) q(s) ds` over a contact of one round
-/// trip: every factor of [`weight_slope`] except κ itself bounds a quantity that lies between the factor and its
-/// reciprocal.
+/// trip: every factor of [`weight_slope`] except κ itself bounds a quantity between it and its reciprocal.
 pub(super) fn weight_rest(kappa: f64) -> f64 {
     weight_slope(kappa) - 2.0 * kappa
 }
@@ -126,8 +125,7 @@ impl Fixed {
     }
 
     /// Adds the error that `trips` round trips scatter from the masses of displaced rays: a path crosses each ray twice
-    /// in one round trip, at the cost of a part κ of its mass each time, and at most `e^R` of the mass is scattered in
-    /// all.
+    /// in one round trip, at the cost of a part κ of its mass each time, and at most `e^R` of it in all.
     fn turn(&mut self, damping: f64, trips: f64) {
         self.scatter = (self.scatter + damping * trips * self.mass).min(damping.exp() * self.mass);
     }
@@ -171,8 +169,7 @@ impl Budget {
         apart.map_or(fixed, |apart| apart.min(fixed))
     }
 
-    /// Adds an error that covers both outcomes of an undecided event: they differ by at most `differ` in `p` and `q`
-    /// from now on.
+    /// Adds an error that covers both outcomes of an undecided event, which differ by at most `differ` from now on.
     pub(super) fn cover(&mut self, differ: f64) {
         self.add(differ);
         self.covered += differ;
@@ -254,8 +251,7 @@ impl Budget {
         Off { fixed: self.fixed.height + self.fixed.points() * len, apart }
     }
 
-    /// Computes that error by the clock of the vibration: a linear function of the sources, and a bound of the
-    /// remainder.
+    /// Computes that error by the clock of the vibration: a linear function of the sources, and a remainder.
     fn flown(&self, (age, rate, at): (f64, f64, f64), near: f64) -> (Form, f64) {
         let (_, slowed) = aged(self.damping, age);
         let TakeOff { at: from, end_rate, .. } = self.flight;
@@ -434,8 +430,8 @@ impl Budget {
     }
 
     /// Follows the errors through a contact of one round trip, which the true motion makes as well: without damping and
-    /// gravity it changes the sign of the vibration whenever it begins. Returns the part of the new `δh′` without a
-    /// known sign.
+    /// gravity it changes the sign of the vibration whenever it begins. Returns the part of the new `δh′` of unknown
+    /// sign.
     fn after_round_trip(&mut self, landing: &Landing, flight: &TakeOff) -> f64 {
         let r = self.damping;
         let kappa = 0.5 * r;

@@ -26,8 +26,7 @@
 //! If moreover `|P̂(s)| ≤ (a + b|s|) e^{κ|s|}` for complex `s` on an incoming side, and `|q| ≤ a`, then the outgoing
 //! side obeys the same bound with the same `a`, `b`: by the majorant, and because data `b ξ e^{κξ}` alone give at most
 //! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the initial data
-//! have that form, so one number of Chebyshev terms, from [`super::series::terms_for`], suffices for a side at all
-//! times.
+//! have that form, so one number of Chebyshev terms, from [`super::series::terms_for`], suffices for a side for ever.
 
 use std::sync::LazyLock;
 
@@ -110,7 +109,8 @@ pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
     }
 }
 
-/// Computes `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides.
+/// Computes `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in
+/// `terms_kept` terms.
 pub(super) fn diagonal<S: Rounded>(
     basis: &Basis<S>,
     q: &[S],

@@ -126,8 +126,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(self.march.as_ref().filter(|_| self.bounce().is_some_and(|bounce| time > bounce)))
     }
 
-    /// Returns the solution valid at a time, and the time to query it at: the closed form takes the stored time as
-    /// exact.
+    /// Returns the solution valid at a time, and the time to query: the closed form takes the stored time as exact.
     fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {

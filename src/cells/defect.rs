@@ -79,8 +79,8 @@ fn values(c: &[f64]) -> f64 {
     c.iter().enumerate().map(|(j, c)| (38.0 * (j * j) as f64 + 1.0) * c).sum()
 }
 
-/// Bounds the coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, each at most half
-/// of the one before.
+/// Bounds the sum of the coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, each at
+/// most half of the one before.
 fn exponential_rest(z: f64, n: usize) -> f64 {
     let mut term = 4.0 * z.abs().exp();
     for k in 1..=n {
@@ -109,8 +109,7 @@ impl Steps {
         2.0 * self.size * (self.size + 64.0 + roundings) * self.unit * most
     }
 
-    /// Bounds the error of a series through the values of another on part of its interval: a value is off by
-    /// [`values`].
+    /// Bounds the error of a series through values of another on part of its interval, each off by [`values`].
     fn anew(&self, c: &[f64]) -> f64 {
         let size: f64 = c.iter().sum();
         2.0 * self.size * self.unit * values(c) + self.through(size, 0.0)
@@ -127,8 +126,8 @@ impl Steps {
         let (mut p, mut q) = (sizes(cell.p), sizes(cell.q));
         let (of_p, of_q): (f64, f64) = (p.iter().sum(), q.iter().sum());
         let (short_p, short_q) = (p.len(), q.len());
-        // The missing part of J^{k+1} enters with yᵏ/k! or less; so does its value at the end, at most 1/(k+1)! of the
-        // data.
+        // The missing part of J^{k+1}, and its value at the end, at most 1/(k+1)! of the data, enter with yᵏ/k! or
+        // less.
         let (mut left, mut factor, mut whole) = (self.accuracy() * (of_p + of_q), 1.0, 1.0);
         for k in 0..=count {
             left += 2.0 * E * factor * (integrate(&mut p) + integrate(&mut q));
@@ -217,8 +216,7 @@ impl Steps {
         first * fall.exp() * (self.accuracy() + beyond + 16.0 * (self.size + 16.0).powi(2) * self.unit) + FLOOR
     }
 
-    /// Bounds the error of `h′` or `z(0)` as weighted means of `q`, which may contain functions of x of the size
-    /// `shifts`.
+    /// Bounds the error of `h′` or `z(0)` as weighted means of `q`, which may contain functions of size `shifts`.
     pub(super) fn weighed<S: RoundedSpecial>(&self, state: &State<S>, shifts: f64) -> f64 {
         let n = self.size as usize;
         let rest = |n: usize| self.weights[n];
@@ -269,8 +267,7 @@ impl Steps {
         64.0 * turn * (4.0 * self.kappa + lag * (1.0 + trips)).exp()
     }
 
-    /// Bounds the defect of a leap from a state of this size; `stray` bounds the `h′` left in it and the error of the
-    /// height.
+    /// Bounds the defect of a leap from a state of this size; `stray` bounds its remaining `h′` and the height's error.
     pub(super) fn leap(&self, count: &LeapCount, trips: f64, (segments, size): (usize, f64), stray: f64) -> f64 {
         let (n, order, layers) = (self.size, count.order as f64, count.layers as f64);
         let powers = count.powers as f64;

@@ -249,8 +249,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    ///
-    /// Returns whether an event is undecided; the bounds of the rest of the run include both outcomes.
+    /// Tests the motion of the ground end in this strip, until `left` from now, against its error bound, as in
+    /// [`super::near`]. Returns whether an event is undecided; the bounds of the rest of the run include both outcomes.
     pub(super) fn note_open(&mut self, trace: &[S], height: &[S], fresh: bool, left: f64) -> bool {
         let (basis, len) = (&self.medium.basis, self.state.segments[0].len.to_f64());
         // Without damping events lie on rays by construction; the lattice computes such runs.

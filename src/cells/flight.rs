@@ -128,7 +128,7 @@ impl<S: RoundedSpecial> Medium<S> {
     pub(super) fn take_off(&self, state: &mut State<S>, height: &S) -> Flight<S> {
         let (zero, half) = (self.kappa.zero(), self.kappa.ratio(1, 2));
         let drag = self.kappa.clone() * self.kappa.int(4);
-        // Adds v_x of the static state; the part of h′ − h′(b) e^{−2Rx}, from gravity, follows below as `weight`.
+        // Adds v_x of the static state; `weight` below is the share of gravity in h′(b).
         self.shift(state, &|x| self.gravity.clone() * x + &self.slope);
         let grown = self.weighed(state, &|x| (drag.clone() * x).exp());
         // 2 ∫₀^½ x φ₁(2Rx) dx = ½ φ₂(R), as ∫₀ˣ y φ₁(ay) dy = x² φ₂(ax).

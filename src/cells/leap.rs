@@ -432,7 +432,7 @@ impl<S: RoundedSpecial> Medium<S> {
             let next = sum * &n / damping.int(k as i64);
             let size = next.to_f64().abs().log2() + 0.5 * k as f64 * INVERSE_SQUARE.log2();
             coefficients.push(next);
-            // After several small terms in a row the coefficients fall faster than geometrically.
+            // After four small terms in a row the coefficients fall faster than geometrically.
             below = if size < self.log2_accuracy - 2.0 { below + 1 } else { 0 };
             if below >= 4 {
                 break;

@@ -30,8 +30,7 @@ pub(super) struct Medium<S> {
     pub(super) gravity: S,
     /// Slope of the static state at the ground, in `V`: contact has `z_x = v_x − slope`.
     pub(super) slope: S,
-    /// Part of the slope that flight subtracts, `z_x = −offset` at the ground: zero where z is the vibration about the
-    /// centre of mass.
+    /// Slope of `−z` at the ground in flight, `z_x = −offset`: zero where z is the vibration about the centre of mass.
     pub(super) offset: S,
     pub(super) free_top: bool,
     /// Truncation of one cell relative to `V`, as `log₂`.
@@ -164,8 +163,7 @@ impl<S: Rounded> Medium<S> {
         if contact { segment.q.clone() } else { self.raised(segment, &self.offset) }
     }
 
-    /// Computes `v_t + c v_x` at the ground while the first segment arrives: the velocity in flight, `c v_x` in
-    /// contact.
+    /// Computes `v_t + c v_x` at the ground over the first segment: the velocity in flight, `c v_x` in contact.
     ///
     /// **Source**: [`diagonal`]; in contact `q` of `z` plus the static slope.
     pub(super) fn trace(&self, state: &State<S>, contact: bool) -> Vec<S> {

@@ -18,8 +18,7 @@ use crate::special::RoundedSpecial;
 const OVER: f64 = 3.0;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// Returns the reason why no impact can follow the flight, if this is proved; only where gravity does not pull the
-    /// end back.
+    /// Returns the reason why no impact can follow, if this is proved; only where gravity does not pull the end back.
     ///
     /// In flight the end swings about a state at height `s = v_s′(0)/2`, stress-free at the ground and with the strain
     /// of its weight `v_x = gx` above (top fixed), or about the centre of mass (top free, `g = 0`), whose height `h`

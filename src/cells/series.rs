@@ -169,8 +169,8 @@ pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
 }
 
 /// Bounds the distance of a series from its first term by `Σ_{k≥1}|c_k|`. In numbers longer than doubles this sum and
-/// the first term may differ by less than the roundings of the sum, which are added; in doubles the bounds that the
-/// result is compared with are greater than these roundings.
+/// the first term may differ by less than the roundings of the sum, which are added; in doubles the bounds it is
+/// compared with are greater.
 pub(super) fn spread<S: Rounded>(c: &[S]) -> f64 {
     let sum = bound(c, 1);
     match c.first() {

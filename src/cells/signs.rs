@@ -59,8 +59,7 @@ impl<S: Rounded, T: Rounded> Part<'_, S, T> {
         }) && !not
     }
 
-    /// Finds a stretch `x ± δ` on which `sign` times the series is positive; returns δ and its least and greatest value
-    /// there.
+    /// Finds a stretch `x ± δ` on which `sign` times the series is positive; returns δ and its extreme values there.
     pub(super) fn steep(&self, x: &S, sign: f64) -> Option<(f64, f64, f64)> {
         (1..MOST_HALVINGS).find_map(|k| {
             let delta = (-f64::from(k)).exp2();

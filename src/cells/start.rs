@@ -23,8 +23,7 @@ use crate::special::RoundedSpecial;
 /// Number of bits by which the truncation of series lies below a rounding: their sum is hardly more than the rounding.
 const SPARE_BITS: f64 = 4.0;
 
-/// Largest damping `R`: cells are at most `2/r` wide, so a round trip takes `(r t₁/2)²` of them, a million at this
-/// limit.
+/// Largest damping `R`: cells are at most `2/r` wide, so a round trip takes `(r t₁/2)²` of them, at most a million.
 const MOST_DAMPING: f64 = 2000.0;
 
 /// Linear data on an interval.
@@ -243,8 +242,7 @@ impl<S: Rounded> Data<S> {
     }
 }
 
-/// Builds the medium and the data of `problem` for `digits` digits, with segments `shorten` times shorter than
-/// necessary.
+/// Builds the medium and the data of `problem` for `digits` digits, with segments `shorten` times shorter than needed.
 ///
 /// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
 pub(super) fn medium<S: RoundedSpecial>(

@@ -37,8 +37,7 @@ pub(super) struct Uncertainty {
     pub(super) peak: f64,
     /// Sum of the jumps of `v_t ± c v_x` at rays, in `V`; only in a proof.
     pub(super) jumps: f64,
-    /// Bound for the displacement of rays, in `t₁`: this times the slope bounds the error of one-sided limits and of
-    /// peaks.
+    /// Bound for the displacement of rays, in `t₁`; times the slope, it bounds the error of one-sided limits and peaks.
     pub(super) rays: f64,
 }
 

@@ -65,8 +65,7 @@ pub(super) struct Bracket<N> {
 }
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// Tests whether, at `k t₁`, the transient is below the static stress everywhere in the rod, and so at all later
-    /// times.
+    /// Tests whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
     pub(super) fn settled(&self, k: i64, kernels: Option<&Kernels<N>>) -> Option<NoBounceReason> {
         if self.weightless {
             return None;

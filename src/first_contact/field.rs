@@ -158,8 +158,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Shares { impact: shares.impact + returned.impact * &two, weight: shares.weight + returned.weight * &two }
     }
 
-    /// Sums the returning rays once; a function of its own, as the first round trip is the most frequent and needs
-    /// none.
+    /// Sums the returning rays once; apart, as the first round trip is the most frequent and has none.
     #[inline(never)]
     fn returned(&self, trips: &N, k: i64) -> Shares<N> {
         let mut returned = Shares { impact: trips.zero(), weight: trips.zero() };
@@ -310,7 +309,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         ((4.0 * tau + 6.0) * each * (r * growth).exp()).max(1e-150)
     }
 
-    /// Computes `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the
+    /// Computes `h(t)` and `h′(t) = P/L` of the centre of mass, relative to its place in the undeformed rod on the
     /// ground.
     ///
     /// **Source**: (3.38), (3.39).

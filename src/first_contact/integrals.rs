@@ -207,8 +207,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         places.into_iter().zip(rest).map(node).collect()
     }
 
-    /// Computes `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, and the remainder is less than the last
-    /// one.
+    /// Computes `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, and the last one bounds the remainder.
     fn bessel_rest(&self, a: &N) -> N {
         let square = (a.one() - a) * &(a.one() + a) * &self.damping.square() / a.int(4);
         let terms = (-a.log2_roundoff() / 4.0) as i64 + 2;
@@ -297,8 +296,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         moments::of_sums(sums.collect(), points, zero.clone())
     }
 
-    /// Returns the error of a rule in `v_t` and `c v_x` per length, and the rule, for intervals of half-width at most
-    /// `half`.
+    /// Returns the error of a rule in `v_t` and `c v_x` per length, and the rule, for half-widths up to `half`.
     ///
     /// The error of n nodes on an interval of half-width w is less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds
     /// the integrand on the Bernstein ellipse ρ. There a place relative to a cell that holds the interval, which is
@@ -319,8 +317,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     }
 }
 
-/// Returns the parts of `from … to` between rays, and by how much they may miss an end that a ray is not separated
-/// from.
+/// Returns the parts of `from … to` between rays, and the possible miss of an end not separated from a ray.
 fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<N>>, N) {
     let mut doubt = from.zero();
     let (Some(lower), Some(upper)) = (stretches.first(), stretches.last()) else { return (Vec::new(), doubt) };

@@ -15,8 +15,7 @@ enum Excess<N> {
     AtEnd,
     /// The force falls from the beginning on this part.
     AtStart,
-    /// The force has a summit around `at`, in round trips, where its second derivative by round trips is at most
-    /// `−bend`.
+    /// The force has a summit around `at`, in round trips, where its second derivative by these is at most `−bend`.
     Inside {
         /// Approximate place of the summit.
         at: N,
