@@ -1,6 +1,6 @@
-//! The catalogue as a page, a table or JSON.
+//! The catalogue of `check` as a page, a table or JSON.
 
-use serde_json::{Value, json};
+use serde_json::{Value as Json, json};
 
 use super::cost::duration;
 use super::target::{published_json, published_page, targets_data};
@@ -8,6 +8,7 @@ use dalembert_compare::aligned::table;
 use dalembert_verify::check::{CheckedCase, CheckedQuestion, Group};
 use dalembert_verify::published::PublishedScene;
 
+/// Returns the number of correct digits as text.
 fn digits(right: Option<f64>) -> String {
     match right {
         None => "–".into(),
@@ -18,7 +19,7 @@ fn digits(right: Option<f64>) -> String {
 
 pub(crate) type Groups = [(Group, Vec<CheckedCase>)];
 
-/// How many cases came to each verdict, in the order of their first appearance.
+/// Returns the number of cases of each verdict, in the order of their first appearance.
 fn count(groups: &Groups) -> String {
     let cases: Vec<&CheckedCase> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
@@ -33,7 +34,7 @@ fn count(groups: &Groups) -> String {
     format!("{} cases: {}", cases.len(), counts.join(", "))
 }
 
-/// For a person: every route with its answer, the digits that are right, and what it took.
+/// Returns a table of every route: its answer, the number of correct digits, and the time it took.
 pub(crate) fn check_table(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
     for (group, cases) in groups {
@@ -55,11 +56,11 @@ pub(crate) fn check_table(groups: &Groups, published: &[PublishedScene]) -> Stri
             out += "\n";
         }
     }
-    out + &below(groups, published)
+    out + &published_and_counts(groups, published)
 }
 
-/// The published values, and the counts.
-fn below(groups: &Groups, published: &[PublishedScene]) -> String {
+/// Returns a table of the published values, and the numbers of cases of each verdict.
+fn published_and_counts(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
     if PublishedScene::count(published).0 > 0 {
         out += &targets_data(published, true).table();
@@ -70,16 +71,18 @@ fn below(groups: &Groups, published: &[PublishedScene]) -> String {
     out
 }
 
+/// Returns a line for each case, and the numbers of cases of each verdict.
 pub(crate) fn check_summary(groups: &Groups, published: &[PublishedScene]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {
         vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
     });
     let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
-    if groups.is_empty() { below(groups, published) } else { cases + &below(groups, published) }
+    let below = published_and_counts(groups, published);
+    if groups.is_empty() { below } else { cases + &below }
 }
 
-/// For the repository: nothing in it depends on the machine.
+/// Returns a page of the catalogue that does not depend on the machine.
 pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::from(
         "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
@@ -113,8 +116,8 @@ pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> Strin
     out.trim_end().to_string() + "\n"
 }
 
-/// Schema 1.
-pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Value {
+/// Returns the catalogue as JSON, schema 1.
+pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Json {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let cases = cases.map(|(group, checked)| {
         let asked = checked.questions.iter().map(|asked| {

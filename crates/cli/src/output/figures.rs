@@ -12,23 +12,23 @@ use dalembert_verify::figures::{DAMPINGS, Figure, FigureData, FigureKind, HELD_D
 const LINE: f64 = 0.4;
 const THIN: f64 = 0.2;
 const BLACK: &str = "#000000";
-/// That of `r = 0` in the paper.
+/// Colour of `r = 0` in the paper.
 const UNDAMPED: &str = "#d55e00";
-/// Of A, B, C: where the odd continuation of `g` is `−g` and where it is `g`.
+/// Colours of the regions A, B, C: the odd continuation of `g` is `−g` in A and C, and `g` in B.
 const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
 
-/// The numbers of a figure, none with a digit beyond its bound.
+/// Returns the numbers of a figure, none with a digit beyond its bound.
 pub(crate) fn figure_data(figure: &Figure, data: &FigureData) -> Dataset {
     if let Some(map) = &data.map {
         return regimes_data(map);
     }
-    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::optional(value.as_ref())).collect();
+    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::number(value.clone())).collect();
     let columns = data.columns.iter().map(|name| Column::new(*name)).collect();
     let notes = [figure.shown, figure.corrected].map(String::from).to_vec();
     Dataset { columns, rows: data.rows.iter().map(row).collect(), notes, ..Dataset::default() }
 }
 
-/// What stands beside the files, whose pictures have these `endings`.
+/// Returns the index of the files, whose pictures have these `endings`.
 pub(crate) fn figures_index(figures: &[&Figure], data: &[FigureData], endings: &[&str]) -> Result<String, VerifyError> {
     let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
@@ -94,7 +94,7 @@ pub(crate) fn figure_sheet(figure: &Figure, data: &FigureData) -> Result<Sheet, 
     Ok(Sheet { title: Vec::new(), panels: vec![panel] })
 }
 
-/// The points of two columns, in stretches where both are defined.
+/// Returns the points of two columns, in stretches where both are defined.
 fn stretches<'a>(rows: impl Iterator<Item = &'a Row>, x: usize, y: usize) -> Vec<Vec<DVec2>> {
     let mut lines = vec![Vec::new()];
     for row in rows {
@@ -108,12 +108,13 @@ fn stretches<'a>(rows: impl Iterator<Item = &'a Row>, x: usize, y: usize) -> Vec
     lines
 }
 
-fn of<'a>(rows: &'a [Row], damping: &str) -> impl Iterator<Item = &'a Row> + use<'a> {
+/// Returns the rows of a damping.
+fn of_damping<'a>(rows: &'a [Row], damping: &str) -> impl Iterator<Item = &'a Row> + use<'a> {
     let damping: Option<f64> = damping.parse().ok();
     rows.iter().filter(move |row| row[0] == damping)
 }
 
-/// The colour of a damping of Figures 4–7.
+/// Returns the colour of a damping of Figures 4–7.
 fn color(k: usize) -> &'static str {
     [UNDAMPED, LINES[0], LINES[2], LINES[3]][k % 4]
 }
@@ -128,7 +129,7 @@ fn kernel(rows: &[Row]) -> Panel {
     let mut panel = Panel::new(title, Axis::new("t", "", [0.0, 4.0]), y);
     panel.level("limit", 0.0, Stroke::new("#808080", THIN));
     for (k, damping) in HELD_DAMPINGS.into_iter().enumerate() {
-        let (rows, stroke) = (of(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
+        let (rows, stroke) = (of_damping(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
         let points = |rows: &[&Row]| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect();
         let stretches: Vec<Vec<DVec2>> = rows.chunk_by(|a, b| a[1] != b[1]).map(points).collect();
@@ -168,7 +169,7 @@ fn restitution(rows: &[Row]) -> Result<Panel, VerifyError> {
         let stroke = Stroke::new(color(k), LINE);
         let limit = Limits::new(damping)?.restitution.value().powi(2);
         panel.level("limit", limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") });
-        let curve = stretches(of(rows, damping), 1, 3);
+        let curve = stretches(of_damping(rows, damping), 1, 3);
         // Where t_b = t₁ begins: between two points of the curve.
         let at = threshold_speed(damping);
         let pairs = curve.iter().flat_map(|line| line.windows(2));
@@ -190,13 +191,13 @@ fn shares(rows: &[Row], label: &str) -> Panel {
     let supposed = Stroke::new("#808080", THIN).dashed("0.4 0.6");
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
-        if let Some(row) = of(rows, damping).next() {
+        if let Some(row) = of_damping(rows, damping).next() {
             let limit = Stroke { width: THIN, ..stroke.dashed("1.6 0.9") };
             for (value, stroke) in [(row[4], supposed), (row[3], limit)] {
                 value.into_iter().for_each(|value| panel.level("limit", value, stroke));
             }
         }
-        panel.lines("curve", stretches(of(rows, damping), 1, 2), stroke);
+        panel.lines("curve", stretches(of_damping(rows, damping), 1, 2), stroke);
         panel.legend.push(Key::line(format!("r = {damping}"), stroke));
     }
     panel.legend.push(Key::line("limit for μ → ∞", Stroke::new(BLACK, THIN).dashed("1.6 0.9")));

@@ -1,6 +1,6 @@
-//! Published values beside ours.
+//! Published values beside those of this library.
 
-use serde_json::{Value, json};
+use serde_json::{Value as Json, json};
 
 use super::dataset::{Cell, Column, Dataset};
 use dalembert::Target;
@@ -10,7 +10,7 @@ use dalembert_verify::published::PublishedScene;
 /// Significant digits of a difference in a table.
 const DIFFERENCE_DIGITS: u32 = 3;
 
-/// A row for each; a table has below it where each value was published, and how many agree.
+/// Returns a row for each value. Below a table stand the source of each value, and how many agree.
 pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
     let several = all.len() > 1;
     let mut sources: Vec<&str> = Vec::new();
@@ -31,12 +31,12 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
             label.into(),
             unit.into(),
             spelled.into(),
-            Cell::optional(time.as_ref()),
+            Cell::number(time),
             target.published.to_string().into(),
-            Cell::number(&reached.published),
-            Cell::number(&reached.ours),
+            Cell::number(Some(reached.published.clone())),
+            Cell::number(Some(reached.ours.clone())),
             show(&reached.difference(), DIFFERENCE_DIGITS).into(),
-            Cell::number(&reached.difference()),
+            Cell::number(Some(reached.difference())),
             target.tolerance().into(),
             format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
             reached.agrees().into(),
@@ -73,7 +73,7 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
     Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
 }
 
-/// The same for the repository's page.
+/// Returns the published values as a section of a page.
 pub(crate) fn published_page(published: &[PublishedScene]) -> String {
     let mut out = String::from(
         "## Published values of other programs\n\nEach value that a built-in scene lists as published, \
@@ -92,7 +92,7 @@ pub(crate) fn published_page(published: &[PublishedScene]) -> String {
     out
 }
 
-pub(crate) fn published_json(published: &[PublishedScene]) -> Value {
+pub(crate) fn published_json(published: &[PublishedScene]) -> Json {
     let scene = |published: &PublishedScene| {
         let values = targets_data(std::slice::from_ref(published), false).objects();
         json!({ "scene": published.name, "values": values })
