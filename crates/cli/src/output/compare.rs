@@ -1,4 +1,4 @@
-//! Ours beside other people's data, and the difference: rows, and a picture.
+//! Exact values beside the data of others, and the difference: rows, and a picture.
 
 use glam::DVec2;
 
@@ -7,7 +7,7 @@ use dalembert::quantity::{Measure, Units};
 use dalembert_compare::{Compared, ComparedFile};
 use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};
 
-/// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.
+/// Returns two panels for each quantity: the exact values as a thin line over the data, and the difference.
 pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let times = &compared.agreement.grid.times;
     let file = std::path::Path::new(&compared.file).file_name().and_then(|name| name.to_str()).unwrap_or("theirs");
@@ -36,7 +36,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     Sheet { title: vec![title], panels: panels.collect() }.svg(Size::Page)
 }
 
-/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
+/// Returns a row for each sample: time, point of a field, and for each quantity ours, theirs and the difference.
 pub(crate) fn compare_data(ComparedFile { agreement, .. }: &ComparedFile) -> Dataset {
     let points = agreement.grid.points.as_ref();
     let mut columns: Vec<Column> = ["t"].into_iter().chain(points.map(|_| "x")).map(Column::new).collect();
