@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dalembert::problem::{Builder, Written};
 use dalembert::quantity::UnitSystem;
 use dalembert::solve::{CERTIFIED_DIGITS, MAX_DIGITS};
-use dalembert::{Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top, Units};
+use dalembert::{Numbers, Parameter, Parameters, Plan, Question, Scene, Top, Units, UnknownName};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -56,35 +56,13 @@ impl Problem {
 
     /// Its numbers and profiles by the names of the constructor, as they are spelt; what is absent is left out.
     fn values(&self) -> (Vec<(&'static str, String)>, Vec<Spelt>) {
-        let dalembert::Problem { rod, gravity, start, run } = &self.problem;
-        let mut numbers = vec![("length", Some(&rod.length))];
-        match &rod.material {
-            Material::WaveSpeed(speed) => numbers.push(("wave_speed", Some(speed))),
-            Material::Elastic { modulus, density, area } => {
-                numbers.extend([("modulus", Some(modulus)), ("density", Some(density)), ("area", area.as_ref())]);
-            }
-        }
-        numbers.extend([("damping", rod.damping.as_ref()), ("gravity", gravity.as_ref())]);
-        let mut profiles = vec![];
-        match start {
-            Start::Uniform(Speed::Given(speed)) => numbers.push(("impact_speed", Some(speed))),
-            Start::Uniform(Speed::DropHeight(height)) => numbers.push(("drop_height", Some(height))),
-            Start::Above { gap, speed } => numbers.extend([("impact_speed", Some(speed)), ("gap", Some(gap))]),
-            Start::Profile(profile) => {
-                profiles = vec![("displacement", &profile.displacement), ("velocity", &profile.velocity)];
-                profiles.retain(|(_, points)| !points.is_empty());
-            }
-        }
-        let text = |(name, number): (_, Option<&Number>)| Some((name, number?.to_string()));
-        let mut numbers: Vec<(&'static str, String)> = numbers.into_iter().filter_map(text).collect();
-        numbers.push(match run {
-            Run::Impacts(impacts) => ("impacts", impacts.to_string()),
-            Run::Time(time) => ("time", time.to_string()),
-        });
-        let points = |(name, points): (_, &Vec<(Number, Number)>)| {
-            (name, points.iter().map(|(x, value)| [x.to_string(), value.to_string()]).collect())
+        let all = || Parameter::ALL.iter().copied();
+        let number = |parameter: Parameter| Some((parameter.name(), parameter.given(&self.problem)?.to_string()));
+        let points = |parameter: Parameter| {
+            let points = parameter.list(&self.problem).filter(|points| !points.is_empty())?;
+            Some((parameter.name(), points.iter().map(|(x, value)| [x.to_string(), value.to_string()]).collect()))
         };
-        (numbers, profiles.into_iter().map(points).collect())
+        (all().filter_map(number).collect(), all().filter_map(points).collect())
     }
 
     /// Whether the upper end is held; the title of the scene.
@@ -137,7 +115,7 @@ impl Problem {
 /// A value of a problem, as a builder takes it.
 #[derive(Clone)]
 pub(crate) enum Given {
-    Number(Written),
+    Number(Parameter, Written),
     Displacement(Vec<(Written, Written)>),
     Velocity(Vec<(Written, Written)>),
     Top(Top),
@@ -150,18 +128,17 @@ impl Given {
             "displacement" => Given::Displacement(points(name, value)?),
             "velocity" => Given::Velocity(points(name, value)?),
             "top" => Given::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            _ if Builder::numbers().any(|known| known == name) => Given::Number(written(name, value)?),
             _ => {
-                let known = Builder::numbers().collect::<Vec<_>>().join(", ");
-                let expected = format!("one of {known}, displacement, velocity, top");
-                return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
+                let parameter: Parameter =
+                    name.parse().map_err(|error: UnknownName| PyTypeError::new_err(error.to_string()))?;
+                Given::Number(parameter, written(name, value)?)
             }
         })
     }
 
-    pub(crate) fn set(self, builder: Builder, name: &str) -> Builder {
+    pub(crate) fn set(self, builder: Builder) -> Builder {
         match self {
-            Given::Number(number) => builder.named(name, number),
+            Given::Number(parameter, number) => builder.set(parameter, number),
             Given::Displacement(points) => builder.displacement(points),
             Given::Velocity(points) => builder.velocity(points),
             Given::Top(top) => builder.top(top),
@@ -173,7 +150,7 @@ impl Given {
 fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
     for (name, value) in values {
         let name: String = name.extract()?;
-        builder = Given::of(&name, &value)?.set(builder, &name);
+        builder = Given::of(&name, &value)?.set(builder);
     }
     builder.build().map_err(refuse)
 }

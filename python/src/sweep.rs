@@ -34,18 +34,18 @@ pub(crate) fn sweep(
     };
     let quantities = quantities.iter().map(single).collect::<PyResult<Vec<_>>>()?;
     let time = time.map(|time| written("time", time)?.number().cloned().map_err(refuse)).transpose()?;
-    let mut columns: Vec<(String, Vec<Given>)> = Vec::new();
+    let mut columns: Vec<Vec<Given>> = Vec::new();
     for (name, values) in varied {
         let values = values.iter().map(|value| Given::of(&name, value)).collect::<PyResult<_>>()?;
-        columns.push((name, values));
+        columns.push(values);
     }
-    let count = columns.first().map_or(1, |column| column.1.len());
+    let count = columns.first().map_or(1, Vec::len);
     let numbers = Numbers::Double(accuracy.or(base.accuracy));
     let (start, stop) = (base.problem.clone(), Arc::new(AtomicBool::new(false)));
     let (asked, seen) = (quantities.len(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
-            let set = |builder, (name, values): &(String, Vec<Given>)| values[k].clone().set(builder, name);
+            let set = |builder, values: &Vec<Given>| values[k].clone().set(builder);
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

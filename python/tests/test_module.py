@@ -346,7 +346,7 @@ def test_derivatives_at_times():
 def test_derivatives_are_difference_quotients():
     """Of a damped run: against two others next to it, and in fractions by hand: t_b = 2L/c."""
     damped = rod(damping="0.1", impacts=2)
-    found = damped.solve().derivatives("speed")
+    found = damped.solve().derivatives("impact_speed")
     step = Fraction(1, 10**4)
     after, before = (damped.replace(impact_speed=3 + way * step).solve(digits=30).events["t"] for way in (1, -1))
     for k, (left, right) in enumerate(zip(found.left["t"], found.right["t"])):
