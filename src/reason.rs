@@ -255,6 +255,35 @@ pub enum Warning {
         /// `g/2r`.
         terminal: f64,
     },
+    /// Damping that acts on the flights more than gravity does.
+    #[error(
+        "the damping 2r v_t acts on the whole rod, in flight as drag: {}; damping of the material, which leaves \
+         flights alone, is not solved",
+        match .terminal {
+            Some(terminal) => format!(
+                "the impact speed {} is above g/2r = {}, the greatest speed of a fall", .speed.decimal(3), terminal.decimal(3)
+            ),
+            None => format!("without gravity, it stops a rod at the speed {} within {}", .speed.decimal(3), .reach.decimal(3)),
+        }
+    )]
+    DragDominates {
+        /// `μ`, the speed at the first touch.
+        speed: f64,
+        /// `g/2r`; `None` without gravity.
+        terminal: Option<f64>,
+        /// `μ/2r`: the way after which drag alone stops the rod.
+        reach: f64,
+    },
+    /// Strains of a material that the theory does not hold for.
+    #[error(
+        "the strain reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
+         modulus and density, such as GPa in place of Pa",
+        .strain.decimal(3)
+    )]
+    StrainAboveOne {
+        /// The greatest `|v_x|` that is known.
+        strain: f64,
+    },
 }
 
 /// What the bound of an error does not tell.

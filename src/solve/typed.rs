@@ -485,7 +485,11 @@ impl<S: Target> TypedHistory<S> {
         // The first contact is in closed form.
         let closed = engine.events().len() < 2 || matches!(engine.ending(), Ending::Undecided(Reason::MostDigits(_)));
         warnings.extend(self.plan.not_proved(rung).filter(|_| !closed));
-        warnings.extend(self.problem.neglected());
+        warnings.extend(self.problem.warnings());
+        if !warnings.iter().any(|warning| matches!(warning, Warning::StrainAboveOne { .. })) {
+            let peaks = engine.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
+            warnings.extend(self.problem.strain_warning(peaks.fold(0.0, f64::max)));
+        }
         let mut covered = locked(&self.covered).clone();
         for engine in [&self.first.engine, &engine] {
             covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
