@@ -265,8 +265,8 @@ impl<N: Bounded> March<'_, N> {
         Ok(None)
     }
 
-    /// Returns the landing inside a stretch of flight from `from` on: the first root of `v = height + q s + slope
-    /// s²/2`. Without a landing, sets the height to that at the end of the stretch.
+    /// Returns the landing inside a stretch of flight from `from` on: the first root of
+    /// `v = height + q s + slope s²/2`. Without a landing, sets the height to that at the end of the stretch.
     fn landing_in(&mut self, from: &N, q: &N, stretch: &Stretch<N>) -> Result<Option<N>, Stop<N>> {
         let Stretch { to, line: Line { slope, .. }, q_end, .. } = stretch;
         let width = to.clone().minus_stored(from);

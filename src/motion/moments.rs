@@ -103,7 +103,7 @@ impl<S: Scalar> Sums<S> {
         self
     }
 
-    /// Returns the moments of the cell up to `to`, and `v` there, given `v` at its beginning. Integration by parts gives
+    /// Returns the moments of the cell up to `to`, and `v` there, given `v` at its beginning. Integration by parts:
     /// `∫ v = h v(a) + ∫ (b − x) v_x` and `∫ v (x − a) = ½h² v(a) + ½∫ (h² − (x − a)²) v_x`, with h the width.
     pub(crate) fn moments(self, to: &S, start: &S) -> (Moments<S>, S) {
         let Sums { from, strain: [rise, first, second], velocity } = self;
