@@ -69,7 +69,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         }
         let (trip, unit) = (self.last_trip(&moment, time)?, velocity.square() * length);
         if pair == Pair::EnergyParts {
-            // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`; their breaks are the breaks of both invariants.
+            // The breaks of `v_t = (p + q)/2` and `c v_x = (q − p)/2` are the breaks of both invariants.
             return Ok(self.squares(&trip)?.map(|part| part * &unit));
         }
         let Centre { height, rate } = self.centre_at(&trip)?;

@@ -312,8 +312,8 @@ impl<N: Bounded> March<'_, N> {
             let (age, ending) = before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc])?;
             return Err(Stop::Halt(Halt { trip, age, ending }));
         };
-        // Of the two forms of the root, take the one that adds. For enclosures, the form without a quotient by a root
-        // keeps the exact number.
+        // Each form of the root adds terms of one sign. The form without a quotient by a root keeps the exact number
+        // of enclosures.
         let flown = if q.positive()? {
             (q.clone() + &root) / (-slope.clone())
         } else {

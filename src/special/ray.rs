@@ -113,7 +113,7 @@ impl<S: Rounded> Ray<S> {
                 rest *= reach;
                 square *= z_square;
                 size *= below;
-                // From n = 10 on the ratio, with the growth of the weights, is below 1/2.
+                // The ratio, with the growth of the weights, is below 1/2 from n = 10 on.
                 if n >= 10 && 2.0 * rest * m * m * m <= limit * size && square <= limit * size * size {
                     return n;
                 }

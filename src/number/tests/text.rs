@@ -29,7 +29,7 @@ fn no_digit_beyond_the_bound_is_printed() {
     assert_eq!(bound_of_log2(shown_bound(&around(0.0, 1e-20), 20)), "2.1e-20");
 }
 
-/// Both ends of any enclosure round to what is printed of it, and what is printed of its ends is outside of it.
+/// Checks that both ends of an enclosure round to its printed form, and that its printed ends lie outside it.
 #[test]
 fn both_ends_print_what_is_proved() {
     let mut state = 1878u64;
