@@ -188,8 +188,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(cells)
     }
 
-    /// Compares the pieces on both sides at the ground, now and half a round trip ago: the ray that is now at the top
-    /// left the ground then.
+    /// Compares the pieces at the ground now and half a round trip ago, when the ray now at the top left it.
     fn may_jump(&self, time: &N) -> Result<bool, Error> {
         let now = self.locate(time)?;
         let before = self.shifted(&now, &-now.age.one().halved())?;
@@ -369,8 +368,7 @@ impl<N: Bounded> Undamped<N> {
         if outside { Err(Error::PointOutside { found: point.text(), length: length.text() }) } else { Ok(()) }
     }
 
-    /// Returns the stress from the beginning of a piece of `trip` to a moment; `None` if that duration is zero within
-    /// the bounds.
+    /// Returns the stress from the beginning of a piece of `trip` to a moment; `None` if it is empty within the bounds.
     fn stress_piece(&self, from: &Piece<N>, trip: usize, to: &Moment<N>) -> Option<StressPiece<N>> {
         let Units { wave_speed, velocity, .. } = &self.problem.units;
         let end = to.age.int(to.index as i64 - 1 - trip as i64) + &to.age;

@@ -52,8 +52,7 @@ impl<N: Bounded> March<'_, N> {
         x.clone().nominal().sign()
     }
 
-    /// Records that numbers were taken as equal because they agree within their bounds, although their order affects
-    /// the motion.
+    /// Records that numbers equal only within their bounds were taken as equal, where the motion depends on it.
     fn coincide(&mut self) {
         let trip = self.trip_number();
         self.coincidence.get_or_insert(trip);
@@ -115,8 +114,7 @@ impl<N: Bounded> March<'_, N> {
         Err(Stop::Halt(halt))
     }
 
-    /// Builds the stretch that begins where piece `first` returns, lowered by `fallen`, and merges all later pieces
-    /// that continue its line.
+    /// Builds the stretch that begins where piece `first` returns, `fallen` lower, with all pieces that continue it.
     fn arriving(&self, first: usize, end: usize, fallen: Option<&N>) -> Stretch<N> {
         let pieces = &self.trace.pieces()[..end];
         let (from, mut line) = (pieces[first].age.clone(), pieces[first].line.clone());
@@ -164,8 +162,7 @@ impl<N: Bounded> March<'_, N> {
         }
     }
 
-    /// Decides, if the end touches at the break where `stretch` begins, between contact and flight. Returns whether the
-    /// state changes.
+    /// Decides on contact or flight if the end touches at the beginning of `stretch`. Returns whether that changes.
     fn meet_break(&mut self, stretch: &Stretch<N>) -> Result<bool, Stop<N>> {
         let Stretch { from, q, line, .. } = stretch;
         let early = self.early.take();
@@ -235,8 +232,7 @@ impl<N: Bounded> March<'_, N> {
         Ok(())
     }
 
-    /// Stores the piece that leaves the ground at `age`: `−q` in contact, `q` in flight. `knot` is `q` there, as in
-    /// [`Piece`].
+    /// Stores the piece that leaves from `age` on: `−q` in contact, `q` in flight; `knot` is `q` there, see [`Piece`].
     fn leave(&mut self, age: &N, q: &Line<N>, knot: Option<i64>) {
         let (line, knot) = if self.contact { (-q.clone(), knot.map(|k| -k)) } else { (q.clone(), knot) };
         let of_line = line.intercept.roundoffs() + line.slope.roundoffs();

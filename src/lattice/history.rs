@@ -237,15 +237,13 @@ impl<N: Bounded> Undamped<N> {
         Ok((down - up + gravity.clone() * height.square()).halved())
     }
 
-    /// Returns the map that prepares the parts of this round trip for sums: it drops exact numbers if the trip has many
-    /// pieces.
+    /// Returns the map that drops exact numbers from the parts of this round trip if the trip has many pieces.
     fn summed(&self, index: usize) -> fn(Part<N>) -> Part<N> {
         if self.ground.trace.slice(index).len() <= MANY_PARTS { |part| part } else { Part::without_exact }
     }
 
     /// Visits the waves in the rod at the end of a window of one round trip. With `s` from 0 to 1 backwards from there,
-    /// `w(s) = value − g s`: `w` is `p` at `x = 2Ls` for `s < ½`, and `q` at `x = 2L(1 − s)` for `s > ½`, behind the
-    /// top.
+    /// `w(s) = value − g s`: `w` is `p` at `x = 2Ls` for `s < ½`, and `q` at `x = 2L(1 − s)` behind the top.
     ///
     /// **Source**: the delay recursion; gravity subtracts `g s` from the wave that left the ground `s` ago.
     pub(super) fn visit_rod(&self, trip: &Trip<N>, visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {

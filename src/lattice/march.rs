@@ -91,11 +91,9 @@ pub struct GroundMotion<N> {
     /// The greatest error bound in roundoffs: of any line, relative to the greatest speed of the start, or of any
     /// height, relative to the greatest height.
     pub relative_error: f64,
-    /// The first round trip with a decision whose error bound exceeded half of the digits: events from there on are not
-    /// determined.
+    /// The first round trip with a decision within a bound of more than half of the digits: later events are undetermined.
     pub undetermined: Option<usize>,
-    /// The first round trip in which two events, or an event and a break, were taken as one because they agree within
-    /// their bounds.
+    /// The first round trip in which two events, or an event and a break, are one only within their bounds.
     pub coincidence: Option<usize>,
 }
 

@@ -12,8 +12,7 @@
 //! stored as that fraction and never drifts. There is no time step: the march goes from break to break and from event
 //! to event.
 //!
-//! The code is generic over numbers that account for their own error ([`crate::number::Bounded`]): estimates, fractions
-//! and enclosures.
+//! The code is generic over [`crate::number::Bounded`]: estimates, fractions and enclosures.
 //!
 //! Reading order: `start` (units and initial data), `trace` (stored pieces), `march` (trip after trip), `ground`
 //! (contact law and events), `history` (times on the lattice), `answers` (queries), `parts` (kinetic and strain

@@ -54,8 +54,7 @@ pub(super) fn widened<N: Bounded>(cells: &mut [Moments<N>], shifts: &[Shift<N>],
 }
 
 impl<N: Bounded> Undamped<N> {
-    /// Computes `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, with lengths in units of
-    /// `2L`.
+    /// Computes `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, in units of `2L`.
     pub(super) fn squares(&self, trip: &Trip<N>) -> Result<[N; 2], Open> {
         let zero = self.problem.gravity.zero();
         let mut sums = [zero.clone(), zero.clone()];

@@ -96,8 +96,7 @@ fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result
     Ok(if greatest.vanishes()? { wave_speed.clone() } else { greatest })
 }
 
-/// Builds [`Scaled::before`]: `q₀` arrives in the first half of the trip, `p₀` in the second, after reflection at the
-/// top.
+/// Builds [`Scaled::before`]: `q₀` arrives in the first half of the trip, `p₀`, reflected at the top, in the second.
 fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, top: Top) -> Vec<(N, N, N)> {
     let one = units.length.one();
     let twice = units.length.clone().doubled();

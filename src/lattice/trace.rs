@@ -60,8 +60,7 @@ pub struct Piece<N> {
     /// Whether the end is in contact with the ground.
     pub contact: bool,
     /// `p` at its beginning as an exact multiple of gravity, if the break started as the zero of a release without a
-    /// ray and carries no jump. The value of the line at the age is not exact, because line and age have separate
-    /// errors.
+    /// ray and carries no jump. The value of the line at the age is not exact: line and age have separate errors.
     pub(super) knot: Option<i64>,
 }
 
@@ -117,8 +116,7 @@ pub(super) struct Place<N> {
     pub(super) age: N,
 }
 
-/// The part of a piece inside a window: `p = value + slope·s` for `0 ≤ s ≤ width`; it begins `offset` after the start
-/// of the window.
+/// The part of a piece inside a window, `offset` after its start: `p = value + slope·s` for `0 ≤ s ≤ width`.
 pub(super) struct Part<N> {
     pub(super) offset: N,
     pub(super) width: N,
@@ -280,8 +278,7 @@ impl<N: Bounded> Trace<N> {
         self.slots[self.slot(index).0].start
     }
 
-    /// Returns the amount by which `p` in trip `index` lies below the stored pieces, if the trip repeats an earlier
-    /// one.
+    /// Returns the distance of `p` in trip `index` below the stored pieces, if the trip repeats an earlier one.
     pub(super) fn fallen(&self, index: usize) -> Option<N> {
         let later = self.slot(index).1;
         (later > 0).then(|| self.gravity.int(later as i64))

@@ -83,8 +83,7 @@ impl<S: Scalar> AtStart<S> {
         Ok(Field { displacement, velocity, strain })
     }
 
-    /// Returns value and slope at `x` of the piecewise linear function through `points`; a single point means a
-    /// constant.
+    /// Returns value and slope at `x` of the piecewise linear function through `points`, constant for one point.
     fn on_line(&self, points: &[(S, S)], x: &S) -> Result<(S, S), Open> {
         let mut line = points.first().map(|(x, value)| (x, value, self.zero.clone()));
         let roundings = self.zero.double(8.0 * self.zero.log2_roundoff().exp2());

@@ -160,8 +160,7 @@ impl<S> Contact<S> {
 }
 
 impl<S: Clone> Contact<S> {
-    /// Builds the contacts between events; `found` returns impulse and peak of the contact that begins with the given
-    /// event.
+    /// Builds the contacts between events; `found` returns impulse and peak of the contact that begins at an event.
     pub(crate) fn between(events: &[Event<S>], mut found: impl FnMut(usize) -> (S, S)) -> Vec<Self> {
         let impacts = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact);
         let contact = |(k, impact): (usize, &Event<S>)| {
@@ -274,8 +273,7 @@ impl<S: Scalar> StressPiece<S> {
 pub struct StressHistory<S> {
     /// The pieces, in order and without a gap.
     pub pieces: Vec<StressPiece<S>>,
-    /// Reason of the end of the last piece. Before an irrational event, that end is a fraction just below the event's
-    /// time.
+    /// Reason of the end of the last piece. Before an irrational event, the end is a fraction just below its time.
     pub ending: Ending,
 }
 
@@ -325,8 +323,7 @@ pub enum Ending {
     },
     /// The first bounce: no proof covers what follows.
     Bounce,
-    /// No proof covers what follows: an event is so close to happening that no affordable number of bits decides
-    /// whether it does.
+    /// No proof covers what follows: no affordable number of bits decides whether a close event happens.
     Unproved {
         /// The undecided event.
         what: Near,

@@ -89,8 +89,7 @@ impl<S: Scalar> Sums<S> {
         sums
     }
 
-    /// Widens the sums for errors of at most `velocity` in `∫ |v_t| dx` and `strain` in `∫ |v_x| dx` over a cell of
-    /// this width.
+    /// Widens the sums for errors up to `velocity` in `∫ |v_t| dx` and `strain` in `∫ |v_x| dx` over this width.
     pub(crate) fn widened(mut self, width: &S, velocity: &S, strain: &S) -> Self {
         let mut power = width.one();
         for (n, sum) in self.strain.iter_mut().enumerate() {

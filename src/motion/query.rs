@@ -93,8 +93,7 @@ pub trait Motion<S: Scalar>: Send + Sync {
         &self.course().ending
     }
 
-    /// Returns all impacts and releases, in order. If the rod stands on the ground, the start at `t = 0` is the first
-    /// impact.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     fn events(&self) -> &[Event<S>] {
         &self.course().events
     }
@@ -230,8 +229,7 @@ pub trait Motion<S: Scalar>: Send + Sync {
         Err(Error::NoWaves)
     }
 
-    /// Returns the error bound that the run carries for every quantity, relative to its natural scale; zero if all is
-    /// exact.
+    /// Returns the error bound that the run carries for all quantities, relative to their natural scales; 0 if exact.
     fn error_estimate(&self) -> S;
 
     /// Returns the number of impacts and `log₁₀` of the factor by which rounding errors may have grown over them;

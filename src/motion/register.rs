@@ -116,8 +116,7 @@ impl<S: Scalar> RayRegister<S> {
         (apart - self.round_trip.double(trips) * &self.round_trip).vanishes() != Ok(false)
     }
 
-    /// Returns the time within `roundings` plus the ray's own bound of `time` at which a ray passes `point`, or else
-    /// `time`.
+    /// Returns the time of a ray at `point` within `roundings` plus the ray's own bound of `time`, or else `time`.
     pub fn meant(&self, point: &S, time: S, roundings: f64) -> S {
         let known = |met: &S| {
             let bound = met.log2_error().exp2();

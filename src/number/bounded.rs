@@ -79,8 +79,7 @@ pub trait Bounded: Scalar {
         self
     }
 
-    /// Returns the same number, if it has lost its exact form or its ends, by another formula that keeps them. For
-    /// enclosures.
+    /// Evaluates another formula for the same enclosure if this one has lost its exact number or its ends.
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
         let _ = other;
         self

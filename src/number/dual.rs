@@ -11,8 +11,7 @@ use super::{Bounded, Number, Open, Scalar};
 /// therefore occur in the order beyond a threshold, and the derivative is the right-hand one. Rounded numbers are equal
 /// only within their bounds, so rates cannot decide between them: the comparison is open.
 ///
-/// Results that first order does not determine, such as a quotient by `b ε` or the root of `b ε`, are open in every
-/// comparison.
+/// Results beyond first order, such as a quotient by `b ε` or its root, are open in every comparison.
 ///
 /// Error terms that a number system adds beside a formula apply to `a` and `b` alike: each is a stored number plus its
 /// deviation, and the formula holds for the sums `a + b ε` of both.

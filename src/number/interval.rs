@@ -170,8 +170,7 @@ impl Interval {
         Estimate::new(middle, error)
     }
 
-    /// Encloses all numbers within the bound of `x`. The relative 10⁻⁹ and 10⁻³⁰⁰ cover the rounding of the double
-    /// arithmetic.
+    /// Encloses all numbers within the bound of `x`. The factor and the summand cover the rounding of doubles.
     pub(crate) fn within(x: &Estimate<Float>) -> Self {
         let (middle, bits) = (x.value(), x.value().prec());
         let radius = Float::with_val(64, x.error() * (1.0 + 1e-9) + 1e-300) >> bits;

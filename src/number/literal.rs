@@ -165,8 +165,7 @@ fn spells_zero(decimal: &str) -> bool {
     !mantissa.contains(|c: char| c.is_ascii_digit() && c != '0')
 }
 
-/// Returns whether the text has sign, digits with at most one point and exponent; `f64::from_str` also accepts `inf`,
-/// `nan`.
+/// Returns whether the text is a plain decimal; `f64::from_str` also accepts `inf` and `nan`.
 fn is_decimal(text: &str) -> bool {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((unsigned, "0"));

@@ -167,7 +167,7 @@ impl Radical {
         a.mul(a)?.sub(&b.mul(b)?.mul(root.radicand.as_ref()?)?)
     }
 
-    /// Divides; `None` also for division by zero.
+    /// Returns the quotient; `None` also for division by zero.
     pub(super) fn div(&self, other: &Self) -> Option<Self> {
         self.mul(&other.inverse()?)
     }

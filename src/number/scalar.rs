@@ -208,8 +208,7 @@ pub trait Scalar:
     }
 }
 
-/// A number system that rounds and carries no error bound: `f64`, `Float`. [`Estimate`](super::Estimate) adds the
-/// bound.
+/// A number system that rounds without an error bound: `f64`, `Float`. [`Estimate`](super::Estimate) adds it.
 pub trait Rounded: Analytic + PartialOrd {
     /// Returns whether both numbers are equal within eight roundings: `3 · 0.2` is `0.6`.
     fn meets(&self, other: &Self) -> bool {

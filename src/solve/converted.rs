@@ -21,8 +21,7 @@ pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
     rays: RayRegister<N>,
-    /// Rays from which spelled times may be indistinguishable; `None` for exact numbers and enclosures, which decide
-    /// this themselves.
+    /// Rays that spelled times may coincide with; `None` for exact numbers and enclosures, which decide this.
     windows: Option<Windows<N>>,
     course: Course<M>,
     scales: Scales<M>,
@@ -183,8 +182,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         self.time_at_point(point, false, time)
     }
 
-    /// Returns the same time for a point that may have more digits than a double, and is then only `near` the spelled
-    /// point.
+    /// Returns the same time for a point that, with more digits than a double, is only `near` the spelled point.
     fn time_at_point(&self, point: &N, near: bool, time: &M) -> Result<N, Error> {
         self.finite(time)?;
         if let Some(known) = self.known(time) {
@@ -220,8 +218,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         self.time_at(&self.engine.end().zero(), time)
     }
 
-    /// Returns the numbers of `ask` for the ground at a time: the time of an event or ray there if only roundings
-    /// separate them.
+    /// Returns the numbers of `ask` for the ground at a time, or at that of an event or ray within roundings of it.
     fn at_ground<const K: usize>(&self, time: &M, ask: impl Fn(&N) -> Result<[N; K], Error>) -> Result<[M; K], Error> {
         let (ground, given) = (self.engine.end().zero(), self.time_at_ground(time)?);
         let late = self.late_at(&ground, time, &given);

@@ -34,8 +34,7 @@ pub enum Derivative<S> {
 /// Reason for the absence of a derivative on a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
 pub enum NoDerivative {
-    /// Difference quotients grow without bound as steps shrink, but slower than the inverse step: next to a touch, for
-    /// example.
+    /// Difference quotients grow without bound as steps shrink, but slower than the inverse step: next to a touch.
     #[strum(serialize = "infinite")]
     Infinite,
     /// The number jumps, or belongs to another event.

@@ -145,8 +145,7 @@ impl Judge {
         mean.widened(apart).widened(&bend)
     }
 
-    /// Computes the derivative from the quotients on both sides, and those of the previous step; `None` if a smaller
-    /// step is needed.
+    /// Computes the derivative from the quotients of this step and the previous one; `None` if the step is too large.
     fn derivative(&self, now: [Option<OneSide>; 2], before: Option<[Option<OneSide>; 2]>) -> Option<Derivative<Long>> {
         if let [Some(Ok(left)), Some(Ok(right))] = &now {
             let (mean, apart) = mean(left, right);

@@ -1,5 +1,4 @@
-//! Placeholder for difference quotients in a build without the feature `mp`: it returns the error that names the
-//! feature.
+//! Placeholder for difference quotients in a build without the feature `mp`: the error that names it.
 
 use super::derivative::{Asked, Derivatives};
 use crate::error::Error;

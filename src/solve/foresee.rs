@@ -12,8 +12,7 @@ const IMPACT: f64 = 2.2;
 const LONGER: f64 = 0.45;
 const MOST_FORESEEN: f64 = 60.0;
 
-/// Estimates the bits that the proof of a damped march costs; `contacts` returns the approximate number of contacts for
-/// a round trip.
+/// Estimates the bits that the proof of a damped march costs; `contacts` estimates the contacts by the round trip.
 ///
 /// **Accuracy**: *estimate*, from the losses of runs: unit rods lost 46 to 73 bits in ten impacts, a steel rod 128 in
 /// twenty. An estimate that is too low costs a second run.

@@ -172,8 +172,7 @@ impl History {
         self.solution.visit(visitor)
     }
 
-    /// Returns all impacts and releases, in order. If the rod stands on the ground, the start at `t = 0` is the first
-    /// impact.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     pub fn events(&self) -> Result<Vec<Event<Value>>, Error> {
         typed!(self, history => {
             let events = history.ask(|motion| Ok(motion.events().to_vec()), |events| {

@@ -48,8 +48,7 @@ pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivat
     Ok(None)
 }
 
-/// Computes the derivatives from runs with this relative step; `base` holds the numbers of the run with the value
-/// itself.
+/// Computes the derivatives from runs with this relative step beside the run with the numbers `base`.
 fn with_step(
     asked: &Asked<'_>,
     (base, scales): (&Rows<Double>, &[f64]),

@@ -1,5 +1,4 @@
-//! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound is
-//! small enough.
+//! The precision ladder: doubles, longer numbers or enclosures, until the bound of the answer is small enough.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -102,8 +101,7 @@ fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
 pub(crate) type Query<'a, S> =
     &'a mut dyn FnMut(&dyn Motion<<S as Answer>::Carried>) -> Result<(usize, Vec<Size>), Error>;
 
-/// Returns the answer to `query` that `settle` selects among the answers of its attempts, with the other result of
-/// `settle`.
+/// Returns the answer to `query` that `settle` selects among those of its attempts, and its other result.
 pub(crate) fn settled<S: Target, T, A>(
     query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
     numbers: impl Fn(&T) -> Vec<&S::Carried>,
@@ -118,8 +116,7 @@ pub(crate) fn settled<S: Target, T, A>(
     Ok((beside, answers.swap_remove(chosen)))
 }
 
-/// Number of attempts, each with more bits, that may end at the same doubt or leave events open before the doubt
-/// becomes the answer.
+/// Number of attempts, each with more bits, that may leave the same doubt before the doubt becomes the answer.
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
@@ -255,8 +252,7 @@ impl Ladder<'_> {
             if error.is_nan() || *error == f64::INFINITY {
                 return f64::INFINITY;
             }
-            // A number indistinguishable from zero has no digits to settle; its natural scale decides when it is small
-            // enough.
+            // The natural scale decides when a number that is indistinguishable from zero is small enough.
             if missing > 0.0 && size <= error {
                 missing = missing.min(error - least_scale(engine) + bits(digits + faint));
             }

@@ -83,8 +83,7 @@ impl Target for Interval {
     }
 }
 
-/// Makes an attempt in more bits than doubles have, converted to doubles; `longer` answers times that it does not
-/// decide.
+/// Makes an attempt in more bits than doubles have, converted to doubles; `longer` answers undecided times.
 pub(super) fn in_doubles(
     problem: &Problem,
     plan: &Plan,
@@ -98,8 +97,7 @@ pub(super) fn in_doubles(
     })
 }
 
-/// Makes an attempt in this many bits, converted to doubles; it reports times that it cannot distinguish from an event
-/// or a ray.
+/// Makes an attempt in this many bits, converted to doubles; it reports times that it does not decide.
 pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
     let bits = rung.bits();
     Ok(in_numbers!(bits, |S, precision| {
@@ -142,8 +140,7 @@ fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Resul
     Damped::march(&Task { effort, ..*task }, 1, true)
 }
 
-/// Computes `h′` at the bounce that doubles have found, in numbers of this many bits: the first flight and all that
-/// follows depend on it.
+/// Computes `h′` at the bounce that doubles have found, in this many bits: all that follows depends on it.
 pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
     let Bounce::At { time, trips, .. } = bounce else { return None };
     in_numbers!(bits, |S, precision| {

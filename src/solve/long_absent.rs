@@ -1,5 +1,4 @@
-//! Placeholder for long numbers and enclosures in a build without the feature `mp`: it returns the error that names the
-//! feature.
+//! Placeholder for long numbers and enclosures in a build without the feature `mp`: the error that names it.
 
 use super::asked::Longer;
 use super::ladder::{Engined, Target};

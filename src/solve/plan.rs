@@ -36,8 +36,7 @@ pub struct Plan {
     pub reach: Reach,
     /// Time before which the run may drop its data.
     pub keep_from: Option<f64>,
-    /// Whether all events and contacts are settled before any other query; otherwise only the queried numbers are
-    /// computed.
+    /// Whether all events and contacts are settled before any query; otherwise only queried numbers are computed.
     pub settles_events: bool,
     /// The rung of the first attempt; `explain` prints it. Longer numbers follow if it does not settle the answer.
     pub rung: Rung,
@@ -49,8 +48,7 @@ pub struct Plan {
     pub climb: Climb,
     /// Limits of cells; `None` without cells.
     pub cells: Option<CellLimits>,
-    /// Bits of `h′` at the first bounce, on which the flight and all that follows depend; `None` for the bits of the
-    /// run.
+    /// Bits of `h′` at the first bounce, on which all that follows depends; `None` for the bits of the run.
     pub rate_bits: Option<u32>,
     /// Estimated cost in bits of the proof of a damped march.
     #[serde(skip)]

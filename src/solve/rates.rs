@@ -91,8 +91,7 @@ fn meets(rate: &Rational, quotient: &Estimate<Float>) -> bool {
     number.is_some_and(|number| Estimate::from_number(&number, &quotient.precision()).same(quotient))
 }
 
-/// Returns the rate of a number on a side if that side has the same number; otherwise first order does not describe the
-/// events.
+/// Returns the rate of a number on a side with the same number; otherwise events change beyond first order.
 fn side(rows: &Rows<Dual<Rational>>, number: &Rational, place: (usize, usize)) -> OneSide {
     let there = at(rows, place).filter(|there| there.value() == number);
     there.and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)

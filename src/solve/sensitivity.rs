@@ -24,8 +24,7 @@ pub struct Sensitivity {
 const MEASURED: u32 = 10;
 
 impl Sensitivity {
-    /// Measures the sensitivity to the first nonzero value among speed, gravity and length; `None` if fewer than two
-    /// events have derivatives.
+    /// Uses the first nonzero value of speed, gravity and length; `None` if fewer than two events have derivatives.
     pub fn of(problem: &Problem) -> Option<Self> {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::ImpactSpeed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;

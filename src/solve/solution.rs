@@ -21,8 +21,7 @@ pub enum Solution {
     Digits(TypedHistory<Float>, u32),
     /// Fractions.
     Exact(TypedHistory<Rational>),
-    /// Digits of the whole run, this many of which are printed, and the event or parameter that fractions could not
-    /// hold.
+    /// Digits of the whole run, this many of which are printed, and the event or parameter that is irrational.
     DigitsAfter(TypedHistory<Float>, u32, ExactnessEnd),
     /// Enclosures, with this many proved digits.
     Certified(TypedHistory<Interval>, u32),

@@ -108,8 +108,7 @@ impl<S: Target> TypedHistory<S> {
     ///
     /// **Accuracy**: that of the [`Plan`]. The query is repeated with more bits if the current ones do not settle it.
     ///
-    /// **Errors**: the errors of the query; [`Error::Unsettled`], [`Error::Undecided`] if too many bits do not settle
-    /// it.
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] if too many bits do not settle it.
     ///
     /// ```
     /// use dalembert::{Number, Problem, Side};
@@ -176,8 +175,7 @@ impl<S: Target> TypedHistory<S> {
     /// Formats a number of an answer with exactly the digits that the [`Plan`] promises: a `Float` and an enclosure
     /// carry more.
     ///
-    /// **Accuracy**: *correctly rounded* to the requested digits; the shortest text of a double, and a fraction in
-    /// full.
+    /// **Accuracy**: *correctly rounded* to the requested digits; the shortest text of a double; a fraction in full.
     ///
     /// ```
     /// # #[cfg(feature = "mp")] {
@@ -229,8 +227,7 @@ impl<S: Target> TypedHistory<S> {
         self.current().rung
     }
 
-    /// Returns all impacts and releases, in order. If the rod stands on the ground, the start at `t = 0` is the first
-    /// impact.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     pub fn events(&self) -> &[Event<S>] {
         self.events
             .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
@@ -382,8 +379,7 @@ impl<S: Target> TypedHistory<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect::<Vec<_>>()).collect())
     }
 
-    /// Returns [`TypedHistory::slices`] in numbers that carry their bound, at points and times in the numbers of the
-    /// engine.
+    /// Returns [`TypedHistory::slices`] in numbers with their bound, at points and times in the numbers of the engine.
     pub fn ask_slices(
         &self,
         slice: Slice,

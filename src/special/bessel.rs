@@ -40,8 +40,7 @@ pub trait Special: Analytic {
     }
 }
 
-/// A number system that rounds, with the special functions of exact arguments and the number of roundings of each
-/// value.
+/// A number system that rounds, with the special functions of exact arguments and the roundings of their values.
 pub trait RoundedSpecial: Rounded {
     /// Returns `e^{−z} I_n(z)` for `z ≥ 0`, and its roundings.
     fn in_scaled_rounded(&self, n: u32) -> (Self, f64);
@@ -160,8 +159,7 @@ const fn reciprocals(n: usize) -> [f64; 13] {
     list
 }
 
-/// Computes `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles for z ≤ 2, ten times as fast as a correctly rounded
-/// function.
+/// Computes `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles for z ≤ 2, ten times as fast as correct rounding.
 ///
 /// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding with
 /// weight 1. Each earlier step adds three roundings, weighted by the terms that contain it, `(I₀ − 1)/I₀ < 0.6`. The

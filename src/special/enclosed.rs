@@ -1,5 +1,4 @@
-//! Special functions of enclosures: the function of the middle, as a long number with a proved bound, which becomes the
-//! width.
+//! Special functions of enclosures: the function of the middle, with its proved bound as the width.
 
 use rug::Float;
 use rug::float::Round;

@@ -15,8 +15,7 @@ pub trait BoundedSpecial: Special + Bounded {
     /// Returns a double near it, and the bound of its distance from the true number.
     fn near(&self) -> (f64, f64);
 
-    /// Returns whether both represent the same number as far as is known: equal within their bounds, or copies of one
-    /// enclosure.
+    /// Returns whether both represent the same number: equal within their bounds, or copies of one enclosure.
     fn coincides(&self, other: &Self) -> bool;
 }
 

@@ -182,8 +182,7 @@ impl Factor {
 /// - Each product with `y^B` has an error of two from its own roundings, plus the error of `y^B`. An addition chain
 ///   computes `y^B` with an error below `2B β^B`: for y ≥ 1 that is the fraction `2B·2^{−F}` of all that follows; for
 ///   y < 1, where T ≤ 1, it is at most 2B, times V.
-/// - Horner's rule has an error of 1 in each step, times β^{B−1}, and y itself has an error of 1: together 2B β^{B−1}
-///   V.
+/// - Horner's rule errs by 1 in each step, times β^{B−1}, and y itself by 1: together 2B β^{B−1} V.
 ///
 /// A term that has become zero stays zero, so the truncation adds nothing beyond these roundings. For N terms the total
 /// is at most `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.

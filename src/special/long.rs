@@ -127,8 +127,7 @@ fn spread(argument: f64, w: f64, terms: i64) -> f64 {
     greatest + ((terms + 1) as f64).log2() + 1.0
 }
 
-/// Returns the sums over f, f₀, and the precision of the term `last`; terms begin with `bits` and have at most `full`
-/// bits.
+/// Returns the sums over f, f₀, and the precision of the term `last`; precisions range from `bits` to `full`.
 fn descend<const K: usize>(
     (terms, last): (i64, i64),
     (by_x, by_w): (&Float, &Float),
