@@ -91,7 +91,7 @@ pub struct GroundMotion<N> {
     /// The greatest error bound in roundoffs: of any line, relative to the greatest speed of the start, or of any
     /// height, relative to the greatest height.
     pub relative_error: f64,
-    /// The first round trip with a decision within a bound of more than half of the digits: later events are undetermined.
+    /// The first round trip with a decision whose bound exceeds half of the digits: later events are undetermined.
     pub undetermined: Option<usize>,
     /// The first round trip in which two events, or an event and a break, are one only within their bounds.
     pub coincidence: Option<usize>,

@@ -214,7 +214,7 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 /// Maximum bits of a damped march that is proved: its error account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
-/// Returns the bits of the shortest numbers on the stack with at least this many, or `bits` beyond these.
+/// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.
 fn size(bits: u32) -> u32 {
     SIZES.into_iter().find(|size| bits <= size + SHORTER).unwrap_or(bits)
 }
