@@ -6,8 +6,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::fraction::spelling;
 use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
 
-/// Returns the bound, in roundings, that marks a number as spelled by a user. The true bound is one rounding; no
-/// operation produces these values, so they distinguish it from a computed number.
+/// Returns the bound, in roundings, that marks a number as spelled; its true error is at most one. Rounding operations
+/// do not produce these bounds (negation, halving and doubling keep them), so they identify spelled numbers.
 fn roundings(spelling: Spelling) -> f64 {
     match spelling {
         Spelling::Decimal => 1.25,

@@ -187,7 +187,7 @@ fn with_rates<S: Bounded>(
             }
         }
     }
-    // All listed events precede a coincidence in a trip that begins later.
+    // All listed events precede the coincidence, which is in the trip that begins at `from`.
     let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.t.to_f64() < from);
     let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
     Ok((rows, history.warnings().iter().all(settled)))
