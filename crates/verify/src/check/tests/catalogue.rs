@@ -1,8 +1,8 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
+use crate::check::verdict::Outcome;
 use crate::long;
 use crate::truth::Truth;
-use crate::check::verdict::Outcome;
 
 fn selected(name: &str) -> Vec<&'static Case> {
     select(&[name.into()]).unwrap().into_iter().flat_map(|(_, cases)| cases).collect()

@@ -370,11 +370,18 @@ impl Rod {
     }
 }
 
-/// The rows as a CSV file.
-pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("t,u,v,force,u_top,v_top,h,h_rate,E_total\n");
-    for Row { t, u, v, force, u_top, v_top, h, h_rate, energy } in rows {
-        text += &format!("{t},{u:e},{v:e},{force:e},{u_top:e},{v_top:e},{h:e},{h_rate:e},{energy:e}\n");
-    }
-    text
+/// The rows as columns of data.
+pub(crate) fn columns(rows: &[Row]) -> Vec<(&'static str, Vec<f64>)> {
+    let pick: [(&str, fn(&Row) -> f64); 9] = [
+        ("t", |row| row.t),
+        ("u", |row| row.u),
+        ("v", |row| row.v),
+        ("force", |row| row.force),
+        ("u_top", |row| row.u_top),
+        ("v_top", |row| row.v_top),
+        ("h", |row| row.h),
+        ("h_rate", |row| row.h_rate),
+        ("E_total", |row| row.energy),
+    ];
+    pick.map(|(name, value)| (name, rows.iter().map(value).collect())).into()
 }

@@ -1,13 +1,12 @@
-//! `dalembert compare` as a judge: many schemes, meshes and steps, each right and with one thing wrong.
-
-use std::fmt::Write as _;
+//! Verdicts: many schemes, meshes and steps, each right and with one thing wrong.
 
 use dalembert::{Problem, Quantity, Side};
+use dalembert_compare::Options;
 use serde_json::Value;
 
-use crate::command::json;
-use crate::compare_peers::{compare, with};
+use crate::conventions::with;
 use crate::peers::{BAR, Rod, Row, SCHEMES, STEEL, Scheme};
+use crate::{compare, compare_columns};
 
 /// A run to the middle of the second contact.
 const END: f64 = 4.5;
@@ -81,7 +80,7 @@ struct Said {
 }
 
 fn said(scene: &str, rows: &[Row]) -> Said {
-    let report: Value = compare(scene, rows, &[]);
+    let report: Value = compare(scene, rows, &Options::default());
     let list = |key: &str| report[key].as_array().unwrap().clone();
     let number = |value: &Value, key: &str| value[key].as_f64().unwrap();
     let text = |value: &Value, key: &str| value[key].as_str().unwrap().to_string();
@@ -98,22 +97,17 @@ fn is_named(hints: &[(String, f64, f64)], kind: &str, value: f64) -> bool {
 /// Nothing is wrong with them but their mesh and their step: at most one in 25 is accused.
 #[test]
 fn right_runs_get_no_hint() {
-    let folder = tempfile::TempDir::new().unwrap();
-    let scene = |rod: Rod, name: &str, time: f64| {
-        let path = folder.path().join(name);
+    let scene = |rod: Rod, time: f64| {
         let Rod { length, modulus, density, area, gravity, damping, speed, .. } = rod;
-        let text = format!(
+        format!(
             "rod = {{ length = {length}, modulus = {modulus:e}, density = {density}, area = {area:e}, damping = {damping} \
              }}\nimpact.speed = {speed}\ngravity.acceleration = {gravity}\nrun.time = {time:e}\n"
-        );
-        std::fs::write(&path, text).unwrap();
-        path.display().to_string()
+        )
     };
     let [damped, steel_damped] = [Rod { damping: 0.3, ..BAR }, Rod { damping: 12.0, ..STEEL }];
-    let bar = scene(BAR, "bar.toml", END);
-    let steel = scene(STEEL, "steel.toml", STEEL_END);
-    let (damped_bar, damped_steel) =
-        (scene(damped, "damped.toml", END), scene(steel_damped, "damped_steel.toml", STEEL_END));
+    let bar = scene(BAR, END);
+    let steel = scene(STEEL, STEEL_END);
+    let (damped_bar, damped_steel) = (scene(damped, END), scene(steel_damped, STEEL_END));
     let other = [Scheme::Moreau(0.2), Scheme::Theta(0.5, 1.0), Scheme::Theta(0.6, 0.5), Scheme::Hht(16.0)];
     let with_damping = [Scheme::Moreau(0.5), Scheme::Theta(0.5, 0.5), Scheme::Hht(4.0)];
     let mut runs: Vec<(&str, Rod, Scheme, f64)> = Vec::new();
@@ -201,25 +195,22 @@ fn faults_at_their_limits_are_named() {
 /// tells, and behind it nothing else is told from what the scheme does.
 #[test]
 fn a_mass_is_told_before_the_contact() {
-    let folder = tempfile::TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 1, gap = 0.5 }\nrun.time = 3\n";
-    std::fs::write(path("rod.toml"), scene).unwrap();
+    let scene = crate::scene("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 1, gap = 0.5 }\nrun.time = 3\n");
     let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gap("0.5").time(3).build().unwrap();
     let columns = [Quantity::EndDisplacement, Quantity::EndVelocity, Quantity::KineticEnergy];
     let times: Vec<f64> = (0..=300).map(|k| f64::from(k) / 100.0).collect();
     let exact = rod.solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     let run = |mass: f64, speed: f64| {
-        let mut text = String::from("t,u,v,kinetic\n");
+        let mut columns = ["t", "u", "v", "kinetic"].map(|name| (name, Vec::new()));
         for (k, time) in times.iter().enumerate() {
             // Chatter at the ground, and energy that is lost there.
             let (chatter, kept) = if *time < 0.5 { (0.0, 1.0) } else { (0.3 * (900.0 * time).sin(), 0.95) };
             let (u, v, kinetic) = (exact[0][k], exact[1][k], exact[2][k]);
-            let kinetic = kinetic * mass * kept * speed * speed;
-            writeln!(text, "{time},{u},{},{kinetic:.6e}", v * speed + chatter).unwrap();
+            let kinetic = format!("{:.6e}", kinetic * mass * kept * speed * speed).parse().unwrap();
+            let row = [*time, u, v * speed + chatter, kinetic];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
         }
-        std::fs::write(path("run.csv"), text).unwrap();
-        let report = json(&["compare", &path("rod.toml"), &path("run.csv"), "--format", "json"]);
+        let report = compare_columns(&scene, &columns, &Options::default());
         report["hints"].as_array().unwrap().clone()
     };
     let hints = run(0.99, 1.0);
