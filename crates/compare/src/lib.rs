@@ -21,31 +21,31 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod agree;
+mod agreement;
 pub mod aligned;
 mod audit;
 mod comparison;
+mod contacts;
 pub mod data;
+mod diagnosis;
 mod fit;
 mod limit;
 mod map;
 mod model;
 mod norms;
 mod options;
-mod ours;
+mod reference;
 mod report;
 mod samples;
-mod touch;
-mod unfitted;
-mod verdict;
+mod spring;
+mod symptoms;
 mod wording;
 
-pub use agree::{Agreement, Coverage};
+pub use agreement::Agreement;
 pub use comparison::{CompareError, ComparedFile, Comparison, Prepared};
 pub use fit::FitError;
-pub use limit::{Limit, Outcome};
+pub use limit::{Limit, LimitError, Outcome};
 pub use map::MapError;
-pub use norms::Compared;
-pub use norms::{Grid, norms, order};
+pub use norms::{ComparedColumn, Grid};
 pub use options::{Axis, Compression, Options, Origin};
 pub use report::LEGEND;
