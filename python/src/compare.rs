@@ -73,7 +73,7 @@ impl Comparison {
     fn new(py: Python<'_>, problem: &Problem, data: Vec<Data<'_>>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options(given)?;
         let source = |(name, names, columns): Data<'_>| match columns {
-            Some(columns) => Ok(Source::arrays(&name, names, columns.into_iter().map(column).collect())),
+            Some(columns) => Ok(Source::from_columns(&name, names, columns.into_iter().map(column).collect())),
             None => Source::open(Path::new(&name)).map_err(refuse),
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;

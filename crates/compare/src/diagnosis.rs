@@ -375,7 +375,11 @@ impl CauseFits<'_> {
         let base = product(&self.base, &self.base);
         let (mut p, mut found, mut left) = (0.0, self.base.clone(), base);
         let (mut slope, mut slope_at) = (slope.clone(), 0.0);
-        for start in self.starts(cause) {
+        let step = product(&slope, &found) / product(&slope, &slope);
+        let removed = step * product(&slope, &found);
+        let starts =
+            if removed > LEAST_REMOVED * base && cause == Cause::Damping { Vec::new() } else { self.starts(cause) };
+        for start in starts {
             if let Some(other) = errors(start)
                 && product(&other, &other) < left
             {
@@ -384,10 +388,8 @@ impl CauseFits<'_> {
         }
         if p != 0.0 {
             (slope, slope_at) = (self.slopes(cause, p, &found)?, p);
-        }
-        // Damped runs take long, and most data are far from them.
-        let removed = product(&slope, &found).powi(2) / product(&slope, &slope);
-        if cause == Cause::Damping && p == 0.0 && removed < LEAST_REMOVED * base {
+        } else if cause == Cause::Damping && removed < LEAST_REMOVED * base {
+            // Damped runs take long, and most data are far from them.
             return None;
         }
         for turn in 0..STEPS {

@@ -1,4 +1,8 @@
-//! Other people's data held against a history: the same quantities at the same times, and what follows from them.
+//! Comparison of data from other programs with the exact history of a rod.
+//!
+//! [`Prepared`] reads [`data::Source`]s and plans the run that they need, [`Prepared::compare`] solves it, and a
+//! [`Comparison`] reports norms, contacts, an audit by the laws of motion and the causes of what differs, as a table or
+//! as JSON. A [`Limit`] bounds any of these in a test.
 //!
 //! ```
 //! use dalembert_compare::data::Source;
@@ -11,7 +15,7 @@
 //! let times = vec![0.5, 1.0, 1.5];
 //! let strain = times.iter().map(|t| -1.01 * (3.0 + t)).collect();
 //! let names = vec!["t".to_string(), "strain".to_string()];
-//! let source = Source::arrays("mine", names, vec![Ok(times), Ok(strain)]);
+//! let source = Source::from_columns("mine", names, vec![Ok(times), Ok(strain)]);
 //! let units = Units::of(&rod, UnitSystem::Si);
 //! let prepared = Prepared::new(&rod, &units, None, vec![source], &Options::default())?;
 //! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;

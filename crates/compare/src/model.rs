@@ -1,5 +1,7 @@
 //! Predictions for other values of the scene at the times of the data, and the columns they are compared with.
 
+use std::cell::OnceCell;
+
 use super::agreement::Agreement;
 use super::norms::{ComparedColumn, Grid};
 use super::reference::Reference;
@@ -38,6 +40,8 @@ pub(super) struct Model<'a> {
     pub(super) weights: Vec<f64>,
     /// The median step of the data.
     pub(super) step: f64,
+    /// The march on a rigid ground.
+    rigid: OnceCell<Option<SpringContact>>,
 }
 
 /// Solves `problem` to a little beyond `until`, so that times next to the end have both sides.
@@ -138,7 +142,7 @@ impl<'a> Model<'a> {
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
         let weights = Grid::new(times.clone(), None).weights;
-        Ok(Model { problem, mass, times, signals, weights, step })
+        Ok(Model { problem, mass, times, signals, weights, step, rigid: OnceCell::new() })
     }
 
     fn quantities(&self) -> Vec<Quantity> {
@@ -232,9 +236,9 @@ impl<'a> Model<'a> {
     /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`; `None` where the rod
     /// does not start with a uniform velocity, or bounces too long.
     pub(super) fn change_by_spring(&self, softness: f64) -> Option<Vec<Vec<f64>>> {
-        let last = self.times.last().copied()?;
-        let [soft, rigid] = [softness, 0.0].map(|softness| SpringContact::solve(self.problem, softness, last));
-        let (soft, rigid) = (soft?, rigid?);
+        let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
+        let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
+        let soft = march(softness)?;
         let change = |signal: &Signal| {
             let factor = if signal.model == Quantity::Impulse { self.mass } else { 1.0 };
             let change = |time: &f64| factor * (soft.at(signal.model, *time) - rigid.at(signal.model, *time));

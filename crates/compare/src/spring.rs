@@ -22,7 +22,7 @@ pub(super) struct SpringContact {
 }
 
 /// Bounds of the number of cells, and of the cells in the whole march.
-const CELLS: [f64; 2] = [20.0, 100.0];
+const CELLS: [f64; 2] = [20.0, 60.0];
 const MOST_CELLS: f64 = 1e6;
 
 impl SpringContact {

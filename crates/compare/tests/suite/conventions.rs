@@ -8,7 +8,7 @@ use crate::peers::{BAR, Rod, Row, Scheme};
 
 const END: f64 = 7.5;
 
-/// Three contacts of `rod`, by `scheme`.
+/// Returns the run of `rod` by `scheme` through three contacts.
 fn bar(rod: Rod, scheme: Scheme) -> Vec<Row> {
     rod.run(scheme, END, |_| true)
 }
@@ -45,7 +45,7 @@ fn conventions_are_undone() {
     }
 }
 
-/// The audit by hand: what a code keeps, it keeps.
+/// The audit of three codes against values by hand.
 #[test]
 fn the_audit_of_codes() {
     let audit = |scheme| compare("doyen-ern-piperno", &bar(BAR, scheme), &Options::default())["audit"].clone();

@@ -33,7 +33,7 @@ fn fitted(start: &Problem, names: &[&str], times: &[f64], columns: &[Quantity], 
     let units = Units::of(start, UnitSystem::Si);
     let all = std::iter::once(times.to_vec()).chain(data).map(Ok).collect();
     let header = std::iter::once("t".to_string()).chain(columns.iter().map(|column| column.name().to_string()));
-    let source = Source::arrays("data", header.collect(), all);
+    let source = Source::from_columns("data", header.collect(), all);
     let fit: Vec<Parameter> = names.iter().map(|name| name.parse().unwrap()).collect();
     let options = Options { fit, ..Options::default() };
     let prepared = Prepared::new(start, &units, None, vec![source], &options).unwrap();

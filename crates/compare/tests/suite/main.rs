@@ -24,7 +24,7 @@ fn scene(text: &str) -> Scene {
 fn compare_columns(scene: &Scene, columns: &[(&str, Vec<f64>)], options: &Options) -> Value {
     let units = Units::of(&scene.problem, scene.units);
     let (names, values) = columns.iter().map(|(name, values)| (name.to_string(), Ok(values.clone()))).unzip();
-    let source = Source::arrays("data", names, values);
+    let source = Source::from_columns("data", names, values);
     let prepared = Prepared::new(&scene.problem, &units, scene.accuracy, vec![source], options).unwrap();
     prepared.compare(Arc::new(engine::unobserved)).unwrap().json(None, &units)
 }

@@ -1,4 +1,4 @@
-//! Verdicts: many schemes, meshes and steps, each right and with one thing wrong.
+//! Hints for many schemes, meshes and steps, each right and with one fault.
 
 use dalembert::{Problem, Quantity, Side};
 use dalembert_compare::Options;
@@ -10,10 +10,10 @@ use crate::{compare, compare_columns};
 
 /// A run to the middle of the second contact.
 const END: f64 = 4.5;
-/// The same of the steel bar: its flight is long, and three round trips are of it.
+/// The end of the run of the steel bar, whose flight is long: the contact and three round trips.
 const STEEL_END: f64 = 1.2e-3;
 
-/// One thing wrong of the size that a code may have: its kind, its value, and the run.
+/// Returns runs with one fault of the size that a code may have: its kind, its value, and the run.
 fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
     let run = |rod: Rod| rod.run(scheme, END, |_| true);
     let right = run(rod);
@@ -48,17 +48,17 @@ fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
             rows
         }),
     ];
-    // That scheme has no mass at the ground.
+    // Redistribution leaves no mass at the ground.
     if scheme != Scheme::Redistribution {
         faults.push(("end_mass", extra, run(ends(2.0))));
     }
-    // Where velocities are u's differences as they are, nothing is wrong with those.
+    // The velocities of some schemes are the differences of u anyway.
     let moved = |rows: &[Row]| right.iter().zip(rows).any(|(a, b)| (a.v_top - b.v_top).abs() > 1e-9 * rod.speed);
     faults.retain(|(kind, _, rows)| *kind != "half_step" || moved(rows));
     faults
 }
 
-/// A value of the scene off by the share `p`, or the clock by it, or all late by the time `p`.
+/// Returns a run with a value of the scene or the clock off by the share `p`, or late by the time `p`.
 fn off(rod: Rod, scheme: Scheme, kind: &str, p: f64) -> Vec<Row> {
     let run = |rod: Rod| rod.run(scheme, END, |_| true);
     match kind {
@@ -90,12 +90,12 @@ fn said(scene: &str, rows: &[Row]) -> Said {
     Said { hints: list("hints").iter().map(hint).collect(), told_from: list("told_from").iter().map(told).collect() }
 }
 
-/// Whether a fault is named, its value within twice its standard error or a fifth.
+/// Returns whether a fault is named, its value within twice its standard error or a fifth.
 fn is_named(hints: &[(String, f64, f64)], kind: &str, value: f64) -> bool {
     hints.iter().any(|hint| hint.0 == kind && (hint.1 - value).abs() <= (2.0 * hint.2).max(0.2 * value.abs()))
 }
 
-/// Nothing is wrong with them but their mesh and their step: at most one in 25 is accused.
+/// Runs without a fault besides their mesh and their step: at most one in 25 gets a hint.
 #[test]
 fn right_runs_get_no_hint() {
     let scene = |rod: Rod, time: f64| {
@@ -171,7 +171,7 @@ fn faults_are_named() {
     assert!(count == 149 && told >= 45, "{told} of {count}");
 }
 
-/// The same at the limit itself: values a fiftieth greater than what would be told, either way.
+/// Faults a fiftieth greater than the least that would be named, in both directions, are named.
 #[test]
 fn faults_at_their_limits_are_named() {
     let (mut count, mut broken) = (0, Vec::new());
@@ -195,8 +195,7 @@ fn faults_at_their_limits_are_named() {
     assert!(count >= 50 && broken.is_empty(), "{count}: {broken:#?}");
 }
 
-/// As the bar of Siconos' reference file, which has 0.99 of the scene's length: before the contact only its energy
-/// tells, and behind it nothing else is told from what the scheme does.
+/// A bar of 0.99 of the mass, as that of Siconos' reference file: only its energy before the contact shows it.
 #[test]
 fn a_mass_is_told_before_the_contact() {
     let scene = crate::scene("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 1, gap = 0.5 }\nrun.time = 3\n");
