@@ -34,7 +34,7 @@ fn periodic(trips: i64) -> Problem {
 
 /// The events of a run in doubles, as planned, and their error.
 fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
-    match plan.solve(black_box(problem), std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
+    match plan.solve_typed(black_box(problem), std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
         _ => unreachable!(),
     }
@@ -49,7 +49,6 @@ fn impacts(c: &mut Criterion) {
         group.bench_function(format!("r = {damping}, μ = {speed}"), |b| b.iter(|| planned(&problem, &plan)));
     }
     group.finish();
-    #[cfg(feature = "mp")]
     {
         let problem = rod("0.1", "3", Run::Impacts(2));
         let mut group = c.benchmark_group("50 digits");

@@ -50,9 +50,9 @@ fn main() {
     }
     println!("{:44} {:>10} {:>9} {:>9} {:>9} {:>9}  rung", "scene", "run, ms", "speed", "length", "gravity", "damping");
     for (name, problem) in scenes() {
-        let Ok(history) = problem.solve() else { continue };
+        let Ok(history) = problem.doubles() else { continue };
         let plain = seconds(|| {
-            black_box(black_box(&problem).solve().unwrap().events().len());
+            black_box(black_box(&problem).doubles().unwrap().events().len());
         });
         let ratio = |by: Parameter| {
             // A rod without damping or gravity is another problem than one with some.

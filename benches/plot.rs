@@ -12,9 +12,9 @@ fn plot(criterion: &mut Criterion) {
     for (name, damping) in [("undamped", "0"), ("damped", "0.01")] {
         let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).damping(damping);
         let rod = rod.impacts(10).build().unwrap();
-        criterion.bench_function(&format!("ten {name} bounces, solved"), |b| b.iter(|| black_box(&rod).solve()));
+        criterion.bench_function(&format!("ten {name} bounces, solved"), |b| b.iter(|| black_box(&rod).doubles()));
         criterion.bench_function(&format!("ten {name} bounces, solved and drawn"), |b| {
-            b.iter(|| Drawing::default().draw(&black_box(&rod).solve().unwrap(), &rod, Units::default()).unwrap());
+            b.iter(|| Drawing::default().draw(&black_box(&rod).doubles().unwrap(), Units::default()).unwrap());
         });
     }
 }

@@ -10,7 +10,7 @@ use dalembert::{Error, Problem};
 
 fn main() -> Result<(), Error> {
     // L = c = g = 1 and μ = 3: contact from 0 to 2, then flight until t = 8.
-    let history = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(8).build()?.solve()?;
+    let history = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(8).build()?.doubles()?;
     // What an end does to a jump ([v_x], [v_t]) is a matrix: a held end turns [v_t] round, a free one [v_x].
     let (ground_in_flight, free_top) = (reflection(false), reflection(false));
 

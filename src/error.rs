@@ -9,6 +9,14 @@ pub enum Error {
     /// A problem that cannot be built.
     #[error(transparent)]
     Problem(#[from] ProblemError),
+    /// A time or a point that is no number.
+    #[error("{quantity}: {error}")]
+    Spelling {
+        /// The time or the point.
+        quantity: &'static str,
+        /// What is wrong with its text.
+        error: crate::number::NumberError,
+    },
     /// A fraction cannot hold a square root.
     #[error(
         "exact fractions cannot hold the {quantity} √({square}), expected a square, or digits in place of fractions"
@@ -111,8 +119,11 @@ pub enum Error {
         /// The most that is given.
         most: u32,
     },
-    /// Digits, proved or not, need GMP and MPFR.
-    #[error("found a build without arbitrary precision, expected one with the feature `mp` for digits")]
+    /// Digits, proved or not, and answers that doubles do not settle need GMP and MPFR.
+    #[error(
+        "found a build without arbitrary precision, expected one with the feature `mp` for digits, and for answers that \
+         doubles do not settle"
+    )]
     NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(

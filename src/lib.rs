@@ -5,11 +5,11 @@
 //! use dalembert::{Problem, Side};
 //!
 //! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-//! let history = rod.solve()?; // in doubles; rod.exact()?, rod.digits(50)?, rod.certified(50)? alike
-//! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-//! assert_eq!(history.contacts()[0].to, Some(2.0));
+//! let history = rod.solve()?;
 //! // Until the wave comes back, v_x(0,t) = −(μ + g t)/c.
-//! assert_eq!(history.strain(1.0, Side::Right)?, -4.0);
+//! assert_eq!(history.strain(1, Side::Right)?, -4.0);
+//! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+//! assert_eq!(rod.exact()?.contacts()[0].release, Some(2.into()));
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
@@ -32,7 +32,7 @@
 //! use dalembert::{Problem, Quantity, Side};
 //!
 //! let ruler = Problem::builder().length("0.3").material(10e9, 700, "6e-5").gravity("9.81").drop_height("0.1");
-//! let history = ruler.impacts(10).build()?.solve()?;
+//! let history = ruler.impacts(10).build()?.doubles()?;
 //! assert_eq!(history.contacts().len(), 10);
 //! let force = &history.columns(&[Quantity::Force], &[1e-5, 1e-3], Some(Side::Right))?[0];
 //! // (μ + g t) S √(E ρ) with μ = √(2 g 0.1) = 1.400714, and nothing in flight.
@@ -62,8 +62,8 @@ pub mod engine;
 mod error;
 mod first_contact;
 mod lattice;
-mod modal;
 mod motion;
+mod names;
 pub mod number;
 pub mod problem;
 pub mod quantity;
@@ -76,14 +76,15 @@ mod threads;
 pub use error::Error;
 pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
-pub use number::{Estimate, Float, Interval, Number, Rational};
+pub use names::{UnknownName, nearest};
+pub use number::{Bound, Estimate, Float, Interval, Number, Rational, Value};
 pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
-pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution};
+pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution, TypedHistory};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -116,13 +116,8 @@ macro_rules! each {
 }
 
 /// What a history lists, by name.
-const LISTS: [(&str, Table); 5] = [
-    ("events", Table::Events),
-    ("contacts", Table::Contacts),
-    ("restitution", Table::Restitution),
-    ("flights", Table::Flights),
-    ("stress", Table::Stress),
-];
+const LISTS: [(&str, Table); 4] =
+    [("events", Table::Events), ("contacts", Table::Contacts), ("flights", Table::Flights), ("stress", Table::Stress)];
 
 /// Numbers and how far each may be off, to the left and to the right.
 type Sides = [(Found, Found); 2];
@@ -176,16 +171,15 @@ impl History {
 
     /// The sheet of pictures that tells the scene, as SVG.
     fn sheet(&self, py: Python<'_>) -> PyResult<String> {
-        let (rod, units) = self.solved.clone();
+        let units = self.solved.1.clone();
         self.ask(py, move |solution| {
-            each!(solution, |history, _| Drawing::default().draw(history, &rod, units)).map(|drawn| drawn.svg)
+            each!(solution, |history, _| Drawing::default().draw(history, units)).map(|drawn| drawn.svg)
         })
     }
 
     /// The first and the last time of that sheet.
     fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
-        let rod = self.solved.0.clone();
-        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history, &rod)))
+        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history)))
     }
 
     fn error_estimate(&self) -> f64 {
@@ -195,7 +189,7 @@ impl History {
     /// Kind and error of the time of each event.
     fn kinds(&self) -> (Vec<String>, Vec<f64>) {
         each!(&*self.solution, |history, _| {
-            history.events().iter().map(|event| (event.kind.to_string(), event.time_error)).unzip()
+            history.events().iter().map(|event| (event.kind.to_string(), event.t_error)).unzip()
         })
     }
 
@@ -205,8 +199,8 @@ impl History {
         self.ask(py, move |solution| {
             each!(solution, |history, digits| {
                 let of = history.end().carry();
-                let found = |(name, column): (_, Vec<Option<_>>)| {
-                    (name, Found::of(column.iter().map(Option::as_ref), &of, *digits))
+                let found = |(quantity, column): (Quantity, Vec<Option<_>>)| {
+                    (quantity.name(), Found::of(column.iter().map(Option::as_ref), &of, *digits))
                 };
                 Ok(history.ask_table(table)?.into_iter().map(found).collect())
             })
@@ -345,8 +339,7 @@ fn sides<N: Scalar>(rows: &Derivatives<N>, quantities: &[Quantity], of: &N, digi
         let bounds = values.iter().map(|x| x.as_ref().map_or(f64::NAN, |x| x.log2_error().exp2())).collect();
         (Found::of(values.iter().map(Option::as_ref), of, digits), Found::Doubles(bounds))
     };
-    let name = |q: &Quantity| if matches!(q.needs(), Needs::Time | Needs::PointAndTime) { q.name() } else { q.key() };
-    quantities.iter().enumerate().map(|(k, q)| (name(q), [side(k, true), side(k, false)])).collect()
+    quantities.iter().enumerate().map(|(k, q)| (q.name(), [side(k, true), side(k, false)])).collect()
 }
 
 fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {

@@ -129,7 +129,7 @@ impl Problem {
         let solved = (problem.clone(), Units::of(&problem, self.units));
         let observe = observer(&stop);
         // The plan may already take long: it foresees the digits that a chaotic run loses.
-        let solution = run(py, &stop, move || Plan::of(&problem, &question)?.solve(&problem, observe))?;
+        let solution = run(py, &stop, move || Plan::of(&problem, &question)?.solve_typed(&problem, observe))?;
         Ok(History::new(solution, solved, stop))
     }
 }

@@ -22,6 +22,7 @@ impl<S> Field<S> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
+    /// Returns displacement, velocity and strain.
     pub fn numbers(&self) -> [&S; 3] {
         [&self.displacement, &self.velocity, &self.strain]
     }
@@ -39,7 +40,7 @@ impl<S> Field<S> {
 /// ```
 /// use dalembert::Problem;
 /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
-/// let waves = rod.solve()?.waves()?;
+/// let waves = rod.doubles()?.waves()?;
 /// // Behind the wave of the impact v_x = −(μ + g(t − x))/c.
 /// assert_eq!(waves.at(&0.25, &0.5).strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())
@@ -176,11 +177,13 @@ impl<S: Scalar> Waves<S> {
         self.pieces[begun.max(1) - 1].at(s)
     }
 
+    /// Returns all numbers of both waves.
     pub fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
         [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect()
     }
 
+    /// Returns the same waves in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
         let piece = |piece: WavePiece<S>| WavePiece {
             from: f(piece.from),

@@ -8,9 +8,9 @@
 //! squared: the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
-use super::history::History;
 use super::plan::Plan;
 use super::question::{Numbers, Question};
+use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
@@ -224,7 +224,7 @@ fn reach(x: &Long) -> f64 {
 fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows<Long>, Vec<f64>), Error> {
     let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
     let plan = Plan::of(problem, &question)?;
-    let history = History::<Float>::solve(problem, &plan, asked.observe.clone())?;
+    let history = TypedHistory::<Float>::solve(problem, &plan, asked.observe.clone())?;
     let query = |motion: &dyn Motion<Long>| Ok((asked.values(problem, motion)?, asked.scales(problem, motion)));
     let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
     let zero = Long::from_number(&Number::from(0), &bits);

@@ -8,7 +8,7 @@ use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer, UNOBSERVED};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
-use crate::number::{Answer, Scalar};
+use crate::number::{Answer, IntoValue, Scalar};
 use crate::problem::Problem;
 use crate::reason::{Reason, Warning};
 
@@ -48,7 +48,7 @@ pub(crate) type Engined<S> = Arc<dyn Motion<<S as Answer>::Carried>>;
 
 /// A number system of answers, and how an attempt in the numbers of a rung is read in it; one that is not built in has
 /// [`Error::NoMultiprecision`] for both.
-pub trait Target: Answer {
+pub trait Target: Answer<Carried: IntoValue> {
     /// Runs the planned engine in the numbers of `rung`.
     ///
     /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
@@ -268,7 +268,7 @@ fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
 /// Whether the last event is not told from the end of the run, which it may come after.
 fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
-    let left = engine.end() - &event.time;
+    let left = engine.end() - &event.t;
     left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
 }
 

@@ -30,14 +30,14 @@ impl Sensitivity {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::Speed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
         let value = by.value_in::<f64>(problem, &()).ok()?;
-        let history = problem.to_builder().impacts(MEASURED).build().ok()?.solve().ok()?;
+        let history = problem.to_builder().impacts(MEASURED).build().ok()?.doubles().ok()?;
         let derivatives = history.derivatives(by, &[Quantity::EventTime]).ok()?;
         let mut found = Vec::new();
         for (event, row) in history.events().iter().zip(&derivatives) {
             let sides = row[0].as_ref().map(|derivative| derivative.sides());
             let slopes = sides.into_iter().flatten().flatten().map(|slope| slope.value().abs());
-            let most = slopes.fold(0.0, f64::max) * value.abs() / event.time;
-            found.extend((event.time > 0.0 && most > 0.0).then_some(most));
+            let most = slopes.fold(0.0, f64::max) * value.abs() / event.t;
+            found.extend((event.t > 0.0 && most > 0.0).then_some(most));
         }
         let (first, last) = (*found.first()?, *found.last()?);
         let grown = (last / first).log10() / found.len().checked_sub(1).filter(|count| *count > 0)? as f64;

@@ -4,25 +4,27 @@ use super::history::History;
 use super::ladder::Target;
 use super::plan::Plan;
 use super::question::{Numbers, Observer};
+use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
+use crate::quantity::{UnitSystem, Units};
 
 /// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` there are only
 /// doubles and fractions.
 #[derive(Debug)]
 pub enum Solution {
     /// Doubles.
-    Double(History<f64>),
+    Double(TypedHistory<f64>),
     /// Decimal digits: this many are to be printed.
-    Digits(History<Float>, u32),
+    Digits(TypedHistory<Float>, u32),
     /// Fractions.
-    Exact(History<Rational>),
+    Exact(TypedHistory<Rational>),
     /// Digits of the whole run, this many of which are to be printed, and what fractions could not hold.
-    DigitsAfter(History<Float>, u32, ExactnessEnd),
+    DigitsAfter(TypedHistory<Float>, u32, ExactnessEnd),
     /// Enclosures: this many digits are proved.
-    Certified(History<Interval>, u32),
+    Certified(TypedHistory<Interval>, u32),
 }
 
 /// What is done with a history, whatever its numbers.
@@ -31,7 +33,7 @@ pub trait Visitor {
     type Output;
 
     /// Does it.
-    fn visit<S: Target>(self, history: &History<S>) -> Self::Output;
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output;
 }
 
 impl Solution {
@@ -88,6 +90,11 @@ impl std::fmt::Display for ExactnessEnd {
 }
 
 impl Plan {
+    /// Solves `problem`: see [`Plan::solve_typed`].
+    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
+        Ok(History::new(self.solve_typed(problem, observe)?, Units::of(problem, UnitSystem::default())))
+    }
+
     /// Solves `problem`; see [`Observer`] for what `observe` receives.
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
@@ -102,22 +109,22 @@ impl Plan {
     /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
     /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
     /// let observe = Arc::new(|_, _| ControlFlow::Continue(()));
-    /// let Solution::Double(motion) = plan.solve(&problem, observe)? else { unreachable!() };
-    /// assert!((motion.contacts()[0].to.unwrap() - 2.0 / 3.0).abs() < 1e-15);
+    /// let Solution::Double(motion) = plan.solve_typed(&problem, observe)? else { unreachable!() };
+    /// assert!((motion.contacts()[0].release.unwrap() - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), dalembert::Error>(())
     /// ```
-    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {
+    pub fn solve_typed(&self, problem: &Problem, observe: Observer) -> Result<Solution, Error> {
         Ok(match self.numbers {
-            Numbers::Double(_) => Solution::Double(History::solve(problem, self, observe)?),
-            Numbers::Digits(digits) => Solution::Digits(History::solve(problem, self, observe)?, digits),
-            Numbers::Certified(digits) => Solution::Certified(History::solve(problem, self, observe)?, digits),
-            Numbers::Exact => Solution::Exact(History::solve(problem, self, observe)?),
+            Numbers::Double(_) => Solution::Double(TypedHistory::solve(problem, self, observe)?),
+            Numbers::Digits(digits) => Solution::Digits(TypedHistory::solve(problem, self, observe)?, digits),
+            Numbers::Certified(digits) => Solution::Certified(TypedHistory::solve(problem, self, observe)?, digits),
+            Numbers::Exact => Solution::Exact(TypedHistory::solve(problem, self, observe)?),
             Numbers::ExactThenDigits(digits) => {
                 let in_digits = |end: ExactnessEnd| {
-                    let motion = History::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
+                    let motion = TypedHistory::solve(problem, &self.in_digits(problem, digits), observe.clone())?;
                     Ok(Solution::DigitsAfter(motion, digits, end))
                 };
-                match History::<Rational>::solve(problem, self, observe.clone()) {
+                match TypedHistory::<Rational>::solve(problem, self, observe.clone()) {
                     Err(Error::Irrational { quantity, square }) => {
                         return in_digits(ExactnessEnd::Parameter { quantity, square });
                     }

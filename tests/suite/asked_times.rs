@@ -12,8 +12,8 @@ use dalembert::engine::{Motion, Undamped};
 use dalembert::number::Scalar;
 use dalembert::solve::Target;
 use dalembert::{
-    Error, Estimate, EventKind, History, Number, Numbers, Plan, Problem, Question, Rational, Scene, Side, Solution,
-    Warning,
+    Error, Estimate, EventKind, Number, Numbers, Plan, Problem, Question, Rational, Scene, Side, Solution,
+    TypedHistory, Warning,
 };
 use rug::Float;
 
@@ -24,7 +24,7 @@ const BITS: u32 = 320;
 type Values = [(Float, f64); 4];
 
 fn values<S: Target>(
-    history: &History<S>,
+    history: &TypedHistory<S>,
     (third, time): (&Number, &Number),
     side: Side,
     float: fn(&S::Carried) -> Float,
@@ -44,13 +44,17 @@ fn values<S: Target>(
 
 /// The values in one mode, and the times that its warnings name.
 fn asked(problem: &Problem, numbers: Numbers, times: &[Number]) -> (Vec<[Values; 2]>, Vec<f64>) {
-    fn all<S: Target>(history: &History<S>, times: &[Number], float: fn(&S::Carried) -> Float) -> Vec<[Values; 2]> {
+    fn all<S: Target>(
+        history: &TypedHistory<S>,
+        times: &[Number],
+        float: fn(&S::Carried) -> Float,
+    ) -> Vec<[Values; 2]> {
         let third: Number = format!("{:.3}", history.scales().length.to_f64() / 3.0).parse().unwrap();
         let both = |time| [Side::Left, Side::Right].map(|side| values(history, (&third, time), side, float));
         times.iter().map(both).collect()
     }
     let plan = Plan::of(problem, &Question::run(numbers)).unwrap();
-    let solution = plan.solve(problem, Arc::new(dalembert::engine::unobserved)).unwrap();
+    let solution = plan.solve_typed(problem, Arc::new(dalembert::engine::unobserved)).unwrap();
     let (found, warnings) = match &solution {
         Solution::Double(history) => (all(history, times, |x| Float::with_val(BITS, *x.value())), history.warnings()),
         Solution::Digits(history, _) => (all(history, times, |x| Float::with_val(BITS, x.value())), history.warnings()),
@@ -68,8 +72,8 @@ fn asked(problem: &Problem, numbers: Numbers, times: &[Number]) -> (Vec<[Values;
 
 /// The times that doubles print for the events, and a unit of their last digit beside them.
 fn printed(problem: &Problem) -> Vec<Number> {
-    let history = problem.solve().unwrap();
-    let times = history.events().iter().skip(1).map(|event| event.time);
+    let history = problem.doubles().unwrap();
+    let times = history.events().iter().skip(1).map(|event| event.t);
     times
         .flat_map(|time| [time, time.next_down(), time.next_up()])
         .map(|time| time.to_string().parse().unwrap())
@@ -96,8 +100,8 @@ fn held(problem: &Problem, modes: &[Numbers], counts: &mut Counts) {
     for (time, [left, _]) in times.iter().zip(&known) {
         let exact = Float::with_val(BITS, time.to_rational());
         let apart = |event: &Float| Float::with_val(BITS, &exact - event).to_f64();
-        let passed = truth.events().iter().rfind(|event| apart(&event.time) > 1e-50);
-        let near = truth.events().iter().map(|event| apart(&event.time).abs()).fold(1.0, f64::min);
+        let passed = truth.events().iter().rfind(|event| apart(&event.t) > 1e-50);
+        let near = truth.events().iter().map(|event| apart(&event.t).abs()).fold(1.0, f64::min);
         if near < 1e-50 {
             continue;
         }
@@ -159,7 +163,7 @@ fn at_a_printed_event_the_value_is_that_of_the_time() {
 #[test]
 fn contact_is_not_asked_beyond_the_end_of_a_run() {
     let rod = Problem::builder().length("1.4863").wave_speed("0.5133").gravity("0.0138648");
-    let history = rod.drop_height("14600041/693240").impacts(3).build().unwrap().solve().unwrap();
+    let history = rod.drop_height("14600041/693240").impacts(3).build().unwrap().doubles().unwrap();
     let time: Number = "231.99666649431802".parse().unwrap();
     for side in [Side::Left, Side::Right] {
         let columns = [dalembert::Quantity::Contact, dalembert::Quantity::Strain];
@@ -172,7 +176,11 @@ fn contact_is_not_asked_beyond_the_end_of_a_run() {
 }
 
 /// The energies, the centre and the means over cells at a time that is spelled.
-fn of_the_rod<S: Target>(history: &History<S>, time: &Number, float: fn(&S::Carried) -> Float) -> Vec<(Float, f64)> {
+fn of_the_rod<S: Target>(
+    history: &TypedHistory<S>,
+    time: &Number,
+    float: fn(&S::Carried) -> Float,
+) -> Vec<(Float, f64)> {
     use dalembert::Quantity::{Centre, CentreVelocity, KineticEnergy, StrainEnergy, TranslationalEnergy};
     use dalembert::quantity::{Slice, slices};
     let columns = [StrainEnergy, KineticEnergy, dalembert::Quantity::VibrationalEnergy, TranslationalEnergy, Centre];
@@ -194,7 +202,7 @@ fn of_the_rod<S: Target>(history: &History<S>, time: &Number, float: fn(&S::Carr
 fn what_the_rod_carries_next_to_an_event_is_within_its_bound() {
     let rod = Problem::builder().length("1.4863").wave_speed("0.5133").gravity("0.0138648");
     let problem = rod.drop_height("14600041/693240").impacts(3).build().unwrap();
-    let (doubles, truth) = (problem.solve().unwrap(), problem.digits(28).unwrap());
+    let (doubles, truth) = (problem.doubles().unwrap(), problem.digits(28).unwrap());
     let mut compared = 0;
     for time in ["231.996666494318", "231.99666649431802", "231.99666649431805", "231.996666494317", "233.1"] {
         let time: Number = time.parse().unwrap();
@@ -288,9 +296,9 @@ fn an_event_has_its_own_energies() {
     let problem = rod.impacts(1).build().unwrap();
     let doubles = Undamped::<Estimate<f64>>::solve(&problem, &()).unwrap();
     let exact = Undamped::<Rational>::solve(&problem, &()).unwrap();
-    let release = exact.energy(&exact.events()[1].time).unwrap().vibrational;
+    let release = exact.energy(&exact.events()[1].t).unwrap().vibrational;
     assert_eq!(release, Rational::from((2, 3)));
-    let found = doubles.energy(&doubles.events()[1].time).unwrap().vibrational;
+    let found = doubles.energy(&doubles.events()[1].t).unwrap().vibrational;
     let off = (Rational::from_f64(*found.value()).unwrap() - release).to_f64().abs();
     assert!(off <= found.bound() && found.bound() < 1e-6, "{found:?}");
 }

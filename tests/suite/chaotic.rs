@@ -19,8 +19,8 @@ fn every_event_has_its_digits() {
     let check = undamped::<Float>(&problem, &(2 * bits)).unwrap();
     assert_eq!(history.events().len(), check.events().len());
     for (a, b) in history.events().iter().zip(check.events()) {
-        let error = Float::with_val(64, &b.time - &a.time).abs().to_f64();
-        assert!(error <= 1e-15 * b.time.to_f64().max(1.0), "{error:e} at {}", b.time);
+        let error = Float::with_val(64, &b.t - &a.t).abs().to_f64();
+        assert!(error <= 1e-15 * b.t.to_f64().max(1.0), "{error:e} at {}", b.t);
     }
     // Double precision has long lost it by then, and says so.
     let rounded = undamped::<f64>(&problem, &()).unwrap();
@@ -55,7 +55,7 @@ fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);
     let plan = Plan::of(&problem, &Question::between(400.into(), 400.into(), Numbers::Digits(15))).unwrap();
     let Solution::Digits(history, 15) =
-        plan.solve(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
+        plan.solve_typed(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
     else {
         panic!("digits were asked for")
     };

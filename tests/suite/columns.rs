@@ -16,7 +16,7 @@ fn fraction(p: i64, q: i64) -> Rational {
 
 /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx` from values of the field: between rays both squares are quadratic, for which the
 /// rule with the weights 2/3, −1/3, 2/3 at the quarters is exact.
-fn from_field(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> [Rational; 2] {
+fn from_field(rod: &Problem, history: &dalembert::TypedHistory<Rational>, time: &Rational) -> [Rational; 2] {
     let trip = history.rays(0).unwrap()[0].clone();
     let c = rod.rod.length.to_rational() * 2 / (trip.to.clone() - trip.from);
     let mut sums = [Rational::new(), Rational::new()];
@@ -109,7 +109,7 @@ fn impulse_is_what_momentum_has_gained() {
 #[test]
 fn a_damped_rod_balances_momentum_and_energy() {
     let rod = scene("figure-4-r02").with_run(Run::Impacts(3)).unwrap();
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let (r, g) = (0.2, 1.0);
     let times: Vec<f64> = (0..=60).map(|k| history.end() * f64::from(k) / 60.0).collect();
     let columns = [
@@ -238,11 +238,11 @@ fn one_march_has_the_values_of_many() {
     }
     let all: Vec<Quantity> = Needs::Time.quantities().collect();
     for (name, problem) in problems.into_iter().map(|problem| problem.build().unwrap()).enumerate() {
-        let history = problem.solve().unwrap();
+        let history = problem.doubles().unwrap();
         let (end, trip) = (*history.end(), history.scales().time);
         let mut times: Vec<f64> = (0..60).map(|_| end * random()).collect();
         times.extend((0..40).map(|k| 0.25 * trip * f64::from(k)));
-        times.extend(history.events().iter().flat_map(|event| [event.time, event.time + 0.5 * trip]));
+        times.extend(history.events().iter().flat_map(|event| [event.t, event.t + 0.5 * trip]));
         times.extend([0.0, end, end]);
         times.retain(|time| *time <= end);
         times.sort_by(f64::total_cmp);
@@ -250,10 +250,10 @@ fn one_march_has_the_values_of_many() {
             |table: &[Vec<f64>], row: usize| table.iter().map(|values| values[row].to_bits()).collect::<Vec<_>>();
         for side in [Side::Left, Side::Right] {
             let table = history.columns(&all, &times, Some(side)).unwrap();
-            let alone = problem.solve().unwrap();
+            let alone = problem.doubles().unwrap();
             for (row, time) in times.iter().enumerate().rev() {
                 // The first ones of a history that has been asked nothing yet.
-                let fresh = (row % 16 == 0).then(|| problem.solve().unwrap());
+                let fresh = (row % 16 == 0).then(|| problem.doubles().unwrap());
                 let found = fresh.as_ref().unwrap_or(&alone).columns(&all, &[*time], Some(side)).unwrap();
                 assert_eq!(bits(&table, row), bits(&found, 0), "problem {name} at {time}, {side:?}");
             }

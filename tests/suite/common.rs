@@ -5,7 +5,9 @@
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use dalembert::{History, Number, Numbers, Parameters, Plan, Problem, Question, Rational, Run, Solution, Speed, Start};
+use dalembert::{
+    Number, Numbers, Parameters, Plan, Problem, Question, Rational, Run, Solution, Speed, Start, TypedHistory,
+};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::Value;
@@ -86,7 +88,7 @@ pub(crate) fn close(what: &str, a: f64, b: f64, scale: f64, accuracy: f64) {
 }
 
 /// The first contact of the rod that these doubles spell, in doubles to `accuracy`.
-pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> History<f64> {
+pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> TypedHistory<f64> {
     let number = |x: f64| format!("{x:e}").parse::<Number>().unwrap();
     let mut problem =
         Problem::uniform(number(rod.length), number(rod.wave_speed), number(rod.gravity), number(rod.speed));
@@ -95,17 +97,17 @@ pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> History<f64
 }
 
 /// The first contact of `problem` in doubles to `accuracy`.
-pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> History<f64> {
+pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> TypedHistory<f64> {
     let plan = Plan::of(problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-    match plan.solve(problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
+    match plan.solve_typed(problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }
 }
 
 /// `t_b` and its bound, where the rod bounces.
-pub(crate) fn bounce_time(history: &History<f64>) -> Option<(f64, f64)> {
-    history.events().get(1).map(|release| (release.time, release.time_error))
+pub(crate) fn bounce_time(history: &TypedHistory<f64>) -> Option<(f64, f64)> {
+    history.events().get(1).map(|release| (release.t, release.t_error))
 }
 
 /// Numbers that look random, the same on every machine (splitmix64).
@@ -146,8 +148,7 @@ impl Random {
 }
 
 /// Where rays are in the rod, its ends included.
-#[cfg(feature = "mp")]
-pub(crate) fn cuts(rod: &Problem, history: &dalembert::History<Rational>, time: &Rational) -> Vec<Rational> {
+pub(crate) fn cuts(rod: &Problem, history: &dalembert::TypedHistory<Rational>, time: &Rational) -> Vec<Rational> {
     let length = rod.rod.length.to_rational();
     let trip = history.rays(0).unwrap()[0].clone();
     let c = length.clone() * 2 / (trip.to.clone() - trip.from);

@@ -3,7 +3,7 @@
 
 use crate::certified_damped::{any_rod, compare};
 use crate::common::Random;
-use dalembert::{Estimate, EventKind, Float, History, Parameters, Problem, Run, Speed, Start};
+use dalembert::{Estimate, EventKind, Float, Parameters, Problem, Run, Speed, Start, TypedHistory};
 
 /// Digits of the speeds that are found.
 const DIGITS: usize = 34;
@@ -46,16 +46,16 @@ fn tuned(dice: &mut Random) -> Option<(Problem, Float)> {
     let later = 2 + dice.between(0.0, (events - 2) as f64) as usize;
     let earlier = (dice.between(0.0, (later + 1) as f64) as usize).checked_sub(1);
     let kinds: Vec<EventKind> = first.events()[..=later].iter().map(|event| event.kind).collect();
-    let phase = |history: &History<Float>| {
+    let phase = |history: &TypedHistory<Float>| {
         let events = history.events();
         let alike = events.len() > later && events.iter().zip(&kinds).all(|(event, kind)| event.kind == *kind);
-        let from = || earlier.map_or_else(|| Float::new(200), |k| events[k].time.clone());
-        alike.then(|| (Float::with_val(200, &events[later].time) - from()) / &trip)
+        let from = || earlier.map_or_else(|| Float::new(200), |k| events[k].t.clone());
+        alike.then(|| (Float::with_val(200, &events[later].t) - from()) / &trip)
     };
     let start = phase(&first)?;
     let whole = start.to_f64().round().max(if earlier.is_some() { 1.0 } else { 0.0 });
     // One round trip more shows what the coincidence does.
-    let end = first.events()[later].time.to_f64() + 1.3 * trip.to_f64();
+    let end = first.events()[later].t.to_f64() + 1.3 * trip.to_f64();
     problem.run = Run::Time(format!("{end:.4e}").parse().unwrap());
     let mut before = (speed(&problem), start - whole);
     let mut now = Float::with_val(200, &before.0 * 1.01);
@@ -75,8 +75,8 @@ fn tuned(dice: &mut Random) -> Option<(Problem, Float)> {
 }
 
 /// Numbers of a run in doubles held against a longer one: within their bounds, or it says that events are not told.
-fn doubles_hold(name: &str, problem: &Problem, truth: &History<Float>) -> usize {
-    let found = problem.solve().unwrap();
+fn doubles_hold(name: &str, problem: &Problem, truth: &TypedHistory<Float>) -> usize {
+    let found = problem.doubles().unwrap();
     let warned = found.warnings().iter().any(|warning| warning.needs_bits());
     let kinds = |kinds: &mut dyn Iterator<Item = EventKind>| kinds.collect::<Vec<_>>();
     let same = kinds(&mut found.events().iter().map(|e| e.kind)) == kinds(&mut truth.events().iter().map(|e| e.kind));
@@ -88,7 +88,7 @@ fn doubles_hold(name: &str, problem: &Problem, truth: &History<Float>) -> usize 
         |run| {
             let of = |k: usize| {
                 let event = &run.events()[k];
-                [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(Clone::clone)
+                [&event.t, &event.v_end, &event.h, &event.h_rate].map(Clone::clone)
             };
             Ok((0..truth.events().len()).map(of).collect::<Vec<_>>())
         },
@@ -96,7 +96,7 @@ fn doubles_hold(name: &str, problem: &Problem, truth: &History<Float>) -> usize 
     );
     let mut count = 0;
     for (found, event) in numbers.unwrap().iter().zip(truth.events()) {
-        let truth = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity];
+        let truth = [&event.t, &event.v_end, &event.h, &event.h_rate];
         for (found, truth) in found.iter().zip(truth) {
             let off = Float::with_val(200, truth - found.value()).to_f64().abs();
             assert!(off <= found.bound() + 1e-33 * truth.to_f64().abs(), "{name}: {found:?} is off by {off:e}");
@@ -149,7 +149,7 @@ fn a_landing_next_to_a_ray_is_told_from_it() {
     assert_eq!((proved.ending(), proved.events().len()), (digits.ending(), digits.events().len()));
     assert!(compare("next to a ray", &proved, &digits, 36) >= 100);
     // The doubles do not tell them apart, and longer numbers do.
-    assert!(problem.solve().unwrap().warnings().is_empty());
+    assert!(problem.doubles().unwrap().warnings().is_empty());
     assert!(doubles_hold("next to a ray", &problem, &digits) >= 20);
 }
 

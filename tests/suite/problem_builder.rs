@@ -33,7 +33,6 @@ fn a_number_is_given_as_integer_text_number_or_double() {
     ] {
         assert_eq!(length(value), Ok(n(text)), "{text}");
     }
-    #[cfg(feature = "mp")]
     {
         assert_eq!(length(rug::Rational::from((2, 6)).into()), Ok(n("1/3")));
         assert_eq!(length(rug::Integer::from(7).into()), Ok(n("7")));
@@ -99,7 +98,7 @@ fn a_material_without_an_area_has_forces_per_area() {
     {
         let rod = rod.build().unwrap();
         let columns = [Quantity::Stress, Quantity::Force, Quantity::Impulse, Quantity::Energy];
-        let found = rod.solve().unwrap().columns(&columns, &[2.0], Some(Side::Left)).unwrap();
+        let found = rod.doubles().unwrap().columns(&columns, &[2.0], Some(Side::Left)).unwrap();
         assert_eq!(found, [[-6.0], [6.0 * area], [12.0 * area], [9.0 * area]]);
         assert_eq!(columns.map(|column| column.unit(&Units::of(&rod, UnitSystem::Si))), units);
         assert_eq!(rod.to_builder().build().unwrap(), rod);
@@ -529,7 +528,7 @@ fn a_start_that_is_put_together_reaches_over_the_whole_rod() {
             let mut problem = rod().build().unwrap();
             problem.rod.damping.clone_from(&damping);
             problem.start = Start::Profile(Profile { displacement: Vec::new(), velocity: start(points) });
-            let Err(Error::Problem(error)) = problem.solve() else { panic!("{points:?}") };
+            let Err(Error::Problem(error)) = problem.doubles() else { panic!("{points:?}") };
             assert_eq!((error.kind, error.path.as_str()), (Kind::Profile, "start.velocity"));
             assert!(error.to_string().contains(&format!("{expected} points of the velocity")), "{error}");
         }

@@ -6,13 +6,13 @@ use dalembert::{Error, Estimate, Problem, Side};
 
 /// What differs by more than the bounds.
 fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {
-    let history = problem.solve().unwrap();
+    let history = problem.doubles().unwrap();
     let end = *history.end();
     let (length, round) = (problem.rod.length.to_f64(), history.scales().time);
     // Points and times of rays among them: halves of the rod, quarters of round trips, events.
     let mut times: Vec<f64> = (0..=parts).map(|k| end * k as f64 / parts as f64).collect();
     times.extend((1..12).map(|k| 0.25 * round * f64::from(k)).filter(|time| *time < end));
-    times.extend(history.events().iter().map(|event| event.time));
+    times.extend(history.events().iter().map(|event| event.t));
     // At the end itself there are no later times, and a ray may arrive there.
     times.retain(|time| *time < end * (1.0 - 1e-9));
     times.sort_by(f64::total_cmp);
@@ -67,7 +67,7 @@ fn grids_have_the_values_of_the_field() {
 fn a_point_or_a_time_outside_is_refused() {
     for damping in ["0", "0.1"] {
         let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gravity(1).damping(damping).impacts(2);
-        let history = rod.build().unwrap().solve().unwrap();
+        let history = rod.build().unwrap().doubles().unwrap();
         let ask = |point: f64, time: f64| {
             history.ask(|motion| motion.rates(&[point.carry()], &[time.carry()]), |_| Vec::new()).unwrap_err()
         };

@@ -4,7 +4,9 @@
 use dalembert::engine::Motion;
 use dalembert::number::Scalar;
 use dalembert::solve::{Rung, Target};
-use dalembert::{Error, Float, History, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Side, Top};
+use dalembert::{
+    Error, Float, Interval, Number, Numbers, Plan, Problem, Question, Rational, Run, Side, Top, TypedHistory,
+};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -130,8 +132,8 @@ fn in_numbers<S: Target, T: Scalar>(
     // As many events before either history ends, and as many in all where they end alike.
     let known = whole.end().to_f64().min(truth.end().to_f64()) * (1.0 - 1e-9);
     let before = |time: f64| time < known;
-    let ours = whole.events().iter().filter(|event| before(event.time.to_f64())).count();
-    let exact = truth.events().iter().filter(|event| before(event.time.to_f64())).count();
+    let ours = whole.events().iter().filter(|event| before(event.t.to_f64())).count();
+    let exact = truth.events().iter().filter(|event| before(event.t.to_f64())).count();
     prop_assert_eq!(ours, exact, "{}: events before {}", numbers, known);
     if whole.ending() == truth.ending() {
         prop_assert_eq!(whole.events().len(), truth.events().len(), "{}", numbers);
@@ -140,7 +142,7 @@ fn in_numbers<S: Target, T: Scalar>(
     for (ours, exact) in whole.events().iter().zip(truth.events()) {
         prop_assert_eq!(ours.kind, exact.kind, "{}: {:?} {:?}", numbers, ours, exact);
         for side in [Side::Left, Side::Right] {
-            let (Ok(found), Ok(truth)) = (values(&*whole, &ours.time, side), values(truth, &exact.time, side)) else {
+            let (Ok(found), Ok(truth)) = (values(&*whole, &ours.t, side), values(truth, &exact.t, side)) else {
                 continue;
             };
             compared += same(&format!("{numbers} {side:?} of event {ours:?}"), &found, &truth)?;
@@ -164,7 +166,7 @@ fn times(problem: &Problem) -> Vec<Number> {
 /// Asked in one order and in the other, each time of a history of its own: settled to the same digits, on rays at times
 /// that no double holds, too, although a question before may have called for longer numbers.
 fn in_any_order(problem: &Problem, times: &[Number]) -> Result<usize, TestCaseError> {
-    let ask = |history: &History<f64>, time: &Number| -> Vec<f64> {
+    let ask = |history: &TypedHistory<f64>, time: &Number| -> Vec<f64> {
         let t = time.to_f64();
         let sides = [Side::Left, Side::Right].map(|side| {
             let ((v, v_t), (top, top_t)) = (history.ground_end(t, side)?, history.top_end(t, side)?);
@@ -173,10 +175,10 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<usize, TestCaseEr
         let (Ok((h, rate)), Ok(energy)) = (history.centre(t), history.energy(t)) else { return Vec::new() };
         sides.into_iter().flatten().flatten().chain([h, rate, energy.total, energy.vibrational]).collect()
     };
-    let Ok(history) = problem.solve() else { return Ok(0) };
+    let Ok(history) = problem.doubles() else { return Ok(0) };
     let mut compared = 0;
     let forward: Vec<_> = times.iter().map(|time| ask(&history, time)).collect();
-    let again = problem.solve().unwrap();
+    let again = problem.doubles().unwrap();
     let mut backward: Vec<_> = times.iter().rev().map(|time| ask(&again, time)).collect();
     backward.reverse();
     for ((time, a), b) in times.iter().zip(forward).zip(backward) {
@@ -286,7 +288,7 @@ fn before_the_start_there_is_what_is_given() {
         if fixed {
             problem = problem.top(dalembert::Top::Fixed);
         }
-        let history = problem.build().unwrap().solve().unwrap();
+        let history = problem.build().unwrap().doubles().unwrap();
         let third = 1.0 / 3.0;
         for (x, expected) in [
             (0.0, [0.0, -1.0, 0.0]),
@@ -308,13 +310,12 @@ fn before_the_start_there_is_what_is_given() {
 }
 
 /// The top of a rod whose length no double holds is its top in longer numbers as well.
-#[cfg(feature = "mp")]
 #[test]
 fn the_top_is_the_top_in_longer_numbers() {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let mut problem = Problem::uniform(number("1/3"), 1.into(), 1.into(), number("2.433"));
     problem.run = Run::Time(80.into());
-    let motion = problem.solve().unwrap();
+    let motion = problem.doubles().unwrap();
     assert!(matches!(motion.rung(), Rung::Bits(_)), "{:?}", motion.rung());
     for k in 1..40 {
         // A free top has no strain.
@@ -330,7 +331,7 @@ fn the_top_is_where_the_length_is() {
         let rod = Problem::builder().length(length).wave_speed("0.86874").gravity("0.117388").top(Top::Fixed);
         let rod = rod.displacement([("0", "0"), (length, "0.5")]).velocity([("0", "-1"), (length, "0.25")]).impacts(2);
         let problem = rod.build().unwrap();
-        fn still<S: Target>(history: &History<S>, top: &Number) -> f64 {
+        fn still<S: Target>(history: &TypedHistory<S>, top: &Number) -> f64 {
             let velocity = history.ask(
                 |motion| {
                     let precision = motion.end().precision();
@@ -342,7 +343,7 @@ fn the_top_is_where_the_length_is() {
             velocity.unwrap().to_f64()
         }
         let found = [
-            still(&problem.solve().unwrap(), &top),
+            still(&problem.doubles().unwrap(), &top),
             still(&problem.digits(5).unwrap(), &top),
             still(&problem.digits(28).unwrap(), &top),
             still(&problem.certified(12).unwrap(), &top),

@@ -71,7 +71,7 @@ fn warned(histories: &[&dyn Motion<Estimate<f64>>]) -> Result<[usize; 1], TestCa
 #[test]
 fn fine_grids_are_known_as_well() {
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(40).build().unwrap();
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let mut count = 0;
     for (slice, n) in BOTH.into_iter().flat_map(|slice| [(slice, 100), (slice, 1000)]) {
         let points: Vec<f64> = (0..=n).map(|k| f64::from(k) / f64::from(n)).collect();
@@ -112,7 +112,7 @@ fn without_damping_they_are_fractions() {
             .chain([0.0, end / 2.0])
             .map(|t| (Estimate::exact(t), Rational::from_f64(t).unwrap()))
             .collect();
-        times.extend(history.events().iter().zip(truth.events()).map(|(a, b)| (a.time.clone(), b.time.clone())));
+        times.extend(history.events().iter().zip(truth.events()).map(|(a, b)| (a.t.clone(), b.t.clone())));
         times.retain(|(_, t)| *t <= *truth.end());
         for (t, exactly) in times {
             for slice in BOTH {
@@ -208,7 +208,7 @@ fn linear_fields_are_reproduced() {
     let cases =
         [(start, 0.0, [1.0, 0.25, 0.0], -1.0), (still, 80.0, resting, 0.0), (held, 80.0, [0.8, 0.0, bend], 0.0)];
     for (problem, t, [a, b, d], rate) in cases {
-        let history = problem.build().unwrap().solve().unwrap();
+        let history = problem.build().unwrap().doubles().unwrap();
         for points in [vec![0.0, 2.0], vec![0.0, 0.3, 0.30001, 1.7, 2.0]] {
             let nodal = history.slices(Slice::P1, &points, &[t], None).unwrap();
             let means = history.slices(Slice::Averages, &points, &[t], None).unwrap();
@@ -261,8 +261,8 @@ fn they_are_integrals_of_the_field() {
     ];
     let points = [0.125, 0.5, 0.5625, 1.5];
     for problem in scenes.map(|scene| scene.build().unwrap()) {
-        let (history, digits) = (problem.solve().unwrap(), problem.digits(40).unwrap());
-        let events: Vec<Float> = digits.events().iter().map(|event| event.time.clone()).collect();
+        let (history, digits) = (problem.doubles().unwrap(), problem.digits(40).unwrap());
+        let events: Vec<Float> = digits.events().iter().map(|event| event.t.clone()).collect();
         let precision = events[0].prec();
         let float = |x: f64| Float::with_val(precision, x);
         let rule = gauss_legendre(&float(1.0), 30);

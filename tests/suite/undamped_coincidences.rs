@@ -2,13 +2,15 @@
 
 use dalembert::engine::Motion;
 use dalembert::solve::{Rung, Target};
-use dalembert::{Estimate, Event, EventKind, History, Numbers, Plan, Problem, Question, Run, Scene, Warning, builtin};
+use dalembert::{
+    Estimate, Event, EventKind, Numbers, Plan, Problem, Question, Run, Scene, TypedHistory, Warning, builtin,
+};
 use proptest::prelude::*;
 use rug::{Float, Rational};
 use std::sync::Arc;
 
 /// The events with their bounds.
-fn events(history: &History<f64>) -> Vec<Event<Estimate<f64>>> {
+fn events(history: &TypedHistory<f64>) -> Vec<Event<Estimate<f64>>> {
     history.ask(|motion| Ok(motion.events().to_vec()), |_| Vec::new()).unwrap()
 }
 
@@ -36,17 +38,17 @@ proptest! {
     /// forty digits tell them apart.
     #[test]
     fn a_near_miss_is_not_a_meeting(problem in nearly_meeting()) {
-        let (ours, truth) = (problem.solve().unwrap(), problem.digits(40).unwrap());
+        let (ours, truth) = (problem.doubles().unwrap(), problem.digits(40).unwrap());
         prop_assert!(ours.warnings().is_empty(), "{:?}", ours.warnings());
         let ours = events(&ours);
         prop_assert_eq!(ours.len(), truth.events().len());
         for (a, b) in ours.iter().zip(truth.events()) {
             prop_assert_eq!(a.kind, b.kind);
             let pairs = [
-                (&a.time, &b.time),
-                (&a.end_velocity, &b.end_velocity),
-                (&a.centre, &b.centre),
-                (&a.centre_velocity, &b.centre_velocity),
+                (&a.t, &b.t),
+                (&a.v_end, &b.v_end),
+                (&a.h, &b.h),
+                (&a.h_rate, &b.h_rate),
             ];
             for (a, b) in pairs {
                 let off = Float::with_val(200, b - a.value()).abs().to_f64();
@@ -63,9 +65,9 @@ proptest! {
 #[test]
 fn a_landing_before_a_ray_has_its_own_velocity() {
     let velocity = |speed: &str| {
-        let rod = crate::common::uniform("7", "4", "5", speed, Run::Impacts(2)).solve().unwrap();
+        let rod = crate::common::uniform("7", "4", "5", speed, Run::Impacts(2)).doubles().unwrap();
         let landing = rod.events().iter().filter(|event| event.kind == EventKind::Impact).nth(1).unwrap();
-        (rod.rung(), landing.end_velocity)
+        (rod.rung(), landing.v_end)
     };
     let (rung, found) = velocity("315");
     assert!(rung == Rung::Fractions && (found + 297.5).abs() < 1e-11, "{rung} {found}");
@@ -79,7 +81,7 @@ fn a_landing_before_a_ray_has_its_own_velocity() {
 fn a_meeting_is_decided_exactly() {
     let rung = |name: &str| {
         let scene = Scene::parse(builtin::get(name).unwrap().source).unwrap();
-        let history = scene.problem.solve().unwrap();
+        let history = scene.problem.doubles().unwrap();
         assert!(history.warnings().is_empty(), "{:?}", history.warnings());
         history.rung()
     };
@@ -97,7 +99,7 @@ fn enclosures_confirm_doubles() {
         [Rung::Double, Rung::Confirmed(384)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
     assert!(double.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. })));
     assert!(confirmed.warnings().is_empty(), "{:?}", confirmed.warnings());
-    let times = |of: &dyn Motion<Estimate<f64>>| of.events().iter().map(|event| event.time.clone()).collect::<Vec<_>>();
+    let times = |of: &dyn Motion<Estimate<f64>>| of.events().iter().map(|event| event.t.clone()).collect::<Vec<_>>();
     let (ours, theirs) = (times(&*double), times(&*confirmed));
     assert!(ours.len() > 20 && ours.len() == theirs.len());
     for (a, b) in ours.iter().zip(&theirs) {
@@ -110,7 +112,7 @@ fn enclosures_confirm_doubles() {
 #[test]
 fn a_kink_keeps_its_zero() {
     for speed in ["0.304", "1.3", "0.7"] {
-        let rod = crate::common::uniform("1", "1", "1", speed, Run::Impacts(8)).solve().unwrap();
+        let rod = crate::common::uniform("1", "1", "1", speed, Run::Impacts(8)).doubles().unwrap();
         assert_eq!(rod.rung(), Rung::Double, "{speed}");
         assert_eq!(rod.contacts().len(), 8);
     }
@@ -121,7 +123,7 @@ fn a_kink_keeps_its_zero() {
 fn a_time_beside_an_uncertain_ray_is_not_on_it() {
     let rod =
         crate::common::uniform("0.00206", "0.0008631", "1.138e5", "2.262e6", Run::Time("741.24497".parse().unwrap()));
-    let motion = rod.solve().unwrap();
+    let motion = rod.doubles().unwrap();
     // In contact, 0.026 before the ray that ends it.
     assert_eq!(motion.ground_end(741.24497, dalembert::Side::Right).unwrap(), (0.0, 0.0));
 }
@@ -129,7 +131,7 @@ fn a_time_beside_an_uncertain_ray_is_not_on_it() {
 /// What is no number is no time of any history, whatever numbers it took.
 #[test]
 fn a_time_that_is_no_number_is_refused() {
-    let motion = crate::common::uniform("1", "1", "1", "3", Run::Impacts(2)).solve().unwrap();
+    let motion = crate::common::uniform("1", "1", "1", "3", Run::Impacts(2)).doubles().unwrap();
     assert_eq!(motion.rung(), Rung::Fractions);
     let right = dalembert::Side::Right;
     for time in [f64::NAN, f64::INFINITY] {
@@ -147,7 +149,7 @@ fn an_impact_beyond_the_end_is_none() {
             "[rod]\nlength = 1\nwave_speed = 1\n[start]\ndisplacement = [[0, \"{height}\"], [1, \"{height}\"]]\n\
              velocity = [[0, -0.7], [1, 4]]\n[gravity]\nacceleration = 1\n[run]\ntime = 4\n"
         );
-        Scene::parse(&text).unwrap().problem.solve().unwrap().events().len()
+        Scene::parse(&text).unwrap().problem.doubles().unwrap().events().len()
     };
     // v(0,4) = d + 4 · 1.65 − 8 = d − 1.4.
     assert_eq!(["1.4000000000001", "1.4", "1.3999999999999"].map(events), [0, 1, 1]);

@@ -12,7 +12,7 @@ use dalembert::Error;
 use dalembert::engine::Motion;
 use dalembert::number::{DOUBLE_DIGITS, Scalar as _};
 use dalembert::quantity::{Measure, Units};
-use dalembert::solve::{History, Plan, Question, Target, Visitor};
+use dalembert::solve::{Plan, Question, Target, TypedHistory, Visitor};
 use dalembert::{Effect, Scene};
 
 fn head(scene: &Scene, plan: &Plan) -> Head {
@@ -31,7 +31,12 @@ fn head(scene: &Scene, plan: &Plan) -> Head {
 
 /// What is done with a history, in any number system.
 pub(crate) trait Visit {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure>;
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure>;
 }
 
 /// Prints what `bytes` makes of an answer, below the warnings of `head`.
@@ -54,7 +59,7 @@ pub(crate) fn print(
 
 /// What `gather` asks of the history: data, whatever the numbers, and every number in them.
 pub(crate) fn gathered<S: Target, T>(
-    history: &History<S>,
+    history: &TypedHistory<S>,
     progress: &source::Progress,
     gather: impl Fn(&dyn Motion<S::Carried>) -> Result<(T, Vec<S::Carried>), Error>,
 ) -> Result<T, Error> {
@@ -105,7 +110,7 @@ struct Visited<'a, V> {
 impl<V: Visit> Visitor for Visited<'_, V> {
     type Output = Result<(), Failure>;
 
-    fn visit<S: Target>(self, history: &History<S>) -> Result<(), Failure> {
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Result<(), Failure> {
         self.visit.visit(history, self.head, self.progress)
     }
 }

@@ -8,7 +8,7 @@ use super::failure::{self, Failure};
 pub(crate) use crate::output::Format;
 use crate::output::{Dataset, write_together};
 #[cfg(feature = "raster")]
-use dalembert_plot::draw::Rendered;
+use dalembert_plot::draw::ParsedSvg;
 use dalembert_plot::draw::Size;
 
 /// Each format with its word after `--format`, its ending, and whom it is for.
@@ -131,12 +131,12 @@ pub(crate) fn picture(format: Format, svg: String, size: Size) -> Result<Vec<u8>
     if format == Format::Svg {
         return Ok(svg.into_bytes());
     }
-    let drawn = Rendered::of(&svg).and_then(|rendered| {
-        let missing = rendered.missing();
+    let drawn = ParsedSvg::new(&svg).and_then(|parsed| {
+        let missing = parsed.missing_letters();
         if !missing.is_empty() {
             eprintln!("note: the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters");
         }
-        if format == Format::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
+        if format == Format::Pdf { parsed.pdf() } else { parsed.png(size.scale()) }
     });
     drawn.map_err(|error| failure!("cannot draw: {error}"))
 }

@@ -14,7 +14,7 @@ use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
-use dalembert::solve::{History, Numbers, Observer, Plan, Question};
+use dalembert::solve::{Numbers, Observer, Plan, Question, TypedHistory};
 
 /// The reason why data cannot be compared; the message says what was found and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -34,7 +34,7 @@ pub enum CompareError {
     #[error("{file}: {error}")]
     Fit { file: String, error: FitError },
     #[error(transparent)]
-    History(#[from] Error),
+    TypedHistory(#[from] Error),
 }
 
 impl CompareError {
@@ -78,7 +78,7 @@ impl Options {
             (Some(to), _) => Some(to.to_f64()),
             (None, Run::Time(time)) => Some(time.to_f64()),
             (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
-                problem.solve().ok()?.contacts().last().and_then(|contact| contact.to)
+                problem.doubles().ok()?.contacts().last().and_then(|contact| contact.release)
             }
             (None, Run::Impacts(_)) => None,
         }
@@ -179,7 +179,7 @@ fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
         Run::Time(time) => Some(time.to_f64()),
         Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
-        Run::Impacts(_) => problem.solve().ok().map(|history| *history.end()),
+        Run::Impacts(_) => problem.doubles().ok().map(|history| *history.end()),
     }
 }
 
@@ -237,7 +237,7 @@ impl Prepared {
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
         let Prepared { problem, plan, data, until, options } = self;
-        let history = History::<f64>::solve(&problem, &plan, observer)?;
+        let history = TypedHistory::<f64>::solve(&problem, &plan, observer)?;
         let mut files = Vec::new();
         for NamedSamples { file, samples } in data {
             let reference = Reference::new(&history)?;

@@ -5,8 +5,8 @@
 //! it changes:
 //!
 //! - *All columns that it changes*: it leaves at most half of ‖e‖₂, so that three quarters of ‖e‖₂² are removed; it
-//!   removes more than half of ‖e‖₂² of each column. A clock or a shift in time leaves at most a quarter of ‖e‖₂: soft
-//!   contacts look like one.
+//!   removes more than half of ‖e‖₂² of each column. A clock, a shift in time or a damping leaves at most a quarter of
+//!   ‖e‖₂: soft contacts look like the first two, and the dissipation of a scheme like the last.
 //! - *Each part of a column*, which are the first wave up the rod, the rest of the contact, and the flight: the number
 //!   that fits the part best differs by at most half of the value. A part counts where the value changes it by more
 //!   than the resolution of the data, which is an error of one step in time. An error that a scheme makes at an impact
@@ -135,6 +135,8 @@ const STEPS: usize = 12;
 const NEARLY_MISSING: f64 = -0.999;
 /// Starts of the fit of a damping in an undamped scene, per round trip: the landing after the first contact gets earlier.
 const DAMPED: [f64; 2] = [0.05, 0.2];
+/// Greatest additional damping that is tried, per round trip.
+const MOST_DAMPED: f64 = 1.0;
 /// Start of the fit of a soft contact, whose effect is not linear.
 const SOFT: f64 = 0.1;
 /// Change of a number up to which the derivatives of the signals are taken for the same.
@@ -183,7 +185,7 @@ impl CauseFits<'_> {
         let problem = self.model.problem;
         let (parameter, value) = match cause {
             Cause::Value(parameter) => (parameter, parameter.value(problem)? * (1.0 + p)),
-            Cause::Damping => (Parameter::Damping, self.damping() + p / self.trip),
+            Cause::Damping if p <= MOST_DAMPED => (Parameter::Damping, self.damping() + p / self.trip),
             _ => return None,
         };
         parameter.set(problem, value).ok()
@@ -377,8 +379,8 @@ impl CauseFits<'_> {
         let (mut slope, mut slope_at) = (slope.clone(), 0.0);
         let step = product(&slope, &found) / product(&slope, &slope);
         let removed = step * product(&slope, &found);
-        let starts =
-            if removed > LEAST_REMOVED * base && cause == Cause::Damping { Vec::new() } else { self.starts(cause) };
+        let is_near_linear = cause == Cause::Damping && self.damping() == 0.0 && removed > LEAST_REMOVED * base;
+        let starts = if is_near_linear { Vec::new() } else { self.starts(cause) };
         for start in starts {
             if let Some(other) = errors(start)
                 && product(&other, &other) < left
@@ -466,8 +468,8 @@ impl CauseFits<'_> {
             let share = if by_start.is_some() { 1.0 } else { 0.5 };
             holds &= !is_evident || square(&found[j], None) <= square(&self.base[j], None) * share;
         }
-        let is_clock = matches!(cause, Cause::Clock | Cause::TimeShift);
-        let most = if by_start.is_some() { LEFT } else { LEFT * LEFT } * if is_clock { LEFT * LEFT } else { 1.0 };
+        let is_confusable = matches!(cause, Cause::Clock | Cause::TimeShift | Cause::Damping);
+        let most = if by_start.is_some() { LEFT } else { LEFT * LEFT } * if is_confusable { LEFT * LEFT } else { 1.0 };
         holds &= total(found) <= most * total(&self.base);
         let span: f64 = self.model.weights.iter().sum::<f64>() * count / (self.part_ends.len() + 1) as f64;
         let resolution = self.model.step * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
@@ -532,12 +534,12 @@ impl Diagnosis {
             return Ok(());
         }
         // Up to the end of the flight after the first contact.
-        let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-        let until = history.events().iter().map(|event| event.time).find(|time| *time > release);
+        let release = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+        let until = history.events().iter().map(|event| event.t).find(|time| *time > release);
         let model = Model::new(reference, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
         let Some(last) = model.times.last().copied().filter(|_| model.times.len() >= FEWEST) else { return Ok(()) };
         let trip = history.scales().time;
-        let first = history.contacts().first().map_or(0.0, |contact| contact.from);
+        let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
         let exact = model.values(model.problem, |time| time)?;
         let part_ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
         let base = model.errors(&exact);

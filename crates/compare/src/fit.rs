@@ -9,7 +9,7 @@ use super::reference::Reference;
 use dalembert::Error;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::Quantity;
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 
 /// A value of the scene as it was fitted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,7 +29,7 @@ pub(crate) struct Fit {
     pub(crate) steps: usize,
     pub(crate) settled: bool,
     /// The history with the fitted values.
-    pub(crate) history: History<f64>,
+    pub(crate) history: TypedHistory<f64>,
 }
 
 /// The reason why values cannot be fitted.
@@ -61,7 +61,7 @@ trait Residuals {
 
     /// Returns the derivatives of the residuals by a value of the problem of `history`; `None` where the library has
     /// none.
-    fn derivatives(&self, history: &History<f64>, by: Parameter) -> Option<Vec<f64>>;
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>>;
 }
 
 /// The residuals of the first two stages: those of a [`Model`].
@@ -70,7 +70,7 @@ impl Residuals for Model<'_> {
         Some(self.errors(&self.values(problem, |time| time).ok()?).concat())
     }
 
-    fn derivatives(&self, history: &History<f64>, by: Parameter) -> Option<Vec<f64>> {
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>> {
         let slopes = self.derivatives(history, by)?.concat();
         Some(slopes.into_iter().map(|slope| -slope).collect())
     }
@@ -130,7 +130,7 @@ impl Residuals for Pointwise<'_> {
         Some(self.by_column(problem).ok()?.concat())
     }
 
-    fn derivatives(&self, history: &History<f64>, by: Parameter) -> Option<Vec<f64>> {
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>> {
         let all = derivatives(history, by, &self.quantities(), &self.grid.times)?;
         let scaled = |(slopes, weight): (Vec<f64>, &f64)| slopes.into_iter().map(|slope| -slope / weight).collect();
         Some(all.into_iter().zip(&self.weights).map(scaled).collect::<Vec<Vec<f64>>>().concat())
@@ -220,8 +220,8 @@ impl Fit {
         let sizes = parameters.iter().zip(&start).map(size).collect();
         let last = agreement.grid.times.last().copied().unwrap_or_default();
         let unknowns = Unknowns { problem, parameters, sizes, columns, last };
-        let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-        let second = history.events().iter().map(|event| event.time).find(|time| *time > release);
+        let release = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+        let second = history.events().iter().map(|event| event.t).find(|time| *time > release);
         let (mut values, mut left) = (start.clone(), STEPS);
         for until in [second.unwrap_or(last), last] {
             let model = Model::new(reference, agreement, until, SAMPLES / 10)?;

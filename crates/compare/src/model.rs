@@ -8,7 +8,7 @@ use super::reference::Reference;
 use super::spring::SpringContact;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 use dalembert::{Error, Number, Side};
 
 /// A column of data as it is compared with a run: the column itself where it has no jumps, otherwise its integral over
@@ -45,8 +45,8 @@ pub(super) struct Model<'a> {
 }
 
 /// Solves `problem` to a little beyond `until`, so that times next to the end have both sides.
-pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<History<f64>, Error> {
-    problem.to_builder().time(until.max(f64::MIN_POSITIVE) * (1.0 + 1e-8)).build()?.solve()
+pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
+    problem.to_builder().time(until.max(f64::MIN_POSITIVE) * (1.0 + 1e-8)).build()?.doubles()
 }
 
 /// The distance from a ray, in round trips, at which derivatives are taken, of undamped and of damped rods. On a ray
@@ -55,9 +55,9 @@ const RAY_DISTANCE: [f64; 2] = [1e-9, 1e-3];
 
 /// Returns the derivative of each quantity at `times` by a value of the problem, `None` where the library settles none.
 ///
-/// **Accuracy**: that of [`History::derivatives_at`], at times [`RAY_DISTANCE`] off the rays.
+/// **Accuracy**: that of [`TypedHistory::derivatives_at`], at times [`RAY_DISTANCE`] off the rays.
 pub(super) fn derivatives(
-    history: &History<f64>,
+    history: &TypedHistory<f64>,
     by: Parameter,
     quantities: &[Quantity],
     times: &[f64],
@@ -150,7 +150,7 @@ impl<'a> Model<'a> {
     }
 
     /// Solves `problem` as far as the times go.
-    pub(super) fn solve(&self, problem: &Problem) -> Result<History<f64>, Error> {
+    pub(super) fn solve(&self, problem: &Problem) -> Result<TypedHistory<f64>, Error> {
         solve_beyond(problem, self.times.last().copied().unwrap_or_default())
     }
 
@@ -178,7 +178,7 @@ impl<'a> Model<'a> {
 
     /// Returns the derivatives of each signal by a value of the problem of `history`, in units of time per unit of the
     /// value; `None` where the library settles none.
-    pub(super) fn derivatives(&self, history: &History<f64>, by: Parameter) -> Option<Vec<Vec<f64>>> {
+    pub(super) fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<Vec<f64>>> {
         let mut all = derivatives(history, by, &self.quantities(), &self.times)?;
         for (values, signal) in all.iter_mut().zip(&self.signals) {
             values.iter_mut().for_each(|value| *value /= signal.rate);
@@ -208,8 +208,12 @@ impl<'a> Model<'a> {
         let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::Speed));
         let mut stops = Vec::new();
         for contact in history.contacts() {
-            let before = history.columns(&[Quantity::EndVelocity], &[contact.from], Some(Side::Left))?;
-            stops.push(Stop { from: contact.from, to: contact.to.unwrap_or(f64::INFINITY), speed: before[0][0].abs() });
+            let before = history.columns(&[Quantity::EndVelocity], &[contact.impact], Some(Side::Left))?;
+            stops.push(Stop {
+                from: contact.impact,
+                to: contact.release.unwrap_or(f64::INFINITY),
+                speed: before[0][0].abs(),
+            });
         }
         // The velocity that the ground has given to the mass until then.
         let given = |time: f64| -> f64 {

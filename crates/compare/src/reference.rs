@@ -8,14 +8,14 @@ use dalembert::engine::{Motion, RayRegister};
 use dalembert::number::{Estimate, Number, Scalar};
 use dalembert::problem::{Material, Parameters};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::History;
+use dalembert::solve::TypedHistory;
 use dalembert::special::gauss_legendre;
 use dalembert::{Field, Side, StressPiece};
 
 /// A history with the times at which rays are at the ground.
 #[derive(Debug)]
 pub(super) struct Reference<'a> {
-    pub(super) history: &'a History<f64>,
+    pub(super) history: &'a TypedHistory<f64>,
     rod: Parameters<f64>,
     modulus: f64,
     density: f64,
@@ -54,7 +54,7 @@ impl<'a> Reference<'a> {
     /// Collects the jumps and the pieces of a history.
     ///
     /// **Source**: the register of rays. A ray at the ground counts where the two limits differ.
-    pub(super) fn new(history: &'a History<f64>) -> Result<Self, Error> {
+    pub(super) fn new(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
         let (modulus, density, area) = match &problem.rod.material {
@@ -82,7 +82,7 @@ impl<'a> Reference<'a> {
         let mut departures = at_ground(-rod.round_trip(), 0.0)?;
         departures.retain(|time| *time < 0.0);
         departures.extend(&jumps);
-        let events = history.events().iter().map(|event| event.time);
+        let events = history.events().iter().map(|event| event.t);
         let switches = std::iter::once(0.0).chain(events).collect();
         Ok(Reference { history, rod, modulus, density, area, pieces, jumps, switches, departures })
     }
@@ -243,18 +243,18 @@ impl<'a> Reference<'a> {
         let mut pieces = self.pieces.iter().peekable();
         let mut contacts = Vec::new();
         for contact in self.history.contacts() {
-            let end = contact.to.unwrap_or(f64::INFINITY);
+            let end = contact.release.unwrap_or(f64::INFINITY);
             let mut force = Vec::new();
-            while let Some(piece) = pieces.next_if(|piece| piece.from < end) {
-                let (middle, half) = (f64::midpoint(piece.from, piece.to), (piece.to - piece.from) / 2.0);
+            while let Some(piece) = pieces.next_if(|piece| piece.start < end) {
+                let (middle, half) = (f64::midpoint(piece.start, piece.end), (piece.end - piece.start) / 2.0);
                 let nodes = gauss_legendre(&1.0_f64, piece.chebyshev.len().max(2)).into_iter();
-                let nodes = nodes.filter(|_| middle >= contact.from).map(|(node, weight)| {
+                let nodes = nodes.filter(|_| middle >= contact.impact).map(|(node, weight)| {
                     let time = middle + half * node;
                     [time, factor * piece.eval(&time), half * weight]
                 });
                 force.extend(nodes);
             }
-            let record = ContactRecord::with_force(contact.from, contact.to, force.into_iter());
+            let record = ContactRecord::with_force(contact.impact, contact.release, force.into_iter());
             let peak = record.peak.map(|peak| peak.max(factor * contact.peak_strain));
             contacts.push(ContactRecord { impulse: Some(self.line_density() * contact.impulse), peak, ..record });
         }
@@ -264,7 +264,7 @@ impl<'a> Reference<'a> {
     /// Returns the shortest separation that is not chatter: a quarter of the round trip, or of the shortest flight.
     pub(super) fn shortest_separation(&self) -> f64 {
         let contacts = self.history.contacts();
-        let flights = contacts.windows(2).filter_map(|pair| pair[0].to.map(|to| pair[1].from - to));
+        let flights = contacts.windows(2).filter_map(|pair| pair[0].release.map(|to| pair[1].impact - to));
         flights.fold(self.rod.round_trip(), f64::min) / 4.0
     }
 

@@ -52,7 +52,7 @@ pub(super) fn lost_start(columns: &[ComparedColumn]) -> Option<Hint> {
 /// is that of the residual of the energy.
 pub(super) fn unlike_mass(reference: &Reference<'_>, agreement: &Agreement) -> Option<Hint> {
     let Agreement { grid, step, .. } = agreement;
-    let first = reference.history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
+    let first = reference.history.contacts().first().map_or(f64::INFINITY, |contact| contact.impact);
     let count = grid.times.partition_point(|time| *time < first - 2.0 * step);
     let factor = |what: Quantity| {
         let column = agreement.column(what)?;
@@ -94,10 +94,10 @@ pub(super) fn unstable_energy(columns: &[ComparedColumn]) -> Option<Hint> {
 pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
     let (history, Agreement { grid, quantities, .. }) = (reference.history, agreement);
     let trip = history.scales().time;
-    let released = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-    let events = history.events().iter().map(|event| event.time);
+    let released = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+    let events = history.events().iter().map(|event| event.t);
     let events: Vec<f64> = events.filter(|time| *time > 0.0 && *time <= released).collect();
-    let first = history.contacts().first().map_or(0.0, |contact| contact.from);
+    let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
     let mut widths = Vec::new();
     for column in quantities.iter().filter(|column| column.what.jumps() && column.what.measure().is_some()) {
         let times = if column.what == Quantity::TopVelocity { vec![first + trip / 2.0] } else { events.clone() };
@@ -123,7 +123,7 @@ pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) ->
 pub(super) fn half_step(reference: &Reference<'_>, agreement: &Agreement) -> Option<Hint> {
     let Agreement { grid, step, .. } = agreement;
     let (trip, first) = (reference.history.scales().time, reference.history.contacts().first());
-    let first = first.map_or(f64::INFINITY, |contact| contact.from);
+    let first = first.map_or(f64::INFINITY, |contact| contact.impact);
     // Schemes send waves ahead of the first one: the top is left out well before it.
     let columns = [
         (Quantity::EndVelocity, Quantity::EndDisplacement, first),

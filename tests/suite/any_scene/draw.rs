@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::common::Random;
-use dalembert::{History, Material, Number, Problem};
+use dalembert::{Material, Number, Problem, TypedHistory};
 
 /// A scene of any kind; `None` where what was drawn is outside of the limits.
 pub(super) fn any_scene(random: &mut Random) -> Option<Problem> {
@@ -136,7 +136,7 @@ pub(super) fn any_scene(random: &mut Random) -> Option<Problem> {
 
 /// The times at which a run is asked, in order: the start, any, and that of a ray. `asked_times` asks at those that are
 /// printed for events.
-pub(super) fn times(problem: &Problem, history: &History<f64>, random: &mut Random) -> Vec<Number> {
+pub(super) fn times(problem: &Problem, history: &TypedHistory<f64>, random: &mut Random) -> Vec<Number> {
     let end = *history.end();
     let mut times: Vec<Number> = (0..3).map(|_| random.between(0.0, end)).map(typed).collect();
     if let Material::WaveSpeed(c) = &problem.rod.material {

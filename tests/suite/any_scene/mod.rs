@@ -56,7 +56,7 @@ impl Counts {
 fn solve(problem: &Problem, numbers: Numbers, limit: Duration) -> Result<Solution, Error> {
     let begun = Instant::now();
     let observe = move |_, _| if begun.elapsed() > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    Plan::of(problem, &Question::run(numbers))?.solve(problem, Arc::new(observe))
+    Plan::of(problem, &Question::run(numbers))?.solve_typed(problem, Arc::new(observe))
 }
 
 fn account(solution: &Solution, times: &[Number], points: &[Number]) -> Result<Account, (String, Error)> {

@@ -1,6 +1,6 @@
 //! An undamped rod traced back along its characteristics.
 
-use dalembert::{EventKind, History, Number, Problem, Rational, Side, Start, Top};
+use dalembert::{EventKind, Number, Problem, Rational, Side, Start, Top, TypedHistory};
 
 /// The characteristics of an undamped rod, from its start and the times of its events.
 pub(super) struct Traced<'a> {
@@ -14,7 +14,7 @@ pub(super) struct Traced<'a> {
 }
 
 impl<'a> Traced<'a> {
-    pub(super) fn of(problem: &'a Problem, history: &History<Rational>) -> Self {
+    pub(super) fn of(problem: &'a Problem, history: &TypedHistory<Rational>) -> Self {
         let scales = history.scales();
         Traced {
             length: problem.rod.length.to_rational(),
@@ -24,7 +24,7 @@ impl<'a> Traced<'a> {
             // What the end has just before t = 0.
             speed: -history.ground_end(Rational::new(), Side::Left).unwrap().1,
             free: problem.rod.top == Top::Free,
-            events: history.events().iter().map(|event| (event.kind, event.time.clone())).collect(),
+            events: history.events().iter().map(|event| (event.kind, event.t.clone())).collect(),
         }
     }
 

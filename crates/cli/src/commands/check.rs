@@ -9,8 +9,8 @@ use crate::failure::Failure;
 use crate::file::{self, Format, formats};
 use crate::output::{check_json, check_page, check_summary, check_table};
 use crate::source;
-use dalembert_verify::Published;
-use dalembert_verify::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
+use dalembert_verify::check::{CATALOGUE, Case, CheckedCase, Group, UnknownName, Verdict, select};
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
@@ -41,12 +41,12 @@ impl Check {
         let everything = self.only.is_empty();
         let cases: Vec<String> = cases.into_iter().cloned().collect();
         let groups = if everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
-        let groups = groups.map_err(|name| {
+        let groups = groups.map_err(|UnknownName(name)| {
             let groups = CATALOGUE.map(|group| group.name).join(", ") + ", " + TARGETS;
             let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
             failure!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
         })?;
-        let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
+        let count = groups.iter().map(|selection| selection.cases.len() as u64).sum();
         let bar = source::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
         let run = |case: &'static Case| {
             bar.set_message(case.name);
@@ -54,10 +54,11 @@ impl Check {
             bar.inc(1);
             checked
         };
-        let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
-        let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
+        let groups =
+            groups.into_iter().map(|selection| (selection.group, selection.cases.into_iter().map(run).collect()));
+        let checked: Vec<(Group, Vec<CheckedCase>)> = groups.collect();
         bar.finish_and_clear();
-        let published = if everything || !targets.is_empty() { Published::builtin()? } else { Vec::new() };
+        let published = if everything || !targets.is_empty() { PublishedScene::builtin()? } else { Vec::new() };
         let text = match self.format {
             Format::Table if self.summary => check_summary(&checked, &published),
             Format::Table => check_table(&checked, &published),
@@ -66,7 +67,7 @@ impl Check {
         };
         file::write(self.output.as_deref(), text.as_bytes())?;
         let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
-        let (count, agreed) = Published::count(&published);
+        let (count, agreed) = PublishedScene::count(&published);
         let failed = failed || agreed < count;
         Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }

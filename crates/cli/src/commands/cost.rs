@@ -12,8 +12,8 @@ use crate::source;
 use dalembert::number::Number;
 use dalembert::quantity::{Measure, Quantity};
 use dalembert_plot::draw::Size;
+use dalembert_verify::RouteQuestion;
 use dalembert_verify::cost;
-use dalembert_verify::{Question, plan};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity e_E2 -o cost.svg\n  \
@@ -25,7 +25,8 @@ pub(crate) struct Cost {
     /// What is asked of every route; by default the bounce time, or the last event of a scene with several impacts
     #[arg(long, value_parser = quantity())]
     quantity: Option<Quantity>,
-    /// When, for what has a value at every time; by default three quarters of a round trip
+    /// Time of a quantity that has a value at every time; by default three quarters of a round trip, or, if the quantity is
+    /// zero then, the middle of the first contact or flight in which it is not
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     /// Instead: what each effect of the scene costs, and that those it does not call for cost nothing
@@ -63,8 +64,8 @@ impl Cost {
             let energies = self.quantity.is_some_and(of_energy);
             (effects_data(&cost::effects(&scene, energies, self.seconds, observe)?, title), None)
         } else {
-            let question = Question::of_scene(&scene, self.quantity, self.time.clone())?;
-            let plan = plan(&question, self.numbers.numbers(&scene))?;
+            let question = RouteQuestion::from_scene(&scene, self.quantity, self.time.clone())?;
+            let plan = question.plan(self.numbers.numbers(&scene))?;
             let table = cost::work_precision(&question, &plan, self.seconds, observe)?;
             (cost_data(&table, title), Some(cost_svg(&table, title)))
         };

@@ -11,7 +11,8 @@ use crate::failure::{self, Failure};
 use crate::file::{self, Format};
 use crate::output::{figure_data, figure_sheet, figures_index, write_files};
 use dalembert_plot::draw::Size;
-use dalembert_verify::figures::{ALL, Failed, Figure};
+use dalembert_verify::VerifyError;
+use dalembert_verify::figures::{FIGURES, Figure, FigureData};
 
 #[derive(Args, Debug)]
 #[command(
@@ -41,8 +42,8 @@ const PICTURES: &[Format] = match cfg!(feature = "raster") {
 };
 
 fn named(name: &str) -> Result<&'static str, String> {
-    let known = ALL.iter().map(|figure| figure.name).find(|known| *known == name.trim());
-    let names = || ALL.map(|figure| figure.name).join(", ");
+    let known = FIGURES.iter().map(|figure| figure.name).find(|known| *known == name.trim());
+    let names = || FIGURES.map(|figure| figure.name).join(", ");
     known.ok_or_else(|| format!("found no figure of this name, expected one of {}", names()))
 }
 
@@ -52,19 +53,18 @@ impl Figures {
             return Err(failure!("found the file {}, expected a folder", self.output.display()));
         }
         let chosen = |figure: &&Figure| self.only.is_empty() || self.only.contains(&figure.name);
-        let figures: Vec<&Figure> = ALL.iter().filter(chosen).collect();
+        let figures: Vec<&Figure> = FIGURES.iter().filter(chosen).collect();
         let files = in_threads(self.threads, || self.files(&figures))??;
         write_files(&self.output, &files).map_err(failure::cannot(&format!("write {}", self.output.display())))
     }
 
     fn files(&self, figures: &[&Figure]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
-        let failed = |error: Failed| failure!("{error}");
-        let data = figures.iter().map(|figure| figure.data()).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        let data = figures.iter().map(|figure| FigureData::new(figure)).collect::<Result<Vec<_>, VerifyError>>()?;
         let files = (0..figures.len())
             .into_par_iter()
             .map(|k| {
                 let (figure, data) = (figures[k], &data[k]);
-                let svg = figure_sheet(figure, data).map_err(failed)?.svg(self.size);
+                let svg = figure_sheet(figure, data)?.svg(self.size);
                 let mut files = vec![(figure.file() + ".csv", file::rows(&figure_data(figure, data), Format::Csv)?)];
                 for format in PICTURES {
                     let picture = file::picture(*format, svg.clone(), self.size)?;
@@ -74,7 +74,7 @@ impl Figures {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let endings: Vec<&str> = PICTURES.iter().map(|format| format.ending()).collect();
-        let index = figures_index(figures, &data, &endings).map_err(failed)?;
+        let index = figures_index(figures, &data, &endings)?;
         Ok(files.into_iter().flatten().chain([("README.md".to_string(), index.into_bytes())]).collect())
     }
 }

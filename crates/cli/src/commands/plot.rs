@@ -15,10 +15,9 @@ use crate::source;
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::quantity::{Needs, Quantity};
-use dalembert::solve::{History, Numbers, Question, Target};
+use dalembert::solve::{Numbers, Question, Target, TypedHistory};
 use dalembert_plot::draw::Size;
-use dalembert_plot::{Along, Asked, Gathered, Picture, heading, sheet};
+use dalembert_plot::{FieldQuantity, Picture, Request, SceneData, UnknownPicture};
 
 #[derive(Args, Debug)]
 #[command(after_help = format!("\
@@ -39,8 +38,8 @@ pub(crate) struct Plot {
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = named)]
     quantity: Vec<Picture>,
     /// What the colours of xt show
-    #[arg(long, value_parser = words::<Along>(), default_value_t)]
-    field: Along,
+    #[arg(long, value_parser = words::<FieldQuantity>(), default_value_t)]
+    field: FieldQuantity,
     /// In xt, where points of the rod are in place of the field
     #[arg(long)]
     deformed: bool,
@@ -64,13 +63,11 @@ pub(crate) struct Plot {
 const ACCURACY: f64 = 1e-6;
 
 fn known() -> String {
-    let columns = Needs::Time.quantities().map(Quantity::name);
-    let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Quantity(_))));
-    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
+    Picture::names().collect::<Vec<_>>().join(", ")
 }
 
-fn named(name: &str) -> Result<Picture, String> {
-    Picture::named(name.trim()).ok_or_else(|| format!("found no picture of this name, expected one of {}", known()))
+fn named(name: &str) -> Result<Picture, UnknownPicture> {
+    name.trim().parse()
 }
 
 impl Plot {
@@ -92,30 +89,30 @@ impl Plot {
             (true, 1) => Picture::SHEET.to_vec(),
             (true, _) => Picture::COMPARED.to_vec(),
         };
-        let along = pictures.contains(&Picture::Along);
-        if !along && (self.deformed || self.field != Along::default()) {
+        let space_time = pictures.contains(&Picture::SpaceTime);
+        if !space_time && (self.deformed || self.field != FieldQuantity::default()) {
             let option = if self.deformed { "--deformed" } else { "--field" };
             return Err(failure!("found {option} without xt, expected it with --quantity xt"));
         }
-        if self.deformed && self.field != Along::default() {
+        if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
-        let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
+        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to };
         let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, _>>()?;
-        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &asked);
+        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &request);
         let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {
             [scene] => {
                 // What comes from standard input has no name.
                 let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
-                heading(scene.title.as_deref().or(name), &scene.problem, &gathered[0], &asked)
+                gathered[0].heading(scene.title.as_deref().or(name), &scene.problem, &request)
             }
             _ => {
                 told_apart(&mut gathered);
                 Vec::new()
             }
         };
-        let sheet = sheet(&asked, &gathered, title).map_err(|found| failure!("{found}, expected one unit"))?;
+        let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
         let svg = sheet.svg(self.size);
         for (path, format) in self.output.iter().zip(formats) {
             file::write(Some(path), &file::picture(format, svg.clone(), self.size)?)?;
@@ -123,7 +120,7 @@ impl Plot {
         Ok(())
     }
 
-    fn gather(&self, name: &str, scene: &Scene, asked: &Asked) -> Result<Gathered, Failure> {
+    fn gather(&self, name: &str, scene: &Scene, request: &Request) -> Result<SceneData, Failure> {
         let numbers = match self.numbers.numbers(scene) {
             Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
             numbers => numbers,
@@ -133,7 +130,7 @@ impl Plot {
             None => Question::run(numbers),
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
-        let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
+        let gather = Gather { name: file, request, found: RefCell::new(None) };
         solve(scene, &question, &gather)?;
         gather.found.into_inner().ok_or_else(|| failure!("found no history of {name}"))
     }
@@ -143,8 +140,8 @@ impl Plot {
 const MOST_DIFFERENT: usize = 3;
 
 /// Calls scenes by the values in which they differ, where these are few.
-fn told_apart(scenes: &mut [Gathered]) {
-    let values = |scene: &Gathered| {
+fn told_apart(scenes: &mut [SceneData]) {
+    let values = |scene: &SceneData| {
         let rod = &scene.rod;
         [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
     };
@@ -162,33 +159,37 @@ fn told_apart(scenes: &mut [Gathered]) {
 /// Asks a history for what the pictures show.
 struct Gather<'a> {
     name: &'a str,
-    scene: &'a Scene,
-    asked: &'a Asked,
-    found: RefCell<Option<Gathered>>,
+    request: &'a Request,
+    found: RefCell<Option<SceneData>>,
 }
 
 impl Visit for Gather<'_> {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
-        let found = self.asked.gather(self.name.into(), &self.scene.problem, head.units.clone(), history)?;
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
+        let found = self.request.gather(self.name.into(), head.units.clone(), history)?;
         drop(progress);
         warned(Head { warnings: history.warnings(), ..head }, false);
         let ([from, to], end) = (found.span, found.end);
         let note = |text: String| eprintln!("note: {}: {text}", self.name);
         let short = |time: f64| time.decimal(6);
         let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
-        let short_of = self.asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
+        let short_of = self.request.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
         if end < history.end().to_f64() {
             note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
-        } else if self.asked.over_time()
-            && self.asked.to.is_none()
-            && (to < end || from > self.asked.from.unwrap_or(0.0))
+        } else if self.request.shows_span()
+            && self.request.to.is_none()
+            && (to < end || from > self.request.from.unwrap_or(0.0))
         {
             let (from, to, end) = (short(from), short(to), short(end));
             note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
         } else if short_of {
             note(format!("the history ends at t = {}: {}", short(end), history.ending()));
         }
-        if let Some(columns) = found.coarse() {
+        if let Some(columns) = found.coarse_columns() {
             note(format!(
                 "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
                 columns.decimal(2)

@@ -20,7 +20,7 @@ use dalembert::Side;
 use dalembert::engine::Motion;
 use dalembert::number::{List, Number, Scalar};
 use dalembert::quantity::{Needs, Quantity, SLICE, Slice};
-use dalembert::solve::{History, Question, Target};
+use dalembert::solve::{Question, Target, TypedHistory};
 
 #[derive(Args, Debug)]
 #[command(after_help = format!("\
@@ -124,7 +124,7 @@ impl Reference {
     /// What the file says of itself, and standard error of what may not be as asked.
     fn preamble<'a, S: Target>(
         &self,
-        history: &History<S>,
+        history: &TypedHistory<S>,
         head: Head,
         (scene, each, ends): (&'a Scene, &'a str, bool),
     ) -> Preamble<'a> {
@@ -191,7 +191,7 @@ struct Series<'a> {
 fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
     let end = motion.end();
     let mut times = vec![end.zero()];
-    for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
+    for time in motion.events().iter().map(|event| &event.t).chain([&end]) {
         if times.last().map_or(Ok(true), |last| last.below(time))? {
             times.push(time.clone());
         }
@@ -201,7 +201,7 @@ fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
 
 impl Series<'_> {
     /// The rows of a part of the times.
-    fn ask<S: Target>(&self, history: &History<S>, part: &Range<usize>) -> Result<Vec<Vec<S::Carried>>, Error> {
+    fn ask<S: Target>(&self, history: &TypedHistory<S>, part: &Range<usize>) -> Result<Vec<Vec<S::Carried>>, Error> {
         let times = |motion: &dyn Motion<S::Carried>| match &self.times {
             Some(list) => Ok(list.lift_part(part.clone(), &motion.end().precision())),
             None => event_times(motion),
@@ -217,7 +217,12 @@ impl Series<'_> {
 
 impl Visit for Series<'_> {
     /// Rows are written while the next ones are asked for.
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
         let described = match &self.asked.points {
             Some(_) => &SLICE[..],
             None => &self.columns,
@@ -252,7 +257,12 @@ struct Function<'a> {
 }
 
 impl Visit for Function<'_> {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
         let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
         drop(progress);
         let preamble = self.asked.preamble(history, head, (self.scene, "each coefficient", true));

@@ -10,7 +10,7 @@ use crate::file::{self, Format};
 use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 use crate::source;
 use dalembert_plot::draw::Size;
-use dalembert_verify::regimes::{Map, SweepError};
+use dalembert_verify::regimes::{GridError, Map};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
@@ -48,7 +48,7 @@ impl Regimes {
         let map = in_threads(self.threads, || {
             let map = Map::new(&self.damping_ratio, speeds, &|| bar.inc(1))?;
             let drawn = formats.iter().any(|format| matches!(format, Format::Svg | Format::Png | Format::Pdf));
-            Ok::<_, SweepError>(if drawn { map.with_regions(&|| bar.inc(1)) } else { map })
+            Ok::<_, GridError>(if drawn { map.with_regions(&|| bar.inc(1)) } else { map })
         })??;
         bar.finish_and_clear();
         for (path, format) in self.output.iter().zip(formats) {

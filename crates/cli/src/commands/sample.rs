@@ -13,7 +13,7 @@ use dalembert::Error;
 use dalembert::engine::Motion;
 use dalembert::number::{List, Scalar};
 use dalembert::problem::Parameter;
-use dalembert::solve::{History, Question, Target};
+use dalembert::solve::{Question, Target, TypedHistory};
 use dalembert::{Ending, Side};
 
 #[derive(Args, Debug)]
@@ -83,7 +83,12 @@ impl Sample {
 }
 
 impl Visit for Sample {
-    fn visit<S: Target>(&self, history: &History<S>, head: Head, progress: source::Progress) -> Result<(), Failure> {
+    fn visit<S: Target>(
+        &self,
+        history: &TypedHistory<S>,
+        head: Head,
+        progress: source::Progress,
+    ) -> Result<(), Failure> {
         let head = Head { wide: self.output.wide, ..head };
         let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {

@@ -12,7 +12,7 @@ use crate::output::targets_data;
 use crate::source;
 use dalembert::builtin;
 use dalembert_compare::aligned::table;
-use dalembert_verify::Published;
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(
@@ -59,22 +59,22 @@ impl Scenes {
     /// The published values of a scene, of the scenes in a folder, or of all that are built in; 1 where one differs.
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
-            None => Published::builtin()?,
+            None => PublishedScene::builtin()?,
             Some(name) => scene_files(name)?
                 .into_iter()
                 .map(|name| {
-                    let found = Published::of(&name, &source::read(&name)?);
+                    let found = PublishedScene::new(&name, &source::read(&name)?);
                     found.map_err(|error| failure!("{name}: {error}"))
                 })
                 .collect::<Result<Vec<_>, _>>()?,
         };
         for published in &all {
             for warning in &published.warnings {
-                eprintln!("warning: {}: {warning}", published.scene);
+                eprintln!("warning: {}: {warning}", published.name);
             }
         }
         self.output.write(&file::rows(&targets_data(&all, self.output.wide), self.output.format()?)?)?;
-        let (count, agreed) = Published::count(&all);
+        let (count, agreed) = PublishedScene::count(&all);
         Ok(if agreed < count { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
 }

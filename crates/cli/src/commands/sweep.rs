@@ -14,7 +14,7 @@ use crate::failure::{self, Failure};
 use crate::file::{self, Format, formats};
 use crate::output::sweep_data;
 use crate::source;
-use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
+use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, journal_of};
 use dalembert::number::Number;
 use dalembert::quantity::{Needs, Quantity};
 
@@ -72,15 +72,15 @@ impl Sweep {
         let scene = source::read(&self.scene)?;
         let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
-            return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
+            return Err(failure!("found time {time}, expected one from 0 on"));
         }
         for (k, quantity) in self.quantity.iter().enumerate() {
             if let Some(time) = self.time.as_ref().filter(|_| quantity.needs() != Needs::Time) {
-                let expected = format!("none: {} is not asked at a time", quantity.name());
-                return Err(SweepError::new(format!("time {time}"), expected).into());
+                let name = quantity.name();
+                return Err(failure!("found time {time}, expected none: {name} is not asked at a time"));
             }
             if self.quantity[..k].contains(quantity) {
-                return Err(SweepError::new(format!("{} asked twice", quantity.name()), "each quantity once").into());
+                return Err(failure!("found {} asked twice, expected each quantity once", quantity.name()));
             }
         }
         let (quantities, time, numbers) = (self.quantity.clone(), self.time.clone(), self.numbers.numbers(&scene));
@@ -137,13 +137,11 @@ impl Sweep {
 fn unopened(output: &Path, error: std::io::Error) -> Failure {
     let journal = journal_of(output).display().to_string();
     match error.kind() {
-        ErrorKind::AlreadyExists => SweepError::new(
-            format!("{journal}, which an interrupted sweep left"),
-            "--resume to go on with it, or the file removed",
-        )
-        .into(),
+        ErrorKind::AlreadyExists => failure!(
+            "found {journal}, which an interrupted sweep left, expected --resume to go on with it, or the file removed"
+        ),
         ErrorKind::InvalidData => {
-            SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
+            failure!("found {journal} of another sweep, expected the same command, or the file removed")
         }
         _ => failure::cannot(&format!("write {journal}"))(error),
     }

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use super::cost::duration;
 use super::target::{published_json, published_page, targets_data};
 use dalembert_compare::aligned::table;
-use dalembert_verify::Published;
-use dalembert_verify::check::{Checked, CheckedQuestion, Group};
+use dalembert_verify::check::{CheckedCase, CheckedQuestion, Group};
+use dalembert_verify::published::PublishedScene;
 
 fn digits(right: Option<f64>) -> String {
     match right {
@@ -16,11 +16,11 @@ fn digits(right: Option<f64>) -> String {
     }
 }
 
-pub(crate) type Groups = [(Group, Vec<Checked>)];
+pub(crate) type Groups = [(Group, Vec<CheckedCase>)];
 
 /// How many cases came to each verdict, in the order of their first appearance.
 fn count(groups: &Groups) -> String {
-    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
+    let cases: Vec<&CheckedCase> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for checked in &cases {
         let name = checked.verdict.name();
@@ -34,20 +34,20 @@ fn count(groups: &Groups) -> String {
 }
 
 /// For a person: every route with its answer, the digits that are right, and what it took.
-pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
+pub(crate) fn check_table(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
     for (group, cases) in groups {
         out += &format!("{}\n\n", group.title);
         for checked in cases {
             let case = checked.case;
             out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
-            for CheckedQuestion { what, truth, rows } in &checked.asked {
-                let rows = rows.iter().map(|row| {
-                    let (found, right) = (row.found(), digits(row.digits));
+            for CheckedQuestion { label, truth, routes } in &checked.questions {
+                let rows = routes.iter().map(|row| {
+                    let (found, right) = (row.answer(), digits(row.digits));
                     let outcome = row.outcome.name().to_string();
                     vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
                 });
-                out += &format!("  {what} = {}\n", truth);
+                out += &format!("  {label} = {truth}\n");
                 let header = ["route", "promises", "", "answers", "digits", "time"];
                 let text = table(&header, rows.collect(), 3);
                 out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
@@ -59,9 +59,9 @@ pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
 }
 
 /// The published values, and the counts.
-fn below(groups: &Groups, published: &[Published]) -> String {
+fn below(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
-    if Published::count(published).0 > 0 {
+    if PublishedScene::count(published).0 > 0 {
         out += &targets_data(published, true).table();
     }
     if !groups.is_empty() {
@@ -70,7 +70,7 @@ fn below(groups: &Groups, published: &[Published]) -> String {
     out
 }
 
-pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String {
+pub(crate) fn check_summary(groups: &Groups, published: &[PublishedScene]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {
         vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
@@ -80,7 +80,7 @@ pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String 
 }
 
 /// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
+pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::from(
         "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
          of several routes that share as little as they can, and each route is held to what it promises. The truth \
@@ -96,11 +96,11 @@ pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
         for checked in cases {
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
-            for CheckedQuestion { what, truth, rows } in &checked.asked {
+            for CheckedQuestion { label, truth, routes } in &checked.questions {
                 // A jump at a point, `[v_x](0, t₁)`, is no link.
-                let what = what.replace("](", "]\\(");
-                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
-                for row in rows {
+                let label = label.replace("](", "]\\(");
+                out += &format!("{label} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
+                for row in routes {
                     out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
                 }
                 out += "\n";
@@ -114,11 +114,11 @@ pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
 }
 
 /// Schema 1.
-pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
+pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Value {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let cases = cases.map(|(group, checked)| {
-        let asked = checked.asked.iter().map(|asked| {
-            let rows = asked.rows.iter().map(|row| {
+        let asked = checked.questions.iter().map(|asked| {
+            let rows = asked.routes.iter().map(|row| {
                 let right = match row.digits {
                     Some(f64::INFINITY) => json!("all"),
                     digits => json!(digits),
@@ -127,12 +127,12 @@ pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
                     "route": row.route,
                     "promise": row.promise.to_string(),
                     "outcome": row.outcome.name(),
-                    "found": row.found(),
+                    "found": row.answer(),
                     "digits": right,
                     "seconds": row.seconds,
                 })
             });
-            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
+            json!({ "what": asked.label, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
         });
         let case = checked.case;
         json!({

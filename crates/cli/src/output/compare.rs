@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::dataset::{Column, Dataset};
 use dalembert::quantity::{Measure, Units};
 use dalembert_compare::{ComparedColumn, ComparedFile};
-use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, plain, thinned};
+use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};
 
 /// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.
 pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
@@ -14,12 +14,12 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     let span = [times.first(), times.last()].map(|end| end.copied().unwrap_or(0.0));
     let panel = |title: &str, unit: &str, curves: Vec<(Vec<f64>, &str, Stroke)>| {
         let values = curves.iter().flat_map(|curve| &curve.0).copied();
-        let y = Axis::new(&plain(title), unit, Axis::range(values, false));
-        let mut panel = Panel::new(plain(title), Axis::new("t", units.name(Measure::Time), span), y);
+        let y = Axis::new(&without_subscripts(title), unit, Axis::range(values, false));
+        let mut panel = Panel::new(without_subscripts(title), Axis::new("t", units.name(Measure::Time), span), y);
         for (values, name, stroke) in curves {
             let points = times.iter().zip(values).map(|(time, value)| DVec2::new(*time, value)).collect();
             panel.lines("curve", vec![thinned(points)], stroke);
-            panel.legend.push(Key::Line(plain(name), stroke));
+            panel.legend.push(Key::line(without_subscripts(name), stroke));
         }
         panel
     };
@@ -32,7 +32,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
             panel(what.name(), unit, vec![(apart, "theirs − ours", Stroke::new("#0072b2", 0.3))]),
         ]
     });
-    let title = plain(title.unwrap_or("Theirs and ours"));
+    let title = without_subscripts(title.unwrap_or("Theirs and ours"));
     Sheet { title: vec![title], panels: panels.collect() }.svg(Size::Page)
 }
 

@@ -5,8 +5,8 @@ use serde_json::json;
 
 use super::dataset::{Column, Dataset};
 use dalembert::number::Number;
-use dalembert_plot::draw::{Axis, Key, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
-use dalembert_verify::cost::{Difference, Family, Row, Table};
+use dalembert_plot::draw::{Axis, Key, Mark, Panel, Sheet, Size, Stroke, power_of_ten, without_subscripts};
+use dalembert_verify::cost::{CostRow, CostTable, EffectCost, Family};
 
 /// A time in the unit that suits it, to three digits: `3.21 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
@@ -23,7 +23,7 @@ pub(crate) fn duration(seconds: f64) -> String {
 }
 
 /// `3.2e-15`, however small; `0` where there is no error.
-fn error(row: &Row) -> String {
+fn error(row: &CostRow) -> String {
     if row.log10_error == f64::NEG_INFINITY {
         return "0".into();
     }
@@ -37,7 +37,7 @@ fn error(row: &Row) -> String {
 }
 
 /// What is asked: `t_b`, or `h(t) at t = 1.5`.
-fn asked(table: &Table) -> String {
+fn asked(table: &CostTable) -> String {
     match &table.time {
         Some(time) => format!("{} at t = {time}", table.quantity.symbol()),
         None => table.quantity.symbol().into(),
@@ -45,8 +45,8 @@ fn asked(table: &Table) -> String {
 }
 
 /// Every route with what it takes. The plan's choice has an arrow.
-pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
-    let row = |row: &Row| {
+pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
+    let row = |row: &CostRow| {
         let timing = &row.timing;
         let mark = if row.chosen { "← the plan" } else { "" };
         vec![
@@ -67,7 +67,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     let left_out = cost
         .left_out
         .iter()
-        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why }));
+        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why.to_string() }));
     let mut below = "\n\nerror: relative, against ".to_string();
     below += &match cost.truth.log10_half_width {
         width if width == f64::NEG_INFINITY => "the exact fraction".into(),
@@ -79,7 +79,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
         let setting = item.setting.as_ref().map_or_else(String::new, |setting| format!(", {setting}"));
         below += &format!("not here: {}{setting}: {}\n", item.family.name(), item.why);
     }
-    let truth = cost.truth.value.to_f64();
+    let truth = cost.truth.to_f64();
     let above = title.map_or_else(String::new, |title| format!("{title}\n"));
     let unit = if cost.unit.is_empty() { String::new() } else { format!(" {}", cost.unit) };
     Dataset {
@@ -100,8 +100,8 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     }
 }
 
-pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset {
-    let row = |row: &Difference| {
+pub(crate) fn effects_data(rows: &[EffectCost], title: Option<&str>) -> Dataset {
+    let row = |row: &EffectCost| {
         vec![
             (Column::new("effect").text(), row.name().into()),
             (Column::table("called for").text(), if row.called { "yes" } else { "no" }.into()),
@@ -176,8 +176,8 @@ fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)>
 /// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
 /// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the decades of
 /// the error are drawn together, as the ticks say.
-pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
-    let finite = |row: &&Row| row.log10_error.is_finite();
+pub(crate) fn cost_svg(cost: &CostTable, title: Option<&str>) -> String {
+    let finite = |row: &&CostRow| row.log10_error.is_finite();
     let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
     let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
     let long = most > DOUBLES_END;
@@ -185,7 +185,7 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
     // Answers without error have a line of their own below all others.
     let lowest = place_of(if long { most } else { DOUBLES_END }, decades).floor() - if exact { 1.0 } else { 0.0 };
-    let place = |row: &Row| {
+    let place = |row: &CostRow| {
         let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
         DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
     };
@@ -211,15 +211,16 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
         let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
         let (color, mark) = look(rows[0].family);
         panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
-        panel.add("marks", Shape::Marks(lines.concat(), mark, color));
-        panel.legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+        panel.marks("marks", lines.concat(), mark, color);
+        panel.legend.push(Key::mark(rows[0].family.name(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     for mark in [Mark::Ring, Mark::Star] {
-        panel.add("chosen", Shape::Marks(chosen.clone(), mark, "#000000"));
+        panel.marks("chosen", chosen.clone(), mark, "#000000");
     }
-    panel.legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
-    Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
+    panel.legend.push(Key::mark("the plan's choice", Mark::Star, "#000000"));
+    Sheet { title: vec![without_subscripts(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }
+        .svg(Size::Page)
 }
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::dataset::{Column, Dataset};
 use super::npz::Npz;
 use dalembert::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
-use dalembert_plot::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
-use dalembert_verify::regimes::{BANDS, Map, Regime, Spread, threshold, threshold_near};
+use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke};
+use dalembert_verify::regimes::{BANDS, CellAxis, Map, Regime, threshold, threshold_near};
 
 /// The colour of each band, and its name: those with a bounce, none, not decided.
 const COLORS: [(&str, &str); BANDS.len() + 2] = [
@@ -89,8 +89,8 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
 }
 
 /// The axis of some values and where its parts begin and end: a value is the middle of its part.
-fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
-    let spread = Spread::of(values);
+fn axis(label: &str, values: &[Number]) -> (Axis, CellAxis) {
+    let spread = CellAxis::new(values);
     let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
@@ -102,12 +102,12 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map(DVec2::from_array).to_vec();
     let [bottom, top] = [y.from, y.to];
     let mut panel = Panel::new("when the first contact ends", x, y);
-    panel.add("bands", Shape::Region(vec![whole], COLORS[known - 1].0));
+    panel.region("bands", vec![whole], COLORS[known - 1].0);
     let place = |steps: DVec2| DVec2::new(across.border(steps.x), up.border(steps.y));
     // Each band lies over those after it.
     for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
         let lines = lines.iter().map(|line| line.iter().map(|point| place(*point)).collect()).collect();
-        panel.add("bands", Shape::Region(lines, color));
+        panel.region("bands", lines, color);
     }
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
@@ -122,9 +122,9 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     panel.lines("threshold", vec![curve], solid);
     panel.lines("curve", vec![pi], dashed);
-    panel.legend = COLORS[..known].iter().map(|(color, text)| Key::Area((*text).into(), color)).collect();
-    panel.legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
-    panel.legend.push(Key::Line("R = π".into(), dashed));
+    panel.legend = COLORS[..known].iter().map(|(color, text)| Key::area(*text, color)).collect();
+    panel.legend.push(Key::line("M = (I₀(R) + I₁(R))/(2 − I₀(R))", solid));
+    panel.legend.push(Key::line("R = π", dashed));
     panel
 }
 

@@ -3,7 +3,7 @@
 mod journal;
 mod run;
 
-pub(crate) use dalembert_verify::regimes::{Axis, Grid, SweepError};
+pub(crate) use dalembert_verify::regimes::{Axis, Grid};
 pub(crate) use journal::{Journal, journal_of};
 pub(crate) use run::{Asked, Point, Sweep};
 pub use run::{Cell, sweep};

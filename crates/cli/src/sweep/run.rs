@@ -13,7 +13,7 @@ use dalembert::engine::Motion;
 use dalembert::number::{Number, Scalar, bound_of_log2, shown_bound};
 use dalembert::problem::{Problem, ProblemError, Run};
 use dalembert::quantity::{Needs, One, Quantity, UnitSystem, Units};
-use dalembert::solve::{ExactnessEnd, History, Numbers, Plan, Question, Solution, Target, Visitor, unobserved};
+use dalembert::solve::{ExactnessEnd, Numbers, Plan, Question, Solution, Target, TypedHistory, Visitor, unobserved};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
@@ -84,7 +84,7 @@ impl Asked {
             let run = Question::of(*quantity, time.as_ref(), self.numbers);
             let known = runs.iter().position(|(other, _)| *other == run);
             let known = known.unwrap_or_else(|| {
-                let solution = Plan::of(problem, &run).and_then(|plan| plan.solve(problem, unobserved()));
+                let solution = Plan::of(problem, &run).and_then(|plan| plan.solve_typed(problem, unobserved()));
                 runs.push((run, solution.map_err(|error| error.to_string())));
                 runs.len() - 1
             });
@@ -114,7 +114,7 @@ struct Found<'a> {
 impl Visitor for Found<'_> {
     type Output = Cell;
 
-    fn visit<S: Target>(self, history: &History<S>) -> Cell {
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Cell {
         let digits = self.digits;
         let query = |motion: &dyn Motion<S::Carried>| self.one.of(motion, self.units, self.run);
         let found = history.ask(query, |found| found.iter().map(|[_, plain]| plain).collect());

@@ -357,7 +357,7 @@ fn residuals_and_pictures() {
     let csv = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--format", "csv"]), 0);
     assert!(csv.starts_with("t,u_end_ours,u_end_theirs,u_end_difference,v_end_ours,"));
     assert_eq!(csv.lines().count(), 6);
-    if cfg!(feature = "plot") {
+    if cfg!(feature = "raster") {
         let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]), 0);
         assert!(table.contains("no hint"));
         let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();

@@ -7,7 +7,9 @@ use crate::command::{json, quiet};
 use crate::common::{compares, uniform};
 use dalembert::rug::{Float, Rational};
 use dalembert::solve::NoDerivative;
-use dalembert::{Derivative, Error, Estimate, History, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top};
+use dalembert::{
+    Derivative, Error, Estimate, Number, Parameter, Problem, Quantity, Run, Speed, Start, Top, TypedHistory,
+};
 use proptest::prelude::*;
 
 use Quantity::{EventCentre, EventCentreVelocity, EventTime, EventVelocity};
@@ -27,7 +29,7 @@ fn by_name(name: &str) -> Parameter {
 }
 
 /// The derivatives of one quantity in doubles, which are the same from both sides.
-fn doubles(history: &History<f64>, by: &str, quantity: Quantity) -> Vec<Estimate<f64>> {
+fn doubles(history: &TypedHistory<f64>, by: &str, quantity: Quantity) -> Vec<Estimate<f64>> {
     let found = history.derivatives(by_name(by), &[quantity]).unwrap();
     found.iter().map(|row| row[0].as_ref().unwrap().value().unwrap().clone()).collect()
 }
@@ -52,7 +54,7 @@ fn the_second_landing() {
     // μ₀ = g t₁, so that ∂t₂/∂μ is that of t₂/t₁ by M over g = 10.
     let [left, right] = ["3/5", "3/25"].map(rational);
     assert_eq!(exact[2][0], Some(Derivative::Sides { left: Ok(left), right: Ok(right) }));
-    let found = doyen.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = doyen.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let [left, right] = found[2][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     meets(&left, 0.6);
     meets(&right, 0.12);
@@ -61,7 +63,7 @@ fn the_second_landing() {
     assert_eq!(exact[1][0], Some(Derivative::One(Rational::new())));
     for (n, m) in [(2.0, "1.1"), (2.0, "1.3"), (3.0, "1.7"), (3.0, "1.9")] {
         let rod = uniform("1", "2", "1", m, Run::Impacts(2));
-        let found = doubles(&rod.solve().unwrap(), "speed", EventTime);
+        let found = doubles(&rod.doubles().unwrap(), "speed", EventTime);
         meets(&found[2], slope(n, number(m).to_f64()));
     }
 }
@@ -74,7 +76,7 @@ fn a_weak_first_contact() {
     for (by, expected) in [("speed", "-1/5"), ("gravity", "7/25"), ("length", "2"), ("wave_speed", "-3")] {
         let found = exact.derivatives(by_name(by), &[EventTime]).unwrap();
         assert_eq!(found[1][0], Some(Derivative::One(rational(expected))), "{by}");
-        meets(&doubles(&rod.solve().unwrap(), by, EventTime)[1], rational(expected).to_f64());
+        meets(&doubles(&rod.doubles().unwrap(), by, EventTime)[1], rational(expected).to_f64());
     }
 }
 
@@ -182,7 +184,7 @@ fn euler_identities_in_fractions(cases: u32, least: [u32; 2], rods: impl Strateg
             .collect();
         let (mut smooth, mut kinks) = (0, 0);
         for (i, event) in history.events().iter().enumerate() {
-            let numbers = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity];
+            let numbers = [&event.t, &event.v_end, &event.h, &event.h_rate];
             for (j, number) in numbers.into_iter().enumerate() {
                 let one = |(by, value, rows): &(Parameter, Rational, dalembert::solve::Derivatives<Rational>)| {
                     if value.is_zero() {
@@ -221,7 +223,8 @@ fn exact_against_quotients(cases: u32, least: [u32; 3]) {
     let quantities = [&EVENT[..], &[Quantity::ContactImpulse, Quantity::PeakStrain, Quantity::MomentumRestitution]];
     let exactly = |found: &f64| Rational::from_f64(*found).unwrap();
     compares(cases, least, undamped(), |problem| {
-        let (exact, doubles, long) = (problem.exact().unwrap(), problem.solve().unwrap(), problem.digits(12).unwrap());
+        let (exact, doubles, long) =
+            (problem.exact().unwrap(), problem.doubles().unwrap(), problem.digits(12).unwrap());
         let (mut smooth, mut kinks, mut open, mut in_doubles) = (0, 0, 0, 0);
         for (by, _) in given(&problem) {
             for quantities in quantities {
@@ -292,7 +295,7 @@ fn what_has_no_derivative_is_refused() {
     let expected = "found the derivative by modulus asked for, expected a material: modulus and density";
     refused(exact.derivatives(Parameter::Modulus, &[EventTime]), expected);
     let expected = "found the derivative by gap asked for, expected a start above the ground";
-    refused(rod.solve().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
+    refused(rod.doubles().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
     let expected = "found the derivative by speed asked for, expected digits that need not be proved";
     refused(rod.certified(20).unwrap().derivatives(Parameter::Speed, &[EventTime]), expected);
 }
@@ -318,8 +321,8 @@ fn a_damped_bounce_between_rays() {
     for (mu, g) in [("1.6", "1"), ("2", "1"), ("2.4", "1"), ("1", "0.5")] {
         let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
         rod.rod.damping = Some(number("0.25"));
-        let history = rod.solve().unwrap();
-        let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].time);
+        let history = rod.doubles().unwrap();
+        let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].t);
         assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
         let u = (t * t - t1 * t1).sqrt();
         let h = bessel(0, r * t) - 2.0 * bessel(0, r * u);
@@ -349,7 +352,7 @@ fn restitution_by_damping() {
     for r in ["0", "0.05", "0.1", "0.3"] {
         let mut rod = uniform("1", "1", "0", "1", Run::Impacts(1));
         rod.rod.damping = Some(number(r)).filter(|r| !r.is_zero());
-        let found = &doubles(&rod.solve().unwrap(), "damping", Quantity::MomentumRestitution)[0];
+        let found = &doubles(&rod.doubles().unwrap(), "damping", Quantity::MomentumRestitution)[0];
         // R = r t₁, t₁ = 2.
         let expected = 2.0 * slope(2.0 * number(r).to_f64());
         let off = (found.value() - expected).abs();
@@ -400,13 +403,12 @@ fn doubles_against_long_numbers(cases: u32, least: [u32; 1], impacts: std::ops::
         let mut given = given(&problem);
         given.push((Parameter::Damping, problem.rod.damping.as_ref().unwrap().to_rational()));
         let (by, value) = given[which % given.len()].clone();
-        let found = problem.solve().unwrap().derivatives(by, &EVENT).unwrap();
+        let found = problem.doubles().unwrap().derivatives(by, &EVENT).unwrap();
         let step = rational("1e-14");
         let runs = [-1, 0, 1].map(|side| {
             let run = times(&problem, by, &(Rational::from(1) + step.clone() * side)).digits(40).unwrap();
-            let numbers = |event: &dalembert::Event<Float>| {
-                [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(Float::clone)
-            };
+            let numbers =
+                |event: &dalembert::Event<Float>| [&event.t, &event.v_end, &event.h, &event.h_rate].map(Float::clone);
             run.events().iter().map(numbers).collect::<Vec<_>>()
         });
         let step = value.clone() * step;
@@ -454,7 +456,7 @@ fn doubles_against_quotients_of_long_numbers_at_length() {
 /// Both of Euler's identities of a damped rod, within what the bounds of the derivatives leave.
 fn euler_identities_damped(cases: u32, least: [u32; 1]) {
     compares(cases, least, damped(1..=1), |problem| {
-        let history = problem.solve().unwrap();
+        let history = problem.doubles().unwrap();
         let mut given = given(&problem);
         given.extend(problem.rod.damping.as_ref().map(|damping| (Parameter::Damping, damping.to_rational())));
         let table: Vec<_> = given
@@ -463,7 +465,7 @@ fn euler_identities_damped(cases: u32, least: [u32; 1]) {
             .collect();
         let mut compared = 0;
         for (i, event) in history.events().iter().enumerate() {
-            let numbers = [event.time, event.end_velocity, event.centre, event.centre_velocity];
+            let numbers = [event.t, event.v_end, event.h, event.h_rate];
             for (j, number) in numbers.into_iter().enumerate() {
                 let one = |(by, value, rows): &(Parameter, f64, dalembert::solve::Derivatives<Estimate<f64>>)| {
                     let found = rows[i][j].as_ref()?.value()?;
@@ -506,9 +508,9 @@ fn thresholds() {
     assert_eq!(found[1][0], Some(sides(-1, 0)));
     // μ = 1 lands without speed at t = 31: of neighbours one lands with a root of the distance, and one does not.
     let rod = uniform("1", "1", "1", "1", Run::Time(number("35")));
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let found = history.derivatives(Parameter::Speed, &[EventTime]).unwrap();
-    let touch = history.events().iter().position(|event| (event.time - 31.0).abs() < 1e-9).unwrap();
+    let touch = history.events().iter().position(|event| (event.t - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
     assert!(reasons.contains(&true), "{:?}", found[touch]);
     // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0, and μ = 2 (I₀ + I₁)/(2 − I₀) at
@@ -529,7 +531,7 @@ fn thresholds() {
     let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
     let mut rod = uniform("1", "1", "1", &threshold.to_string_radix(10, Some(90)), Run::Impacts(1));
     rod.rod.damping = Some(number("0.2"));
-    let found = rod.solve().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = rod.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
     let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     for (found, expected) in [(left, slope), (right, 0.0)] {
         let off = (found.value() - expected).abs();
@@ -543,20 +545,20 @@ fn the_command() {
     let asked = ["solve", "doyen-ern-piperno", "--derivatives", "speed,density"];
     let found = json(&[&asked[..], &["--exact", "--format", "json"]].concat());
     let by = |key: &str, name: &str| found["events"][2]["derivatives"][key][name].clone();
-    assert_eq!(by("time", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
+    assert_eq!(by("t", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
     // The speed on the left is that before a ray, on the right that behind it.
-    assert_eq!(by("end_velocity", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
+    assert_eq!(by("v_end", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
     // c = √(E/ρ) = 30 with ρ = 1: ∂t_b/∂ρ = t_b/2ρ.
-    assert_eq!(found["events"][1]["derivatives"]["time"]["density"], "1/3");
+    assert_eq!(found["events"][1]["derivatives"]["t"]["density"], "1/3");
     // An impulse of ρ L (2μ + g t₁) = 200ρ + 200/3 ρ√ρ.
     assert_eq!(found["contacts"][0]["derivatives"]["impulse"]["density"], "300");
-    assert_eq!(found["contacts"][0]["derivatives"]["momentum"]["speed"], "0");
+    assert_eq!(found["contacts"][0]["derivatives"]["e_P"]["speed"], "0");
     let csv = quiet(&[&asked[..], &["--format", "csv"]].concat());
     let table: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     let column = |name: &str| table[0].iter().position(|head| *head == name).unwrap();
     let cell = |name: &str| table[3][column(name)];
-    assert_eq!((cell("time_by_speed"), cell("time_by_speed_left"), cell("time_by_speed_right")), ("", "0.6", "0.12"));
-    assert!(cell("time_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
+    assert_eq!((cell("t_by_speed"), cell("t_by_speed_left"), cell("t_by_speed_right")), ("", "0.6", "0.12"));
+    assert!(cell("t_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
     let shown = quiet(&asked);
     let row = shown.lines().find(|line| line.starts_with(" impact at 2.66666666667     right")).unwrap();
     let words: Vec<&str> = row.split_whitespace().skip(4).collect();
@@ -576,7 +578,7 @@ fn what_an_event_costs() {
     };
     let times = |speed: f64| -> Vec<f64> {
         let solved = json(&["solve", &file(speed), "--format", "json"]);
-        solved["events"].as_array().unwrap().iter().map(|event| event["time"].as_f64().unwrap()).collect()
+        solved["events"].as_array().unwrap().iter().map(|event| event["t"].as_f64().unwrap()).collect()
     };
     let found = &json(&["explain", &file(3.0), "--format", "json"])["sensitivity"];
     let (here, more) = (times(3.0), times(3.0 + 1e-5));

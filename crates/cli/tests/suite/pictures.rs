@@ -5,7 +5,7 @@ use std::fs;
 
 use dalembert::quantity::Table;
 #[cfg(feature = "mp")]
-use dalembert::{History, Numbers, Plan, Problem, Question, Solution};
+use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
 
 use crate::command::{quiet, refused, run};
 use crate::common::close;
@@ -191,7 +191,7 @@ fn what_is_open_is_not_drawn() {
 }
 
 /// The number after a name in a PDF's text.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
     let rest = pdf.split(name).nth(1).unwrap();
     let numbers = rest.split([' ', '[', ']', '/', '\n']).filter(|word| !word.is_empty());
@@ -200,7 +200,7 @@ fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
 
 /// The parts of a PDF are where its table says, it is one page of the size of the SVG, and its texts are texts in the
 /// embedded font. The same picture has the same bytes.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 #[test]
 fn a_pdf_is_one_page_with_texts() {
     let folder = tempfile::tempdir().unwrap();
@@ -237,7 +237,7 @@ fn a_pdf_is_one_page_with_texts() {
 }
 
 /// Letters that the embedded font does not have are named.
-#[cfg(feature = "plot")]
+#[cfg(feature = "raster")]
 #[test]
 fn letters_without_a_sign_are_said() {
     let folder = tempfile::tempdir().unwrap();
@@ -311,18 +311,19 @@ fn figures_5_to_7_agree_with_cells_from_data() {
             let speed = format!("{}", -mu);
             let data = [("0", speed.as_str()), ("1", speed.as_str())];
             let rod = Problem::builder().length(1).wave_speed(1).gravity(1).damping(r).velocity(data);
-            let table = cells(&rod.time(3).build().unwrap()).table(Table::Restitution).unwrap();
-            close(&what, translational, table[2].1[0].unwrap(), 1.0, 1e-12);
-            close(&what, left, table[3].1[0].unwrap(), 1.0, 1e-12);
+            let table = cells(&rod.time(3).build().unwrap()).table(Table::Contacts).unwrap();
+            let first = |wanted| table.iter().find(|(quantity, _)| *quantity == wanted).unwrap().1[0].unwrap();
+            close(&what, translational, first(dalembert::Quantity::TranslationalShare), 1.0, 1e-12);
+            close(&what, left, first(dalembert::Quantity::EnergyKept), 1.0, 1e-12);
         }
     }
 }
 
 #[cfg(feature = "mp")]
-fn cells(rod: &Problem) -> History<f64> {
+fn cells(rod: &Problem) -> TypedHistory<f64> {
     let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
     assert_eq!(plan.engine, dalembert::Engine::Cells);
-    match plan.solve(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
+    match plan.solve_typed(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
         Solution::Double(history) => history,
         other => panic!("{other:?}"),
     }
@@ -366,7 +367,7 @@ fn figures_1_to_4_hold_what_the_theory_says() {
     // All files, and an index that names them.
     let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
     for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
-        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "plot").then_some(".png")) {
+        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "raster").then_some(".png")) {
             let file = format!("{name}{ending}");
             assert!(index.contains(&file) && folder.path().join(&file).is_file(), "{file}");
         }
@@ -386,8 +387,8 @@ fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
         let rod = Problem::builder().length(1).wave_speed(1).gravity(1);
         let rod = rod.damping(row[0].as_str()).impact_speed(row[1].as_str());
         let history = rod.build().unwrap().digits(20).unwrap();
-        let time = history.contacts()[0].to.clone().unwrap();
-        let restitution = history.restitution(0).unwrap().energy_squared.unwrap();
+        let time = history.contacts()[0].release.clone().unwrap();
+        let restitution = history.restitution(0).unwrap().e_e2.unwrap();
         for (number, truth) in [(&row[2], time), (&row[3], restitution)] {
             // Rounded within its bound, at most half a unit of the last digit.
             let printed = dalembert::rug::Float::parse(number).unwrap();

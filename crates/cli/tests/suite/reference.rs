@@ -174,7 +174,7 @@ fn held_against_the_history(name: &str, mut program: Command) {
     let rows: Vec<Vec<f64>> =
         text.lines().map(|line| line.split_whitespace().map(|value| value.parse().unwrap()).collect()).collect();
     assert_eq!(rows.len(), pairs.len());
-    let scales = rod.solve().unwrap().scales();
+    let scales = rod.doubles().unwrap().scales();
     for (row, (x, t)) in rows.iter().zip(pairs) {
         let exact = |x: f64| Rational::from_f64(x).unwrap();
         let field = history.field(&[exact(x)], &[exact(t)], Side::Right).unwrap().remove(0);
@@ -489,7 +489,7 @@ fn steps_end_where_they_are_told() {
 #[test]
 fn a_damped_rod_has_rows() {
     let rod = scene("figure-4-r02").with_run(Run::Time(4.into())).unwrap();
-    let history = rod.solve().unwrap();
+    let history = rod.doubles().unwrap();
     let found = json(&["reference", "figure-4-r02", "--times", "1,3", "--format", "json", "--side", "left"]);
     let names: Vec<&str> = found["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
     for (row, t) in found["rows"].as_array().unwrap().iter().zip([1.0, 3.0]) {

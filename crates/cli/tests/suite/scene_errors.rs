@@ -480,7 +480,6 @@ fn points_of_equal_value_are_kept_equal() {
     assert_eq!(scene.line_of("start.velocity"), Some(2));
 }
 
-#[cfg(feature = "cli")]
 #[test]
 fn a_report_shows_the_line() {
     let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = -1 # L\nwave_speed = 1\n").err;

@@ -160,7 +160,7 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     for ending in ["csv", "npz", "svg"] {
         assert_eq!(map("1", ending), map("3", ending), "{ending}");
     }
-    #[cfg(feature = "plot")]
+    #[cfg(feature = "raster")]
     assert!(map("2", "png").starts_with(b"\x89PNG"));
     let curve = dalembert(&["regimes", "--curve", "--damping-ratio", "0..2:3"]).unwrap();
     // (I₀(1) + I₁(1))/(2 − I₀(1)) = (1.2660658777520084 + 0.5651591039924851)/0.7339341222479916.

@@ -31,7 +31,7 @@ fn damped(in_scene: f64, in_data: f64, columns: &[Quantity]) -> Value {
         )
     };
     let times: Vec<f64> = (0..=450).map(|k| f64::from(k) / 100.0).collect();
-    let exact = scene(&text(in_data)).problem.solve().unwrap();
+    let exact = scene(&text(in_data)).problem.doubles().unwrap();
     let values = exact.columns(columns, &times, Some(Side::Right)).unwrap();
     let names = columns.iter().map(|column| column.name()).zip(values);
     let data: Vec<(&str, Vec<f64>)> = std::iter::once(("t", times)).chain(names).collect();
@@ -104,7 +104,7 @@ fn causes_that_are_alike_are_both_listed() {
         format!("rod = {{ length = {length}, wave_speed = 30 }}\nimpact = {{ speed = 10, gap = 2 }}\nrun.time = 3\n")
     };
     let times: Vec<f64> = (0..=300).map(|k| f64::from(k) / 100.0).collect();
-    let exact = scene(&text(10.4)).problem.solve().unwrap();
+    let exact = scene(&text(10.4)).problem.doubles().unwrap();
     let u = exact.columns(&[Quantity::EndDisplacement], &times, Some(Side::Right)).unwrap().remove(0);
     let found = hints(&compare_columns(&scene(&text(10.0)), &[("t", times), ("u", u)], &Options::default()));
     let kinds = kinds(&found);

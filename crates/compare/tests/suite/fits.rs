@@ -50,7 +50,7 @@ fn exact_data_give_their_values() {
     start.iter_mut().zip(off).for_each(|(value, off)| *value *= off);
     let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 25.0).collect();
     let columns = [Quantity::EndDisplacement, Quantity::Strain, Quantity::TopDisplacement];
-    let data = rod(truth, 1.6).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let data = rod(truth, 1.6).doubles().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     let fit = fitted(&rod(start, 1.6), &NAMES, &times, &columns, data);
     assert!(fit["steps"].as_u64().unwrap() <= 20, "{fit}");
     assert_eq!(fit["values"].as_array().unwrap().len(), truth.len(), "{fit}");
@@ -89,7 +89,7 @@ fn exact_data_of_many_rods_give_their_values() {
         let names: Vec<&str> =
             NAMES.iter().zip(truth).filter(|(_, value)| *value > 0.0).map(|(name, _)| *name).collect();
         let times: Vec<f64> = (0..=80).map(|k| f64::from(k) / 80.0 * 2.2 * trip).collect();
-        let data = problem(truth).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+        let data = problem(truth).doubles().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
         let fit = fitted(&problem(start), &names, &times, &columns, data);
         let values = fit["values"].as_array().unwrap();
         let off = values.iter().zip(truth.iter().filter(|value| **value > 0.0));
@@ -112,7 +112,7 @@ fn a_start_is_fitted() {
     };
     let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 20.0).collect();
     let columns = [Quantity::EndDisplacement, Quantity::Strain];
-    let data = rod(1.0, 0.5).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let data = rod(1.0, 0.5).doubles().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     let names = ["length", "displacement[0]", "displacement[1]"];
     let fit = fitted(&rod(1.03, 0.48), &names, &times, &columns, data);
     for ((value, name), truth) in fit["values"].as_array().unwrap().iter().zip(names).zip([1.0, 0.5, 0.125]) {
@@ -127,7 +127,7 @@ fn noisy_data_give_honest_errors() {
     let problem = |speed: f64, gravity: f64| rod([1.0, 20.0, 0.0, gravity, speed, 0.05], 0.6);
     let times: Vec<f64> = (0..=60).map(|k| f64::from(k) / 100.0).collect();
     let columns = [Quantity::Centre];
-    let exact = problem(1.0, 9.81).solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let exact = problem(1.0, 9.81).doubles().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     // Twelve of its numbers make one of a normal distribution.
     let mut random = Random(1878);
     let (mut count, mut within) = (0, 0);

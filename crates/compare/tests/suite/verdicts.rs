@@ -202,7 +202,7 @@ fn a_mass_is_told_before_the_contact() {
     let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gap("0.5").time(3).build().unwrap();
     let columns = [Quantity::EndDisplacement, Quantity::EndVelocity, Quantity::KineticEnergy];
     let times: Vec<f64> = (0..=300).map(|k| f64::from(k) / 100.0).collect();
-    let exact = rod.solve().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
+    let exact = rod.doubles().unwrap().columns(&columns, &times, Some(Side::Right)).unwrap();
     let run = |mass: f64, speed: f64| {
         let mut columns = ["t", "u", "v", "kinetic"].map(|name| (name, Vec::new()));
         for (k, time) in times.iter().enumerate() {

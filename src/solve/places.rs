@@ -1,0 +1,57 @@
+//! Times and points that a history is asked at.
+
+use std::ops::Range;
+
+use crate::error::Error;
+use crate::motion::Motion;
+use crate::number::{List, Number, Scalar};
+
+/// Times or points of a question, in the units of the problem.
+#[derive(Clone, Debug)]
+pub enum Places<'a> {
+    /// A part of a list of numbers as a person writes them: each stands for exactly what it spells.
+    Part(&'a List, Range<usize>),
+    /// Doubles as a program computes them: one within some roundings of an event or a ray stands for that event.
+    Doubles(&'a [f64]),
+    /// Numbers as a history prints them: the digits of an event stand for that event.
+    Printed(&'a [Number]),
+    /// The start, the events and the end, each once. For times.
+    Events,
+}
+
+impl<'a> From<&'a List> for Places<'a> {
+    fn from(list: &'a List) -> Self {
+        Places::Part(list, 0..list.len())
+    }
+}
+
+impl<'a> From<&'a [f64]> for Places<'a> {
+    fn from(list: &'a [f64]) -> Self {
+        Places::Doubles(list)
+    }
+}
+
+impl Places<'_> {
+    /// Returns the places in the numbers of `motion`.
+    pub(super) fn lift<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
+        let end = motion.end();
+        let precision = end.precision();
+        Ok(match self {
+            Places::Part(list, part) => list.lift_part(part.clone(), &precision),
+            Places::Doubles(list) => list.iter().map(|x| end.double(*x)).collect(),
+            Places::Printed(list) if end.as_double().is_none() => {
+                list.iter().map(|x| S::from_number(x, &precision)).collect()
+            }
+            Places::Printed(list) => list.iter().map(|x| S::spelling(x, &precision)).collect(),
+            Places::Events => {
+                let mut times = vec![end.zero()];
+                for time in motion.events().iter().map(|event| &event.t).chain([&end]) {
+                    if times.last().map_or(Ok(true), |last| last.below(time))? {
+                        times.push(time.clone());
+                    }
+                }
+                times
+            }
+        })
+    }
+}

@@ -1,0 +1,558 @@
+//! The answer: what happened, and everything that can be asked of it.
+
+use std::sync::{Mutex, OnceLock};
+
+use super::ladder::{Attempt, Ladder, Query, Target, settled};
+use super::plan::{Plan, Rung};
+use super::question::{Numbers, Observer, Question};
+use crate::error::Error;
+use crate::motion::{
+    Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
+};
+use crate::number::{Answer, Number, Scalar, show};
+use crate::problem::Problem;
+use crate::quantity::{self, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, flights, restitution};
+use crate::reason::{Reason, Warning};
+use crate::threads::locked;
+
+/// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
+///
+/// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
+/// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
+/// of its own; about a point outside of the rod [`Error::PointOutside`].
+///
+/// A time stands for exactly what it spells where it is a [`Scalar::spelling`], as those of the command are: longer
+/// runs and fractions tell on which side of an event or a ray it lies, or the bound covers both sides and
+/// [`TypedHistory::warnings`] names it. A time that was computed stands for the event or the ray that some roundings set
+/// apart; that of an event, as the history gives it, for the event.
+///
+/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
+/// that were asked for.
+///
+/// ```
+/// use dalembert::Problem;
+/// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+/// let motion = rod.doubles()?;
+/// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
+/// assert_eq!(motion.contacts()[0].release, Some(2.0));
+/// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
+/// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
+/// # Ok::<(), dalembert::Error>(())
+/// ```
+pub struct TypedHistory<S: Target> {
+    problem: Problem,
+    plan: Plan,
+    pub(super) observe: Observer,
+    /// The attempt that has settled what happens, of which every query is asked first.
+    pub(super) first: Attempt<S>,
+    /// The last one, in longer numbers where a query needed them.
+    last: Mutex<Attempt<S>>,
+    events: OnceLock<Vec<Event<S>>>,
+    contacts: OnceLock<Vec<Contact<S>>>,
+    ending: Ending,
+    end: S,
+    /// Times that earlier attempts have not told from those of events or rays.
+    covered: Mutex<Vec<f64>>,
+}
+
+impl<S: Target> TypedHistory<S> {
+    /// Solves `problem` by `plan`; see [`Observer`] for what `observe` receives.
+    ///
+    /// **Errors**: those of [`Plan::solve`](crate::solve::Plan::solve).
+    pub fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
+        let ladder = Ladder { problem, plan, observe: &observe };
+        let ask_events = plan.settles_events;
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let (events, contacts) = if ask_events { (engine.events(), engine.contacts()) } else { Default::default() };
+            Ok((engine.end(), events.to_vec(), contacts.to_vec()))
+        };
+        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, |(end, events, contacts)| {
+            let happens = events.iter().flat_map(Event::numbers).chain(contacts.iter().flat_map(Contact::numbers));
+            std::iter::once(end).chain(happens).collect()
+        })?;
+        let motion = TypedHistory {
+            ending: attempt.engine.ending().clone(),
+            last: Mutex::new(attempt.clone()),
+            first: attempt,
+            events: OnceLock::new(),
+            contacts: OnceLock::new(),
+            end: S::strip(end),
+            covered: Mutex::default(),
+            problem: problem.clone(),
+            plan: plan.clone(),
+            observe,
+        };
+        if ask_events {
+            motion.events.get_or_init(|| events.into_iter().map(|event| event.map(S::strip)).collect());
+            motion.contacts.get_or_init(|| contacts.into_iter().map(|contact| contact.map(S::strip)).collect());
+        }
+        Ok(motion)
+    }
+
+    /// The end, with its bound.
+    pub(super) fn carried_end(&self) -> S::Carried {
+        self.current().engine.end()
+    }
+
+    /// The natural scales, with their bounds.
+    pub(super) fn carried_scales(&self) -> Scales<S::Carried> {
+        self.current().engine.scales()
+    }
+
+    fn current(&self) -> Attempt<S> {
+        locked(&self.last).clone()
+    }
+
+    /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
+    /// to the digits of the plan.
+    ///
+    /// **Accuracy**: that of the [`Plan`]. The query is repeated in more bits where those at hand do not settle it.
+    ///
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
+    ///
+    /// ```
+    /// use dalembert::{Number, Problem, Side};
+    /// use dalembert::number::Scalar;
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).build()?;
+    /// // A time that no double holds, in the precision of each attempt.
+    /// let third: Number = "1/3".parse()?;
+    /// let history = rod.doubles()?;
+    /// let strain = history.ask(
+    ///     |motion| motion.strain(&Scalar::from_number(&third, &motion.end().precision()), Side::Right),
+    ///     |strain| vec![strain],
+    /// )?;
+    /// assert_eq!(*strain.value(), -10.0 / 3.0); // −(μ + g t)/c
+    /// assert!(strain.bound() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn ask<T>(
+        &self,
+        query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<&S::Carried>,
+    ) -> Result<T, Error> {
+        settled::<S, T, _>(query, numbers, |query| self.settle(query)).map(|((), answer)| answer)
+    }
+
+    /// Settles a query by the first attempt, or else from the last one on, and keeps the one that has settled it.
+    fn settle(&self, query: Query<'_, S>) -> Result<((), usize), Error> {
+        let last = self.current();
+        let rung = last.rung;
+        let known = if self.first.rung == rung { vec![last] } else { vec![self.first.clone(), last] };
+        let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
+        let (attempt, answer) = ladder.settle::<S>(known, query).map_err(|error| self.explained(error))?;
+        if attempt.rung != rung && attempt.rung != self.first.rung {
+            let before = std::mem::replace(&mut *locked(&self.last), attempt);
+            let covered = before.engine.covered().map(|(times, _)| times);
+            locked(&self.covered).extend(covered.into_iter().flatten());
+        }
+        Ok(((), answer))
+    }
+
+    /// An error of a question, with why the history ends before the time that was asked for.
+    pub fn explained(&self, error: Error) -> Error {
+        let Error::TimeOutside { found, end } = error else { return error };
+        let (found, end) = told_apart(found, end);
+        let after = found.parse::<Number>().is_ok_and(|time| time.to_f64() > 0.0);
+        match &self.ending {
+            ending @ Ending::ExactnessEnds { .. } if after => {
+                Error::BeyondExactness { found, ending: ending.to_string() }
+            }
+            ending if after && *ending != Ending::Time => Error::BeyondEnd { found, end, ending: ending.to_string() },
+            _ => Error::TimeOutside { found, end },
+        }
+    }
+
+    /// The last time that is known: before an event at no fraction, a fraction just below its time.
+    pub fn end(&self) -> &S {
+        &self.end
+    }
+
+    /// Why it is the last.
+    pub fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// A number of an answer as text, with the digits that the [`Plan`] promises and no more: a `Float` and an
+    /// enclosure carry further ones.
+    ///
+    /// **Accuracy**: *correctly rounded* to the digits asked for; the shortest text of a double, and a fraction whole.
+    ///
+    /// ```
+    /// # #[cfg(feature = "mp")] {
+    /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
+    /// let history = rod.digits(50)?;
+    /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
+    /// assert_eq!(history.text(history.contacts()[0].release.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
+    /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
+    /// # }
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn text(&self, number: &S) -> String {
+        match self.plan().numbers {
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => {
+                show(&number.exactly(), digits)
+            }
+            Numbers::Double(_) | Numbers::Exact => number.text(),
+        }
+    }
+
+    /// What turns strains into stress and force, and values per `ρS` into impulse and energy.
+    ///
+    /// ```
+    /// use dalembert::{Problem, quantity::Measure};
+    /// // c = √(E/ρ) = 2, and nothing but the momentum ρS L μ turns round: an impulse of 2ρS L μ, of which ρS = 2.
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// let history = rod.doubles()?;
+    /// let impulse = history.contacts()[0].impulse;
+    /// assert_eq!(impulse, 4.0);
+    /// assert_eq!(history.units().factor::<f64>(Measure::Impulse, &()).map(|factor| factor * impulse), Some(8.0));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn units(&self) -> Units {
+        Units::of(&self.problem, UnitSystem::default())
+    }
+
+    /// Returns the problem.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// How it was solved.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The numbers that the last answer was computed in.
+    pub fn rung(&self) -> Rung {
+        self.current().rung
+    }
+
+    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    pub fn events(&self) -> &[Event<S>] {
+        self.events
+            .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
+    }
+
+    /// All times on the ground, in order.
+    pub fn contacts(&self) -> &[Contact<S>] {
+        let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
+        self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
+    }
+
+    /// The flights between the contacts, and how high they go.
+    pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
+        let found = self.ask(flights, |flights| Flight::numbers(flights))?;
+        Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
+    }
+
+    /// `e_P` and `e_E²` of a contact, counted from 0.
+    ///
+    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios: where one of them is next
+    /// to nothing, no double is as accurate as its ratio would need. Otherwise their own.
+    ///
+    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
+        Ok(self.carried_restitution(contact)?.map(S::strip))
+    }
+
+    /// [`TypedHistory::restitution`] in numbers that carry their bound.
+    pub(super) fn carried_restitution(&self, contact: usize) -> Result<Restitution<S::Carried>, Error> {
+        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let times = engine.contact_times(contact);
+            let missing = || Error::NoContact { contact, found: engine.contacts().len() };
+            let (from, to) = times.ok_or_else(missing)?;
+            let centres =
+                std::iter::once(&from).chain(&to).map(|time| engine.centre(time)).collect::<Result<Vec<_>, _>>()?;
+            Ok((restitution(engine, (&from, to.as_ref()))?, centres))
+        };
+        let (found, _) = self.ask(query, |(found, centres)| match doubles {
+            true => centres.iter().flat_map(|(h, rate)| [h, rate]).collect::<Vec<_>>(),
+            false => Restitution::numbers(found),
+        })?;
+        Ok(found)
+    }
+
+    /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
+    pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
+        let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
+        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect::<Vec<_>>();
+        Ok(StressHistory { pieces, ending: self.ending.clone() })
+    }
+
+    /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
+    pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
+        let time = self.time(&time)?;
+        Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
+    }
+
+    /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
+    pub fn ground_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.ground_end(time, side))
+    }
+
+    /// `v(L,t)` and `v_t(L,t)`: the upper end.
+    pub fn top_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.top_end(time, side))
+    }
+
+    /// `h(t)` and `h′(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    pub fn centre(&self, time: S) -> Result<(S, S), Error> {
+        self.pair(time, |engine, time| engine.centre(time))
+    }
+
+    /// A time as the engine is asked at it. **Errors**: [`Error::TimeOutside`] for what is no number.
+    fn time(&self, time: &S) -> Result<S::Carried, Error> {
+        let time = time.carry();
+        quantity::finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
+    }
+
+    fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
+        let time = self.time(&time)?;
+        let (a, b) = self.ask(|engine| ask(engine, &time), |(a, b)| vec![a, b])?;
+        Ok((S::strip(a), S::strip(b)))
+    }
+
+    /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
+    pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
+        let time = self.time(&time)?;
+        Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
+    }
+
+    /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of
+    /// any of them differ, a time has two rows, the limit from earlier times first.
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    pub fn columns(&self, columns: &[Quantity], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let times: Vec<_> = times.iter().map(Answer::carry).collect();
+        let table = self.ask_columns(columns, side, |_| Ok(times.clone()))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
+    }
+
+    /// [`TypedHistory::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
+    /// lifted to the precision of each attempt.
+    pub fn ask_columns(
+        &self,
+        columns: &[Quantity],
+        side: Option<Side>,
+        times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        self.ask_columns_in(&self.units(), columns, side, times)
+    }
+
+    /// [`TypedHistory::ask_columns`] in these units.
+    pub(super) fn ask_columns_in(
+        &self,
+        units: &Units,
+        columns: &[Quantity],
+        side: Option<Side>,
+        times: impl Fn(&dyn Motion<S::Carried>) -> Result<Vec<S::Carried>, Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let table = quantity::columns(engine, units, columns, &times(engine)?, side)?;
+            let scaled = quantity::of_one_size(engine, units, columns, &table);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
+    /// the points, means over the cells between them, or nodal values of a projection. Sides as in
+    /// [`TypedHistory::columns`].
+    ///
+    /// **Accuracy**: that of the [`Plan`], each column by itself.
+    ///
+    /// **Errors**: [`Error::Grid`].
+    ///
+    /// ```
+    /// use dalembert::{Problem, quantity::Slice};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).build()?;
+    /// // At t = 1/4 the strain is −2 below x = 1/4 and 0 above.
+    /// let slice = rod.doubles()?.slices(Slice::Averages, &[0.0, 0.5, 1.0], &[0.25], None)?;
+    /// assert_eq!(slice[5], [-1.0, 0.0]);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
+        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
+        let (points, times) = (carry(points), carry(times));
+        let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
+        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect::<Vec<_>>()).collect())
+    }
+
+    /// [`TypedHistory::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
+    pub fn ask_slices(
+        &self,
+        slice: Slice,
+        side: Option<Side>,
+        grid: impl Fn(&dyn Motion<S::Carried>) -> Result<(Vec<S::Carried>, Vec<S::Carried>), Error>,
+    ) -> Result<Vec<Vec<S::Carried>>, Error> {
+        let query = |engine: &dyn Motion<S::Carried>| {
+            let (points, times) = grid(engine)?;
+            let table = quantity::slices(engine, slice, &points, &times, side)?;
+            let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
+            Ok((table, scaled))
+        };
+        Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
+    }
+
+    /// The columns of a table, such as the `impact`, `release`, `impulse` and `peak_strain` of all contacts; with a
+    /// material in its units. What there is not, such as the release of a contact that lasts, is `None`.
+    ///
+    /// **Accuracy**: that of the [`Plan`].
+    ///
+    /// ```
+    /// use dalembert::{Problem, Quantity, quantity::Table};
+    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
+    /// // c = 2 and t₁ = 2; ρS L μ turns round.
+    /// let contacts = rod.doubles()?.table(Table::Contacts)?;
+    /// assert_eq!(contacts[1], (Quantity::Release, vec![Some(2.0)]));
+    /// assert_eq!(contacts[5], (Quantity::ContactImpulse, vec![Some(8.0)]));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
+        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
+        Ok(self.ask_table(table)?.into_iter().map(|(quantity, column)| (quantity, strip(column))).collect())
+    }
+
+    /// [`TypedHistory::table`] in numbers that carry their bound.
+    #[doc(hidden)]
+    pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
+        let units = self.units();
+        // In doubles a ratio is as accurate as its parts.
+        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
+        self.ask(
+            |motion| quantity::table(motion, table, &units),
+            |columns| {
+                let settled = columns.iter().filter(|(quantity, _)| !doubles || quantity.measure().is_some());
+                settled.flat_map(|(_, column)| column.iter().flatten()).collect()
+            },
+        )
+    }
+
+    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    pub fn at(&self, point: S, time: S) -> Result<Field<S>, Error> {
+        self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
+    }
+
+    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
+    /// together.
+    pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
+        let points: Vec<_> = points.iter().map(Answer::carry).collect();
+        let value = |(time, point): (&S, _)| {
+            let time = self.time(time)?;
+            let value = self.ask(|engine| engine.field(point, &time, side), |field| field.numbers().to_vec())?;
+            Ok(value.map(S::strip))
+        };
+        times.iter().flat_map(|time| points.iter().map(move |point| (time, point))).map(value).collect()
+    }
+
+    /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
+    ///
+    /// **Errors**: [`Error::NoRays`] under damping.
+    pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
+        let rays = self.ask(|motion| motion.rays(trip), |rays| rays.iter().map(|ray| &ray.from).collect())?;
+        Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
+    }
+
+    /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
+    pub fn waves(&self) -> Result<Waves<S>, Error> {
+        Ok(self.ask(|engine| engine.waves(), |waves| waves.numbers())?.map(S::strip))
+    }
+
+    /// The natural scales of the motion.
+    pub fn scales(&self) -> Scales<S> {
+        self.current().engine.scales().map(S::strip)
+    }
+
+    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all
+    /// is exact.
+    pub fn error_estimate(&self) -> f64 {
+        self.current().engine.error_estimate().to_f64()
+    }
+
+    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where
+    /// that is not followed.
+    pub fn digits_lost(&self) -> Option<(u32, f64)> {
+        self.current().engine.digits_lost()
+    }
+
+    /// What a user should know of the answer.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let Attempt { engine, rung, .. } = self.current();
+        let mut warnings = engine.warnings().to_vec();
+        // The first contact is in closed form.
+        let closed = engine.events().len() < 2 || matches!(engine.ending(), Ending::Undecided(Reason::MostDigits(_)));
+        warnings.extend(self.plan.not_proved(rung).filter(|_| !closed));
+        warnings.extend(self.problem.neglected());
+        let mut covered = locked(&self.covered).clone();
+        for engine in [&self.first.engine, &engine] {
+            covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
+        }
+        covered.sort_by(f64::total_cmp);
+        covered.dedup();
+        warnings.extend(covered.into_iter().map(|time| Warning::TimeNotTold { time }));
+        warnings
+    }
+}
+
+type Pair<S> = Result<(<S as Answer>::Carried, <S as Answer>::Carried), Error>;
+
+impl<S: Target> std::fmt::Debug for TypedHistory<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { problem, plan, end, .. } = self;
+        f.debug_struct("History")
+            .field("problem", problem)
+            .field("plan", plan)
+            .field("end", end)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Two times as doubles print them, where that is shorter and tells them apart.
+fn told_apart(found: String, end: String) -> (String, String) {
+    // NaN is no number of a scene.
+    let double = |text: &String| text.parse().map(|number: Number| number.to_f64()).or(text.parse()).ok();
+    let both = double(&found).zip(double(&end)).filter(|(found, end)| found != end);
+    let shorter = |text: String, value: f64| if text.len() > 24 { value.to_string() } else { text };
+    match both {
+        Some((value, last)) => (shorter(found, value), shorter(end, last)),
+        None => (found, end),
+    }
+}
+
+impl Problem {
+    /// Solves the problem in doubles, which the answers are. **Accuracy**:
+    /// [`DEFAULT_ACCURACY`](crate::solve::DEFAULT_ACCURACY) of the natural scales.
+    pub fn doubles(&self) -> Result<TypedHistory<f64>, Error> {
+        self.answer(&Question::run(Numbers::default()))
+    }
+
+    /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
+    ///
+    /// **Errors**: [`Error::DampedExact`].
+    pub fn exact(&self) -> Result<TypedHistory<crate::number::Rational>, Error> {
+        self.answer(&Question::run(Numbers::Exact))
+    }
+
+    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once, as [`TypedHistory::text`]
+    /// prints them; the `Float` itself carries more, which are not promised.
+    ///
+    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn digits(&self, digits: u32) -> Result<TypedHistory<crate::number::Float>, Error> {
+        self.answer(&Question::run(Numbers::Digits(digits)))
+    }
+
+    /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
+    ///
+    /// **Errors**: [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    pub fn certified(&self, digits: u32) -> Result<TypedHistory<crate::number::Interval>, Error> {
+        self.answer(&Question::run(Numbers::Certified(digits)))
+    }
+
+    /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
+    pub fn first_contact(&self) -> Result<TypedHistory<f64>, Error> {
+        self.answer(&Question::first_contact(Numbers::default()))
+    }
+}

@@ -1,0 +1,71 @@
+//! The history without a number type: its values against pencil and paper, and against the typed history.
+
+use dalembert::number::List;
+use dalembert::quantity::{Slice, UnitSystem};
+use dalembert::solve::{Listing, Places, StressForm};
+use dalembert::{Error, Numbers, Problem, Quantity, Side, Value};
+
+/// `ρS = 2`, `c = 2`, `t₁ = 1`, and `M = μ/(g t₁) = 3`.
+fn rod() -> Problem {
+    Problem::builder().length(1).material(4, 1, 2).gravity(1).impact_speed(3).time("3/2").build().unwrap()
+}
+
+#[test]
+fn values_carry_unit_bound_and_kind() {
+    let doubles = rod().solve().unwrap();
+    let exact = rod().solve_in(Numbers::Exact).unwrap();
+    // The force is E S (μ + g t)/c = 4 (3 + t).
+    let force = |history: &dalembert::History| history.at_time(Quantity::Force, "1/3", Side::Right).unwrap();
+    let (double, fraction) = (force(&doubles), force(&exact));
+    assert_eq!((fraction.to_string(), fraction.unit()), ("40/3".into(), "N"));
+    assert!(fraction.is_exact() && fraction.is_proved() && fraction.as_rational().is_some());
+    assert!(!double.is_exact() && !double.is_proved() && double.is_double());
+    assert!((double.to_f64() - 40.0 / 3.0).abs() <= double.bound().to_f64() && double.bound().to_f64() < 1e-13);
+    assert_eq!(serde_json::to_string(&fraction).unwrap(), "\"40/3\"");
+    assert_eq!(serde_json::to_value(&double).unwrap().as_f64(), Some(double.to_f64()));
+    // ρ S L (2 μ + g t₁): the momentum that turns round, and what gravity gave in the contact.
+    let contacts = exact.contacts().unwrap();
+    assert_eq!((contacts[0].impulse.to_string(), contacts[0].impulse.unit()), ("14".into(), "N s"));
+    assert_eq!(contacts[0].release.as_ref().map(Value::to_string), Some("1".into()));
+    assert_eq!(exact.events().unwrap().len(), 2);
+    let energy = exact.energy("1/2").unwrap();
+    // E = ρSL μ²/2 at the touch, and it is kept.
+    assert_eq!((energy.total.to_string(), energy.total.unit()), ("9".into(), "J"));
+}
+
+#[test]
+fn every_question_agrees_with_the_typed_history() {
+    let (history, typed) = (rod().solve().unwrap(), rod().doubles().unwrap());
+    let times = [0.0, 0.25, 0.5, 1.25];
+    let quantities = [Quantity::Time, Quantity::EndVelocity, Quantity::Strain, Quantity::Force, Quantity::Energy];
+    let values = history.sample(&quantities, &Places::from(&times[..]), Some(Side::Left)).unwrap();
+    let numbers = typed.columns(&quantities, &times, Some(Side::Left)).unwrap();
+    let mut compared = 0;
+    for (values, numbers) in values.iter().zip(&numbers) {
+        for (value, number) in values.iter().zip(numbers) {
+            assert_eq!(value, number);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 20);
+    let points = List::equally_spaced("0..1:3").unwrap();
+    let (at, list) = (Places::from(&points), List::equally_spaced("1/4,1/2").unwrap());
+    let field = history.sample_field(Slice::Points, &at, &Places::from(&list), Some(Side::Right)).unwrap();
+    let numbers = typed.slices(Slice::Points, &[0.0, 0.5, 1.0], &[0.25, 0.5], Some(Side::Right)).unwrap();
+    assert!(field.iter().zip(&numbers).all(|(values, numbers)| values.iter().zip(numbers).all(|(a, b)| a == b)));
+    assert_eq!((field.len(), field[0].len()), (6, 6));
+    let found = history.at("1/2", "1/8").unwrap();
+    // The wave front is at x = c t = 1/4: above it the rod falls freely.
+    assert_eq!((found.velocity.to_f64(), found.velocity.unit()), (-3.125, "m/s"));
+    let listing = history.listing(Some(StressForm::Series), true).unwrap();
+    assert_eq!((listing.events.len(), listing.contacts.len(), listing.stress.len()), (2, 1, 2));
+    assert_eq!(listing.contacts[0].len(), Listing::CONTACTS.len());
+    assert!(history.in_units(UnitSystem::Si).units().has_material());
+}
+
+#[test]
+fn a_time_that_is_no_number_is_refused_by_name() {
+    let error = rod().solve().unwrap().strain("soon", Side::Right).unwrap_err();
+    assert!(matches!(&error, Error::Spelling { quantity: "time", .. }), "{error}");
+    assert!(error.to_string().starts_with("time: "), "{error}");
+}
