@@ -122,12 +122,12 @@ pub(crate) fn finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
     times.iter().find(|time| !time.is_finite()).map_or(Ok(()), |time| Err(outside(time)))
 }
 
-/// What is asked at each time, and where the answers stand in a row.
+/// The questions of each time, and the places of their answers in a row.
 struct Asked {
-    /// What has two limits stands first.
+    /// Questions that have two limits, which stand first.
     sided: Vec<Source>,
     plain: Vec<Source>,
-    /// Where each column is.
+    /// The place of each column in a row.
     places: Vec<usize>,
     /// The length of a row.
     count: usize,
