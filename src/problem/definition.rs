@@ -41,7 +41,7 @@ pub struct Problem {
     pub gravity: Option<Number>,
     /// Displacement and velocity at `t = 0`.
     pub start: Start,
-    /// How far to follow the motion.
+    /// The end of the run.
     pub run: Run,
 }
 
@@ -50,7 +50,7 @@ pub struct Problem {
 pub struct Rod {
     /// `L > 0`.
     pub length: Number,
-    /// What sets the wave speed.
+    /// The material.
     pub material: Material,
     /// `r ≥ 0`; `None` where the scene has no damping.
     pub damping: Option<Number>,
@@ -58,7 +58,7 @@ pub struct Rod {
     pub top: Top,
 }
 
-/// What sets the wave speed `c`.
+/// The material, which sets the wave speed `c`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
     /// `c > 0` itself.
@@ -119,7 +119,7 @@ pub struct Profile {
     pub velocity: Vec<(Number, Number)>,
 }
 
-/// How far to follow the motion.
+/// The end of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Run {
     /// This many contacts, each with the flight after it. The default is one.
@@ -188,7 +188,7 @@ impl Problem {
         .build()
     }
 
-    /// How far the undeformed rod starts above the ground; `None` where it starts on it, or by a profile.
+    /// Returns the height of the undeformed rod above the ground at the start; `None` where it starts on it, or by a profile.
     ///
     /// ```
     /// use dalembert::Problem;

@@ -1,4 +1,4 @@
-//! What a person may have meant by a word that no scene has.
+//! Suggestions for words that no scene has.
 
 use crate::names::nearest;
 use crate::problem::Parameter;
