@@ -223,7 +223,7 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 /// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
-/// The bits of the shortest numbers on the stack that have so many, or so many where there are none.
+/// Returns the bits of the shortest numbers on the stack that have so many, or so many where there are none.
 fn size(bits: u32) -> u32 {
     SIZES.into_iter().find(|size| bits <= size + SHORTER).unwrap_or(bits)
 }
@@ -509,7 +509,7 @@ impl Plan {
         Effort { digits, cells, until_lost: self.climb.bits.is_some() }
     }
 
-    /// The plan after a run in doubles that lacks so many bits.
+    /// Returns the plan after a run in doubles that lacks so many bits.
     ///
     /// The bound of a march is about proportional to what its series leave out and to the roundings of its numbers: in
     /// doubles to the roundings. Where it is not, the numbers after the next have all terms.
@@ -518,8 +518,9 @@ impl Plan {
         Plan { series_bits: Some(bits), ..self.clone() }
     }
 
-    /// The digits of the series of a proof in so many bits: in the first longer numbers those that the answer needs and
+    /// Returns the digits of the series of a proof in so many bits: in the first longer numbers those that the answer needs and
     /// the proof is foreseen to cost, and all in later ones.
+    #[cfg(feature = "mp")]
     pub(super) fn proved_digits(&self, bits: u32) -> f64 {
         let all = f64::from(bits) * std::f64::consts::LOG10_2;
         let first = if self.rung == Rung::Double { self.climb.bits } else { Some(self.rung.bits()) };
@@ -561,7 +562,7 @@ impl Plan {
     }
 }
 
-/// The digits for series that leave out less than `2^−bits`.
+/// Returns the digits of series that leave out less than `2^−bits`.
 fn series_digits(bits: f64) -> f64 {
     (bits + SERIES_GUARD_BITS - EFFORT_BITS) * std::f64::consts::LOG10_2
 }
