@@ -210,3 +210,8 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
         Ok(Arc::new(Converted::new(Arc::new(run) as Engined<S>).of_rod(&rod)))
     })
 }
+
+#[cfg(test)]
+#[path = "tests/long.rs"]
+#[allow(clippy::unwrap_used)]
+mod tests;

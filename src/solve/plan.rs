@@ -508,6 +508,7 @@ impl Plan {
 
     /// Returns the digits of the series of a proof in this many bits. The first longer numbers use the digits that the
     /// answer needs plus the estimated cost of the proof; later ones use all.
+    #[cfg(feature = "mp")]
     pub(super) fn proved_digits(&self, bits: u32) -> f64 {
         let all = f64::from(bits) * std::f64::consts::LOG10_2;
         let first = if self.rung == Rung::Double { self.climb.bits } else { Some(self.rung.bits()) };
