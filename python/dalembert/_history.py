@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Slice = Literal["points", "averages", "p1"]
 Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"]
-TableName = Literal["events", "contacts", "restitution", "flights", "stress_history"]
+TableName = Literal["events", "contacts", "flights", "stress_history"]
 _TABLES = get_args(TableName)
 
 
@@ -46,17 +46,17 @@ class Energy(NamedTuple):
 
     Parameters
     ----------
-    total : number or ndarray
+    E_total : number or ndarray
         ``E``.
-    translational : number or ndarray
-        ``E_h``, of the centre of mass.
-    vibrational : number or ndarray
-        ``E_z``, of the vibration.
+    E_h : number or ndarray
+        That of the centre of mass.
+    E_z : number or ndarray
+        That of the vibration.
     """
 
-    total: Any
-    translational: Any
-    vibrational: Any
+    E_total: Any
+    E_h: Any
+    E_z: Any
 
 
 class Derivatives(NamedTuple):
@@ -83,16 +83,16 @@ class Field(NamedTuple):
 
     Parameters
     ----------
-    displacement : number or ndarray
-        ``v``.
-    velocity : number or ndarray
-        ``v_t``.
+    u : number or ndarray
+        The displacement ``v``.
+    v : number or ndarray
+        The velocity ``v_t``.
     strain : number or ndarray
         ``v_x``.
     """
 
-    displacement: Any
-    velocity: Any
+    u: Any
+    v: Any
     strain: Any
 
 
@@ -107,9 +107,6 @@ _READ: dict[str, Callable[[Any], Any]] = {
     "digits": Decimal,
     "certified": lambda ends: tuple(map(Decimal, ends)),
 }
-
-#: Names of columns that a query of pandas cannot use.
-_FRAME = {"from": "start", "to": "end"}
 
 
 class History:
@@ -173,7 +170,7 @@ class History:
         """What it is, and its first contacts."""
         found = self.contacts
         said = f"to t = {_short(self.end)}, {self._said}, {len(found)} contact{'s' if len(found) != 1 else ''}"
-        keys = [("from", "from"), ("to", "to"), ("impulse", "impulse"), ("peak_strain", "peak strain")]
+        keys = [("impact", "from"), ("release", "to"), ("impulse", "impulse"), ("peak_strain", "peak strain")]
         lines = []
         for row in found[:most]:
             start, end, impulse, peak = (f"{word} {_short(row[key])}" for key, word in keys)
@@ -203,7 +200,7 @@ class History:
         by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"} or str
             The value; of a start that is not uniform ``"displacement"`` and ``"velocity"`` as a whole, or at a point:
             ``"velocity[0]"``.
-        table : {"events", "contacts", "restitution", "flights"}, optional
+        table : {"events", "contacts", "flights"}, optional
             The attribute whose numbers are meant.
 
         Returns
@@ -214,7 +211,7 @@ class History:
         Examples
         --------
         >>> found = solve("doyen-ern-piperno", exact=True).derivatives("speed")
-        >>> found.left["time"][2], found.right["time"][2]
+        >>> found.left["t"][2], found.right["t"][2]
         (Fraction(3, 5), Fraction(3, 25))
         """
         return self._derived(self._core.derivatives(by, table))
@@ -288,8 +285,8 @@ class History:
     def events(self) -> Array:
         """Impacts and releases.
 
-        A structured array of ``time``, ``end_velocity``, ``centre``, ``centre_velocity``, the ``kind``, and how far the
-        time may be off, ``time_error``.
+        A structured array of ``t``, ``v_end``, ``h``, ``h_rate``, the ``kind``, and how far the time may be off,
+        ``t_error``.
 
         Examples
         --------
@@ -297,15 +294,17 @@ class History:
         ['impact', 'release']
         """
         kinds, errors = self._core.kinds()
-        return self._table("events", kind=np.array(kinds, "U7"), time_error=np.array(errors, float))
+        return self._table("events", kind=np.array(kinds, "U7"), t_error=np.array(errors, float))
 
     @cached_property
     def contacts(self) -> Array:
         """Times on the ground.
 
-        A structured array of ``from``, ``to``, ``impulse``, and the ``peak_strain``, which is the most compressive
-        ``v_x(0,t)``; with a material ``peak_stress`` and ``peak_force`` as well, all in its units. Without one the
-        impulse is per linear density.
+        A structured array of ``impact``, ``release``, ``duration``, ``impact_velocity``, ``release_velocity``,
+        ``impulse``, and the ``peak_strain``, which is the most compressive ``v_x(0,t)``; with a material ``peak_stress``
+        and ``peak_force`` as well, all in its units. Without one the impulse is per linear density. Then the
+        coefficients ``e_P`` and ``e_E2`` with its factors ``translational_part`` (``E_h/E``) and ``energy_kept``
+        (``E/E(0)``), and the energies at the release, ``E_total_after``, ``E_h_after``, ``E_z_after``.
 
         Examples
         --------
@@ -316,20 +315,11 @@ class History:
         return self._table("contacts")
 
     @cached_property
-    def restitution(self) -> Array:
-        """Coefficients of each contact.
-
-        A structured array of ``momentum`` (``e_P``), ``energy_squared`` (``e_E²``) and its factors
-        ``translational_part`` (``E_h/E``) and ``energy_kept`` (``E/E(0)``).
-        """
-        return self._table("restitution")
-
-    @cached_property
     def flights(self) -> Array:
         """Flights.
 
-        A structured array of ``from``, ``to``, and ``top_time`` and ``top``: when and how high the centre of mass
-        turns.
+        A structured array of ``takeoff``, ``landing``, and ``top_time`` and ``top``: when and how high the centre of
+        mass turns.
         """
         return self._table("flights")
 
@@ -337,8 +327,9 @@ class History:
     def stress_history(self) -> Array:
         """``v_x(0,·)`` piece by piece.
 
-        A structured array of ``from``, ``to``, and ``strain_from`` and ``strain_to`` at its ends. Undamped pieces are
-        linear between them; :meth:`strain` gives the values of all.
+        A structured array of ``start``, ``end``, and ``strain_start`` and ``strain_end`` then; with a material
+        ``stress_start`` and ``stress_end`` as well. Undamped pieces are linear between them; :meth:`strain` gives the
+        values of all.
         """
         return self._table("stress")
 
@@ -347,17 +338,17 @@ class History:
 
         Parameters
         ----------
-        table : {"contacts", "events", "restitution", "flights", "stress_history"}, optional
+        table : {"contacts", "events", "flights", "stress_history"}, optional
             Which of the arrays of that name.
 
         Returns
         -------
         pandas.DataFrame
-            A row each. ``from`` and ``to`` are called ``start`` and ``end``, which a query can use.
+            A row each.
 
         Examples
         --------
-        >>> solve("paper-strong").to_frame().query("start < 1")["impulse"].tolist()
+        >>> solve("paper-strong").to_frame().query("impact < 1")["impulse"].tolist()
         [8.0]
         """
         from pandas import DataFrame
@@ -365,7 +356,7 @@ class History:
         if table not in _TABLES:
             raise ValueError(f"found table {table!r}, expected one of {', '.join(_TABLES)}")
         found = getattr(self, table)
-        return DataFrame({_FRAME.get(name, name): found[name] for name in found.dtype.names})
+        return DataFrame({name: found[name] for name in found.dtype.names})
 
     def to_xarray(self, x: Numbers, t: Numbers, side: Side = "right") -> xarray.Dataset:
         """Give the field on a grid as a Dataset of xarray.
@@ -380,7 +371,7 @@ class History:
         Returns
         -------
         xarray.Dataset
-            ``displacement``, ``velocity`` and ``strain`` over ``t`` and ``x``.
+            ``u``, ``v`` and ``strain`` over ``t`` and ``x``.
         """
         from xarray import Dataset
 
@@ -575,7 +566,7 @@ class History:
         Examples
         --------
         >>> rod = solve("paper-strong")
-        >>> rod.field(0.25, 1.5).velocity
+        >>> rod.field(0.25, 1.5).v
         -0.25
         >>> rod.field(np.array([0.25, 0.5])[:, None], [1, 1.5, 2]).strain.shape
         (2, 3)

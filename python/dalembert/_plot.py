@@ -54,8 +54,8 @@ def draw(
         return ax
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     for contact in history.contacts:
-        until = last if contact["to"] is None else min(_float(contact["to"]), last)
-        begin = max(_float(contact["from"]), start)
+        until = last if contact["release"] is None else min(_float(contact["release"]), last)
+        begin = max(_float(contact["impact"]), start)
         if begin < (last if np.isnan(until) else until):
             ax.axvspan(begin, last if np.isnan(until) else until, color=CONTACT, alpha=0.5, linewidth=0)
     # Both limits of a jump, so that it is drawn upright.
@@ -71,6 +71,6 @@ def draw(
 
 def _lifted(history: Any, times: np.ndarray[Any, Any]) -> Any:
     """Times to draw at: equal steps, and every event between them."""
-    events = [_float(value) for value in history.events["time"]]
+    events = [_float(value) for value in history.events["t"]]
     inside = [value for value in events if times[0] <= value <= times[-1]]
     return np.unique(np.concatenate([times, inside]))

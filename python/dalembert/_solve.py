@@ -56,7 +56,7 @@ def solve(
 
     Examples
     --------
-    >>> solve("doyen-ern-piperno", exact=True).contacts["to"][0]
+    >>> solve("doyen-ern-piperno", exact=True).contacts["release"][0]
     Fraction(2, 3)
     """
     run: dict[str, Any] = {name: value for name, value in (("time", to), ("impacts", impacts)) if value is not None}

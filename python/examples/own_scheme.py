@@ -15,7 +15,7 @@ history = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=3, t
 times, ours = leapfrog(1, 1, 1, 3, cells=200, end=2.5)
 exact = history.strain(times)
 
-bounce = history.contacts["to"][0]
+bounce = history.contacts["release"][0]
 print(f"exact: contact from 0 to {bounce}, peak v_x = {history.contacts['peak_strain'][0]}")
 print(f"scheme: contact ends at {times[np.flatnonzero(ours)[-1]]:.3f}, peak v_x = {ours.min():.3f}")
 print(f"greatest difference {np.abs(ours - exact).max():.2f}, in the mean {np.abs(ours - exact).mean():.3f}")

@@ -20,7 +20,7 @@ def bounce(points: Doubles) -> Doubles:
     answers = np.empty((len(points), 2))
     for answer, (speed, damping) in zip(answers, points):
         history = rod.replace(impact_speed=speed, damping=damping).solve(first_contact=True)
-        answer[:] = history.contacts["to"][0], history.restitution["energy_squared"][0]
+        answer[:] = history.contacts["release"][0], history.contacts["e_E2"][0]
     return answers
 
 

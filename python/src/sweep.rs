@@ -1,4 +1,4 @@
-//! The same numbers of many problems.
+//! Sweeps: the same numbers of many problems.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,44 +8,48 @@ use dalembert::{Numbers, Quantity};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::number::written;
-use super::problem::{Given, Problem};
-use super::{refuse, run};
+use super::argument::{names, number, refuse, typed};
+use super::problem::{Setting, Problem, did_you_mean};
+use super::run;
 
 /// Values and bounds of one quantity, point by point.
 type Column = (Py<PyArray1<f64>>, Py<PyArray1<f64>>);
-/// What is said of points, by their index.
+/// Notes on points, by their index.
 type Notes = Vec<(usize, String)>;
 
-/// Values and bounds of each quantity, and a note for each point that has one.
+/// Returns values and bounds of each quantity, and a note for each point that has one.
 #[pyfunction]
 pub(crate) fn sweep(
     py: Python<'_>,
     base: &Bound<'_, PyAny>,
-    quantities: Vec<String>,
+    quantities: &Bound<'_, PyAny>,
     time: Option<&Bound<'_, PyAny>>,
-    accuracy: Option<f64>,
+    accuracy: &Bound<'_, PyAny>,
     varied: Vec<(String, Vec<Bound<'_, PyAny>>)>,
 ) -> PyResult<(Vec<Column>, Notes)> {
     let base = base.cast::<Problem>()?.get();
     let single = |name: &String| {
-        let known = || Quantity::singles().map(|quantity| quantity.name()).collect::<Vec<_>>().join(", ");
-        Quantity::single(name).ok_or_else(|| refuse(format!("found quantity `{name}`, expected one of {}", known())))
+        let expected = || {
+            let known: Vec<&str> = Quantity::singles().map(Quantity::name).collect();
+            format!("one of {}{}", known.join(", "), did_you_mean(name, &known))
+        };
+        Quantity::single(name).ok_or_else(|| refuse(format!("found quantity `{name}`, expected {}", expected())))
     };
-    let quantities = quantities.iter().map(single).collect::<PyResult<Vec<_>>>()?;
-    let time = time.map(|time| written("time", time)?.number().cloned().map_err(refuse)).transpose()?;
-    let mut columns: Vec<(String, Vec<Given>)> = Vec::new();
+    let quantities = names("quantities", quantities)?.iter().map(single).collect::<PyResult<Vec<_>>>()?;
+    let time = time.map(|time| number("time", time)).transpose()?;
+    let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
+    let mut columns: Vec<(String, Vec<Setting>)> = Vec::new();
     for (name, values) in varied {
-        let values = values.iter().map(|value| Given::of(&name, value)).collect::<PyResult<_>>()?;
+        let values = values.iter().map(|value| Setting::new(&name, value)).collect::<PyResult<_>>()?;
         columns.push((name, values));
     }
     let count = columns.first().map_or(1, |column| column.1.len());
     let numbers = Numbers::Double(accuracy.or(base.accuracy));
     let (start, stop) = (base.problem.clone(), Arc::new(AtomicBool::new(false)));
-    let (asked, seen) = (quantities.len(), stop.clone());
+    let (count_of_columns, seen) = (quantities.len(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
-            let set = |builder, (name, values): &(String, Vec<Given>)| values[k].clone().set(builder, name);
+            let set = |builder, (name, values): &(String, Vec<Setting>)| values[k].clone().apply(builder, name);
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -58,11 +62,11 @@ pub(crate) fn sweep(
     };
     let mut notes = Vec::new();
     for (k, cells) in cells.iter().enumerate() {
-        let mut said: Vec<&str> = cells.iter().filter_map(|cell| cell.note()).collect();
-        said.dedup();
-        if !said.is_empty() {
-            notes.push((k, said.join("; ")));
+        let mut texts: Vec<&str> = cells.iter().filter_map(|cell| cell.note()).collect();
+        texts.dedup();
+        if !texts.is_empty() {
+            notes.push((k, texts.join("; ")));
         }
     }
-    Ok(((0..asked).map(column).collect(), notes))
+    Ok(((0..count_of_columns).map(column).collect(), notes))
 }

@@ -78,7 +78,7 @@ def test_both_limits_of_a_reference():
 def test_a_field_and_several_sources():
     x = np.linspace(0, 1, 5)
     field = ROD.solve().grid(x, T)
-    c = dalembert.compare(ROD, T, {"u": field.displacement, "v": field.velocity}, x=x)
+    c = dalembert.compare(ROD, T, {"u": field.u, "v": field.v}, x=x)
     assert c.x.tolist() == [*x] * 5 and c.norms["u"]["linf"]["absolute"] == 0
     steps = [4 / n * np.arange(n + 1) for n in (40, 80)]
     runs = [{"t": t, "u": np.maximum(t - 2, 0) + t[1] ** 2} for t in steps]

@@ -33,7 +33,7 @@ def test_the_readme(tmp_path, monkeypatch):
     names = {}
     for block in blocks:
         exec(block, names)
-    assert names["m"].contacts["to"].tolist() == [2, 5, 8, 11]
+    assert names["m"].contacts["release"].tolist() == [2, 5, 8, 11]
     assert names["rod"].impact_speed == Fraction(4, 3)
 
 
