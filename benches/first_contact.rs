@@ -104,14 +104,14 @@ fn plan_against_direct(_: &mut Criterion) {
     show(
         "e_P",
         least(
-            || ask(&|motion| Ok(ratios(motion)?.and_then(|found| found.momentum.ok()))),
+            || ask(&|motion| Ok(ratios(motion)?.and_then(|found| found.e_p.ok()))),
             || direct(|contact, time| contact.rebound(time).momentum_restitution()),
         ),
     );
     show(
         "e_E²",
         least(
-            || ask(&|motion| Ok(ratios(motion)?.and_then(|found| found.energy_squared.ok()))),
+            || ask(&|motion| Ok(ratios(motion)?.and_then(|found| found.e_e2.ok()))),
             || direct(|contact, time| contact.rebound(time).energy_restitution_squared()),
         ),
     );

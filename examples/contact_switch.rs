@@ -30,7 +30,7 @@ fn main() -> Result<(), Error> {
         }
     }
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3).time(20).build()?;
-    let theirs: Vec<_> = rod.doubles()?.events().iter().map(|event| (event.kind, event.time)).collect();
+    let theirs: Vec<_> = rod.doubles()?.events().iter().map(|event| (event.kind, event.t)).collect();
     events.iter().for_each(|(kind, time)| println!("{kind:8} {time:4}"));
     assert_eq!(events, theirs);
     Ok(())

@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
         // Until the first ray is back: v_x(0,t) = −μ e^{−rt} I₀(rt)/c.
         assert!((history.strain(time, Side::Right)? + (-time).exp() * bessel(0, time)).abs() < 1e-14);
     }
-    let kept = history.restitution(0)?.momentum.unwrap_or(f64::NAN);
+    let kept = history.restitution(0)?.e_p.unwrap_or(f64::NAN);
     let theory = 2.0 * (-1f64).exp() * (bessel(0, 1.0) - bessel(1, 1.0)) - (-2f64).exp();
     println!("R = 1: e_P = {kept:.9}, in closed form {theory:.9}, and e^(-R) = {:.9}", (-1f64).exp());
     assert!((kept - theory).abs() < 1e-9);
@@ -29,11 +29,11 @@ fn main() -> Result<(), Error> {
     for r in ["3.1", "3.13", "3.14"] {
         // The lowest mode decides, to a few percent.
         let swing = PI / (PI * PI - r.parse::<f64>().unwrap_or(f64::NAN).powi(2)).sqrt();
-        let time = solved(r)?.contacts()[0].to.unwrap_or(f64::NAN);
+        let time = solved(r)?.contacts()[0].release.unwrap_or(f64::NAN);
         println!("r = {r}: leaves at {time:.6}, half a swing of the lowest mode {swing:.4}");
         assert!((time / swing - 1.0).abs() < 0.04);
     }
-    assert_eq!(solved("3.15")?.contacts()[0].to, None); // From R = π on it does not swing.
+    assert_eq!(solved("3.15")?.contacts()[0].release, None); // From R = π on it does not swing.
     println!("r = 3.15: never leaves");
     Ok(())
 }

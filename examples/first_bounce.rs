@@ -15,14 +15,14 @@ fn main() -> Result<(), Error> {
         // L = c = g = 1, so t₁ = 2. A text stands for exactly the number that it spells.
         let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(text).build()?;
         let history = rod.doubles()?;
-        let bounce = history.contacts()[0].to.unwrap_or(f64::NAN);
+        let bounce = history.contacts()[0].release.unwrap_or(f64::NAN);
         let expected = if speed >= 2.0 { 2.0 } else { 4.0 - speed };
         assert!((bounce - expected).abs() < 1e-14);
 
         // Undamped, the rod loses no energy, but some of it goes on as vibration.
         let e = history.restitution(0)?;
-        let (e_p, e_e) = (e.momentum.unwrap_or(f64::NAN), e.energy_squared.unwrap_or(f64::NAN));
-        let top = history.flights()?[0].highest.map_or(f64::NAN, |(_, height)| height);
+        let (e_p, e_e) = (e.e_p.unwrap_or(f64::NAN), e.e_e2.unwrap_or(f64::NAN));
+        let top = history.flights()?[0].top.unwrap_or(f64::NAN);
         println!("{text:>4}  {bounce:7.4}  {expected:9.4}   {e_p:7.4}  {e_e:7.4}  {top:7.4}");
     }
     Ok(())

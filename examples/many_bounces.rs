@@ -12,21 +12,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("{:>6} {:>6} {:>8} {:>10} {:>10}", "from", "to", "E", "E_h", "E_z");
     for contact in history.contacts() {
-        let Some(to) = &contact.to else { break };
+        let Some(to) = &contact.release else { break };
         let energy = history.energy(to.clone())?;
         // Energy is constant, and not within rounding: as a fraction.
         assert_eq!(energy.total, 500);
         println!(
             "{:>6} {:>6} {:>8} {:>10} {:>10}",
-            contact.from, to, energy.total, energy.translational, energy.vibrational
+            contact.impact, to, energy.total, energy.translational, energy.vibrational
         );
     }
 
     // The motion is periodic: every event comes again after 16/3.
     let period = Rational::from((16, 3));
     for (event, later) in history.events().iter().zip(&history.events()[4..]) {
-        assert_eq!(Rational::from(&event.time + &period), later.time);
-        assert_eq!(event.end_velocity, later.end_velocity);
+        assert_eq!(Rational::from(&event.t + &period), later.t);
+        assert_eq!(event.v_end, later.v_end);
     }
     println!("every event returns after {period}");
     Ok(())

@@ -8,7 +8,7 @@ use dalembert::{Error, Problem};
 fn landing(speed: &str) -> Result<f64, Error> {
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(speed).time(32).build()?;
     let events = rod.doubles()?.events().to_vec();
-    Ok(events.last().map_or(f64::NAN, |event| event.time))
+    Ok(events.last().map_or(f64::NAN, |event| event.t))
 }
 
 fn main() -> Result<(), Error> {

@@ -18,8 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{stress}");
 
     // By hand: μ = 3 ≥ g t₁ = 2, so contact lasts t₁ = 1 and v_x = −(μ + g t)/c falls from −3/4 to −5/4.
-    assert_eq!(stress.pieces[0].to, 1);
-    assert_eq!(stress.pieces[0].right.to_string(), "-5/4");
+    assert_eq!(stress.pieces[0].end, 1);
+    assert_eq!(stress.pieces[0].strain_end.to_string(), "-5/4");
 
     // `insta::assert_snapshot!(stress)` keeps the text in a file beside your test; for a short one, inline:
     insta::assert_snapshot!(stress, @r"

@@ -9,7 +9,7 @@
 //! // Until the wave comes back, v_x(0,t) = −(μ + g t)/c.
 //! assert_eq!(history.strain(1, Side::Right)?, -4.0);
 //! // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-//! assert_eq!(rod.exact()?.contacts()[0].to, Some(2.into()));
+//! assert_eq!(rod.exact()?.contacts()[0].release, Some(2.into()));
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
@@ -64,6 +64,7 @@ mod first_contact;
 mod lattice;
 mod modal;
 mod motion;
+mod names;
 pub mod number;
 pub mod problem;
 pub mod quantity;
@@ -76,6 +77,7 @@ mod threads;
 pub use error::Error;
 pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
+pub use names::{UnknownName, nearest};
 pub use number::{Bound, Estimate, Float, Interval, Number, Rational, Value};
 pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
 pub use quantity::{Quantity, Units};

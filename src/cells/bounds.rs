@@ -48,17 +48,14 @@ impl<S: RoundedSpecial> Damped<S> {
             let Bounds { centre, end, rate, late, .. } = self.at_event(k);
             // As the rod lies on the ground, and as it leaves without a jump of the stress, is proved to be zero.
             let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
-            let (moves, push) = (event.centre_velocity.to_f64().abs(), self.push(event.time.value(), late)?);
+            let (moves, push) = (event.h_rate.to_f64().abs(), self.push(event.t.value(), late)?);
             Ok(Event {
                 kind: event.kind,
-                time: within(event.time.value(), event.time_error),
-                end_velocity: within(event.end_velocity.value(), if known(&event.end_velocity) { 0.0 } else { end }),
-                centre: within(
-                    event.centre.value(),
-                    if known(&event.centre) { 0.0 } else { centre + late * (moves + push) },
-                ),
-                centre_velocity: within(event.centre_velocity.value(), rate + push),
-                time_error: event.time_error,
+                t: within(event.t.value(), event.t_error),
+                v_end: within(event.v_end.value(), if known(&event.v_end) { 0.0 } else { end }),
+                h: within(event.h.value(), if known(&event.h) { 0.0 } else { centre + late * (moves + push) }),
+                h_rate: within(event.h_rate.value(), rate + push),
+                t_error: event.t_error,
             })
         };
         let events: Vec<_> = self.course.events.iter().enumerate().map(event).collect::<Result<_, Error>>()?;
@@ -67,7 +64,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let contacts = Contact::between(&self.course.events, |k| {
             let none = || (self.data.slope.zero(), self.data.slope.zero());
             let (impulse, peak) = pushes.next().unwrap_or_else(none);
-            let found = self.uncertainty(self.course.events[k].time.value());
+            let found = self.uncertainty(self.course.events[k].t.value());
             let Scales { velocity, wave_speed, .. } = self.scales;
             // A peak lies next to a ray, or where the slope vanishes.
             let strain = self.scaled(found).strain + found.slope * found.rays * velocity / wave_speed;
@@ -82,8 +79,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// by the stress, `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
     fn impulse_off(&self, impact: usize) -> f64 {
         let Scales { velocity, wave_speed: c, length, gravity, .. } = self.scales;
-        let (from, to) =
-            (&self.course.events[impact].time, self.course.events.get(impact + 1).map(|event| &event.time));
+        let (from, to) = (&self.course.events[impact].t, self.course.events.get(impact + 1).map(|event| &event.t));
         let momentum = |event: usize| Some(self.at_events[event]?.momentum * velocity);
         let by_momentum = to.and_then(|to| {
             let both = momentum(impact)? + momentum(impact + 1)?;
@@ -100,14 +96,14 @@ impl<S: RoundedSpecial> Damped<S> {
         if time.spelled_as().is_some() {
             return None;
         }
-        let next = events.partition_point(|event| event.time.value() < time.value());
-        events.get(next).filter(|event| event.time.value() == time.value()).map(|_| next)
+        let next = events.partition_point(|event| event.t.value() < time.value());
+        events.get(next).filter(|event| event.t.value() == time.value()).map(|_| next)
     }
 
     /// How far values near a time may be off.
     fn uncertainty(&self, time: &S) -> Uncertainty {
-        let since = self.course.events.partition_point(|event| event.time.value() <= time);
-        let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].time_error.is_infinite());
+        let since = self.course.events.partition_point(|event| event.t.value() <= time);
+        let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].t_error.is_infinite());
         let found = self.uncertain[since];
         let none = f64::INFINITY;
         if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
@@ -168,8 +164,8 @@ impl<S: RoundedSpecial> Damped<S> {
     fn at_event(&self, event: usize) -> Bounds {
         let events = &self.course.events;
         let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
-        let found = self.uncertainty(events[contact].time.value());
-        let Event { time, time_error, .. } = &events[event];
+        let found = self.uncertainty(events[contact].t.value());
+        let Event { t: time, t_error: time_error, .. } = &events[event];
         let rounding = 8.0 * time.value().unit() * time.to_f64();
         // Where the time may be off without bound, so may all else already.
         let equal_times = found.late == 0.0 && time_error.is_finite();
@@ -194,7 +190,7 @@ impl<S: RoundedSpecial> Damped<S> {
     /// Whether the rod has yet to touch the ground, and moves as a whole: a fixed top stops it from the start on.
     fn is_rigid(&self, time: &Estimate<S>) -> bool {
         let touches = self.course.events.first();
-        let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.time.to_f64() - event.time_error;
+        let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.t.to_f64() - event.t_error;
         let flies = self.medium.free_top && touches.is_none_or(before);
         self.data.rigid && (time.value().is_zero() || flies)
     }
@@ -257,7 +253,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let piece = |piece: StressPiece<S>| {
-            let found = self.uncertainty(&piece.from);
+            let found = self.uncertainty(&piece.start);
             let Bounds { strain, .. } = self.scaled(found);
             if !self.proved {
                 return bounded_piece(piece, strain);
@@ -266,12 +262,13 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             let Scales { time, velocity, wave_speed, .. } = self.scales;
             let shifted = found.slope * found.rays * velocity / wave_speed;
             let off = if piece.chebyshev.is_empty() { 0.0 } else { strain + shifted };
-            let StressPiece { from, to, left, right, chebyshev } = bounded_piece(piece, off);
+            let StressPiece { start: from, end: to, strain_start: left, strain_end: right, chebyshev } =
+                bounded_piece(piece, off);
             let late = |at: Estimate<S>| {
                 let rounding = 16.0 * at.value().unit() * (at.to_f64() + time);
                 if at.value().is_zero() { at } else { wider(at, found.rays * time + rounding) }
             };
-            StressPiece { from: late(from), to: late(to), left, right, chebyshev }
+            StressPiece { start: late(from), end: late(to), strain_start: left, strain_end: right, chebyshev }
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
     }
@@ -408,13 +405,13 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let (time, height) = self.turn_after(release)?;
         // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
         let (Bounds { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
-        let late = self.course.events[release].time_error + rate / gravity;
+        let late = self.course.events[release].t_error + rate / gravity;
         Some((within(&time, late), within(&height, rise + gravity * late * late)))
     }
 
     fn error_estimate(&self) -> Estimate<S> {
         let most = self.uncertain.iter().fold(Uncertainty::default(), |most, next| most.max(*next));
-        let times = self.course.events.iter().map(|event| event.time_error / self.scales.time);
+        let times = self.course.events.iter().map(|event| event.t_error / self.scales.time);
         let most = times.fold(most.rise.max(most.speed).max(most.late), f64::max);
         Estimate::exact(self.course.end.value().double(most))
     }
@@ -424,10 +421,10 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 pub(super) fn bounded_piece<S: Rounded>(piece: StressPiece<S>, strain: f64) -> StressPiece<Estimate<S>> {
     let coefficient = |(k, c)| within(c, if k == 0 { strain } else { 0.0 });
     StressPiece {
-        from: within(&piece.from, 0.0),
-        to: within(&piece.to, 0.0),
-        left: within(&piece.left, strain),
-        right: within(&piece.right, strain),
+        start: within(&piece.start, 0.0),
+        end: within(&piece.end, 0.0),
+        strain_start: within(&piece.strain_start, strain),
+        strain_end: within(&piece.strain_end, strain),
         chebyshev: piece.chebyshev.iter().enumerate().map(coefficient).collect(),
     }
 }

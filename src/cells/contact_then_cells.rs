@@ -72,7 +72,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         };
         let contact = ContactHistory::new(FirstContact::new(&Parameters::of(problem, precision)?), bounce, asked)?;
         let known = contact.course().clone();
-        let time_error = known.events.get(1).map_or(0.0, |release| release.time_error);
+        let time_error = known.events.get(1).map_or(0.0, |release| release.t_error);
         let round_trip = Parameters::<S>::of(problem, precision)?.round_trip();
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
         let Scales { velocity, wave_speed, .. } = contact.scales().map(|scale| scale.to_f64());
@@ -92,7 +92,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
             self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_DIGITS as u32));
             return Ok(());
         }
-        let release = (release.time.value(), release.time_error, release.end_velocity.value());
+        let release = (release.t.value(), release.t_error, release.v_end.value());
         // The cells account for the roundings of the parameters themselves.
         let form = FirstContact::new(&Parameters::<S>::of(task.problem, task.precision)?.carry());
         let rate = rate.unwrap_or_else(|| rebound.velocity.clone());
@@ -112,7 +112,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
 
     /// `t_b`.
     fn bounce(&self) -> Option<&S> {
-        self.contact.events().get(1).map(|release| release.time.value())
+        self.contact.events().get(1).map(|release| release.t.value())
     }
 
     /// The cells, where they answer at a time; the closed form has the bounce itself.
@@ -151,17 +151,17 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
             let own = |time: &Estimate<S>, side| {
                 self.contact.strain(&time.value().carry(), side).map_or(0.0, |strain| strain.bound())
             };
-            let strain = self.strain.max(own(&piece.from, Side::Right)).max(own(&piece.to, Side::Left));
+            let strain = self.strain.max(own(&piece.start, Side::Right)).max(own(&piece.end, Side::Left));
             bounded_piece(piece.map(Estimate::into_value), strain)
         };
         let mut pieces: Vec<_> = self.contact.stress_pieces().into_iter().map(bounded).collect();
         if let (Some(march), Some(bounce)) = (&self.march, self.bounce()) {
             let first = pieces.len();
-            pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.to.value() > bounce));
+            pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.end.value() > bounce));
             // The flight begins where the closed form ends, and its stress is zero: the cells' errors are not in it.
             if let Some(flight) = pieces.get_mut(first) {
                 *flight = bounded_piece(flight.clone().map(Estimate::into_value), self.strain);
-                flight.from = within(bounce, 0.0);
+                flight.start = within(bounce, 0.0);
             }
         }
         pieces

@@ -41,8 +41,8 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// problem.rod.damping = "1e-300".parse().ok();
 /// let history = Damped::<f64>::solve(&problem, &(), 12.0)?;
 /// let release = &history.events()[1];
-/// assert!((release.time.value() - 2.0).abs() <= release.time.bound() && release.time.bound() < 1e-12);
-/// assert!((release.end_velocity.value() - 1.0).abs() < 1e-12);
+/// assert!((release.t.value() - 2.0).abs() <= release.t.bound() && release.t.bound() < 1e-12);
+/// assert!((release.v_end.value() - 1.0).abs() < 1e-12);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -162,11 +162,11 @@ impl<S: RoundedSpecial> Damped<S> {
             let units = &history.data.units;
             let event = Event {
                 kind: mark.kind,
-                time: mark.time * &units.time,
-                end_velocity: mark.velocity * &units.velocity,
-                centre,
-                centre_velocity,
-                time_error: mark.time_error * units.time.to_f64(),
+                t: mark.time * &units.time,
+                v_end: mark.velocity * &units.velocity,
+                h: centre,
+                h_rate: centre_velocity,
+                t_error: mark.time_error * units.time.to_f64(),
             };
             event.map(Estimate::exact)
         };
@@ -289,7 +289,7 @@ impl<S: RoundedSpecial> Damped<S> {
             let zero = piece.len.zero();
             let to = piece.to() * &units.time;
             match pieces.last_mut() {
-                Some(last) if flying && !piece.contact => last.to = to,
+                Some(last) if flying && !piece.contact => last.end = to,
                 _ => {
                     let c: Vec<S> = if piece.contact {
                         piece.trace.iter().map(|term| term.clone() * &unit).collect()
@@ -298,13 +298,13 @@ impl<S: RoundedSpecial> Damped<S> {
                     };
                     let from = piece.from.clone() * &units.time;
                     if let Some(last) = pieces.last_mut() {
-                        last.to = from.clone();
+                        last.end = from.clone();
                     }
                     pieces.push(StressPiece {
-                        from,
-                        to,
-                        left: at_zero(&c, &zero),
-                        right: at_one(&c, &zero),
+                        start: from,
+                        end: to,
+                        strain_start: at_zero(&c, &zero),
+                        strain_end: at_one(&c, &zero),
                         chebyshev: c,
                     });
                 }
@@ -312,7 +312,7 @@ impl<S: RoundedSpecial> Damped<S> {
             flying = !piece.contact;
         }
         if let Some(last) = pieces.last_mut() {
-            last.to = self.course.end.value().clone();
+            last.end = self.course.end.value().clone();
         }
         pieces
     }
@@ -406,21 +406,21 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn turn_after(&self, release: usize) -> Option<(S, S)> {
         let release = self.course.events.get(release)?.clone().map(Estimate::into_value);
         let Scales { gravity, time, .. } = &self.data.units;
-        if gravity.is_zero() || !self.medium.free_top || release.centre_velocity.is_negative() {
+        if gravity.is_zero() || !self.medium.free_top || release.h_rate.is_negative() {
             return None;
         }
         // Remark 2, with the quotients by 2r and 4r² taken regularly.
         let damping = self.data.damping.clone() / time;
-        let rise = release.centre_velocity.clone() / gravity;
+        let rise = release.h_rate.clone() / gravity;
         let drag = damping.int(2) * &damping * &rise;
-        let height = log_rest(&drag) * &rise * &release.centre_velocity;
-        Some((release.time.clone() + log_mean(&drag) * &rise, release.centre.clone() + height))
+        let height = log_rest(&drag) * &rise * &release.h_rate;
+        Some((release.t.clone() + log_mean(&drag) * &rise, release.h.clone() + height))
     }
 
     /// The flight after the release that the run begins with, while that time is in it.
     pub(super) fn first_flight(&self, time: &Estimate<S>) -> Option<&Rebound<Estimate<S>>> {
         let next = self.course.events.get(1);
-        self.rebound.as_ref().filter(|_| next.is_none_or(|next| time.value() <= next.time.value()))
+        self.rebound.as_ref().filter(|_| next.is_none_or(|next| time.value() <= next.t.value()))
     }
 }
 

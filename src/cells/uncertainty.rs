@@ -78,8 +78,8 @@ const MOST_ROUNDINGS: f64 = 64.0;
 /// The time that is asked about: that of the nearest event, where roundings alone set it apart, and the event is where
 /// it is meant to be or the time was computed.
 pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
-    let next = events.partition_point(|event| event.time.value() < time.value());
-    let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.time);
+    let next = events.partition_point(|event| event.t.value() < time.value());
+    let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.t);
     let roundings = 4.0 * time.value().unit() * time.value().to_f64().abs();
     let apart = |event: &&Estimate<S>| (event.value().clone() - time.value()).to_f64().abs();
     let nearest = near.min_by(|a, b| apart(a).total_cmp(&apart(b)));

@@ -35,7 +35,7 @@ use crate::special::BoundedSpecial;
 /// let mut problem = Problem::uniform("1/2".parse()?, Number::from(1), Number::from(0), Number::from(1));
 /// problem.rod.damping = Some(Number::from(3));
 /// let contact = ContactHistory::<Estimate<f64>>::solve(&problem, &())?;
-/// let bounce = &contact.events()[1].time;
+/// let bounce = &contact.events()[1].t;
 /// assert!((bounce.value() - 3.299026051445773).abs() < bounce.bound() && bounce.bound() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -141,11 +141,11 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         let (zero, rod) = (self.end.zero(), &self.contact.rod);
         let mut events = vec![Event {
             kind: EventKind::Impact,
-            end_velocity: -rod.speed.clone(),
-            centre: zero.clone(),
-            centre_velocity: -rod.speed.clone(),
-            time: zero.clone(),
-            time_error: 0.0,
+            v_end: -rod.speed.clone(),
+            h: zero.clone(),
+            h_rate: -rod.speed.clone(),
+            t: zero.clone(),
+            t_error: 0.0,
         }];
         if let (Some(kind), Some(rebound)) = (self.release, self.rebound()) {
             let end_velocity = match kind {
@@ -160,18 +160,18 @@ impl<N: BoundedSpecial> ContactHistory<N> {
             };
             events.push(Event {
                 kind: EventKind::Release,
-                time: self.end.clone(),
-                end_velocity,
-                centre: rebound.centre.clone(),
-                centre_velocity: rebound.velocity.clone(),
-                time_error: self.end.log2_error().exp2(),
+                t: self.end.clone(),
+                v_end: end_velocity,
+                h: rebound.centre.clone(),
+                h_rate: rebound.velocity.clone(),
+                t_error: self.end.log2_error().exp2(),
             });
         }
         let contacts = vec![Contact {
-            to: self.release.map(|_| self.end.clone()),
+            release: self.release.map(|_| self.end.clone()),
             impulse: self.whole_impulse(),
             peak_strain: self.contact.peak(&self.followed),
-            from: zero,
+            impact: zero,
         }];
         Course { events, contacts, ..Course::new(self.end.clone(), self.ending.clone()) }
     }
@@ -259,16 +259,22 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     fn stress_pieces(&self) -> Vec<StressPiece<N>> {
         let mut pieces = self.contact.pieces(&self.followed);
         if let Some(last) = pieces.last_mut().filter(|_| self.rest.is_none()) {
-            last.to = self.end.clone();
+            last.end = self.end.clone();
             if self.release == Some(BounceKind::Root) {
-                last.right = self.end.zero();
+                last.strain_end = self.end.zero();
             }
         }
         if let Some(rest) = self.rest {
             let still = StaticState::of(&self.contact.rod).field(&self.end.zero()).strain;
             let from = self.end.int(rest) * &self.contact.round_trip;
             let (left, chebyshev) = (still.clone(), vec![still.clone()]);
-            pieces.push(StressPiece { from, to: self.end.clone(), left, right: still, chebyshev });
+            pieces.push(StressPiece {
+                start: from,
+                end: self.end.clone(),
+                strain_start: left,
+                strain_end: still,
+                chebyshev,
+            });
         }
         pieces
     }
@@ -294,7 +300,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
                 return Ok([time.zero(), -self.contact.rod.speed.clone()]);
             }
             return Ok(match (self.moment(time)?, self.events().last()) {
-                (Moment::Bounce(_), Some(event)) if side == Side::Right => [time.zero(), event.end_velocity.clone()],
+                (Moment::Bounce(_), Some(event)) if side == Side::Right => [time.zero(), event.v_end.clone()],
                 _ => [time.zero(), time.zero()],
             });
         }

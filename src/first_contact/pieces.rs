@@ -57,10 +57,10 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
         let side = if to.on_lattice { Side::Left } else { Side::Right };
         StressPiece {
-            left: self.stress_at(&self.lattice(k), Side::Right),
-            right: self.stress_at(&to, side),
-            from: self.round_trip.int(k) * &self.round_trip,
-            to: self.round_trip.int(k + 1) * &self.round_trip,
+            strain_start: self.stress_at(&self.lattice(k), Side::Right),
+            strain_end: self.stress_at(&to, side),
+            start: self.round_trip.int(k) * &self.round_trip,
+            end: self.round_trip.int(k + 1) * &self.round_trip,
             chebyshev,
         }
     }

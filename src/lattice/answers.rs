@@ -132,13 +132,13 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     fn highest(&self, release: usize) -> Option<(N, N)> {
         let Units { round_trip, velocity, .. } = &self.problem.units;
         let release = self.course.events.get(release)?;
-        let rate = &release.centre_velocity;
+        let rate = &release.h_rate;
         if !self.ground.trace.falls_freely() || rate.negative() == Ok(true) {
             return None;
         }
         let gravity = velocity.clone() / round_trip;
         let rise = rate.square() / &gravity;
-        Some((release.time.clone() + rate.clone() / &gravity, release.centre.clone() + rise.halved()))
+        Some((release.t.clone() + rate.clone() / &gravity, release.h.clone() + rise.halved()))
     }
 
     fn rays(&self, trip: usize) -> Result<Vec<Ray<N>>, Error> {
@@ -300,11 +300,11 @@ impl<N: Bounded> Undamped<N> {
             let time = self.time_of(&Moment { index: event.trip + 1, age: event.age.clone() });
             events.push(Event {
                 kind: event.kind,
-                time_error: time.log2_error().exp2(),
-                time,
-                end_velocity: event.end_velocity.clone() * velocity,
-                centre: centre.height.clone() * &rise,
-                centre_velocity: centre.rate.clone() * velocity,
+                t_error: time.log2_error().exp2(),
+                t: time,
+                v_end: event.end_velocity.clone() * velocity,
+                h: centre.height.clone() * &rise,
+                h_rate: centre.rate.clone() * velocity,
             });
             last = Some((event, centre));
         }
@@ -378,10 +378,10 @@ impl<N: Bounded> Undamped<N> {
         let scale = velocity.clone() / wave_speed;
         let stress = |age: &N| if from.contact { -(from.line.value_at(age) * &scale) } else { age.zero() };
         Some(StressPiece {
-            from: self.time_of(&Moment { index: trip + 1, age: from.age.clone() }),
-            to: self.time_of(to),
-            left: stress(&from.age),
-            right: stress(&end),
+            start: self.time_of(&Moment { index: trip + 1, age: from.age.clone() }),
+            end: self.time_of(to),
+            strain_start: stress(&from.age),
+            strain_end: stress(&end),
             chebyshev: Vec::new(),
         })
     }

@@ -55,7 +55,7 @@ impl<N: Bounded> Undamped<N> {
     /// let problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
     /// let history = Undamped::<Estimate<f64>>::solve(&problem, &())?;
     /// // Corollary 1: at μ = 3 ≥ g t₁ = 2 the contact lasts exactly t₁ = 2.
-    /// let to = history.contacts()[0].to.as_ref().ok_or(dalembert::Error::NoClosedForm)?;
+    /// let to = history.contacts()[0].release.as_ref().ok_or(dalembert::Error::NoClosedForm)?;
     /// assert_eq!(*to.value(), 2.0);
     /// assert!(to.bound() < 1e-14);
     /// # Ok::<(), dalembert::Error>(())
@@ -298,9 +298,9 @@ impl<N: Bounded> Undamped<N> {
     /// Whether a time is an event's own. One that was spelled stands for itself.
     fn is_event(&self, time: &N) -> bool {
         let events = &self.course.events;
-        let first = events.partition_point(|event| event.time.below(time) == Ok(true));
-        let near = events[first..].iter().take_while(|event| time.below(&event.time) != Ok(true));
-        time.spelled_as().is_none() && near.into_iter().any(|event| event.time.alike(time))
+        let first = events.partition_point(|event| event.t.below(time) == Ok(true));
+        let near = events[first..].iter().take_while(|event| time.below(&event.t) != Ok(true));
+        time.spelled_as().is_none() && near.into_iter().any(|event| event.t.alike(time))
     }
 
     /// `h`, `h′` in lattice units at the end of a round trip.

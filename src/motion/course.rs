@@ -64,26 +64,26 @@ impl EventKind {
 pub struct Event<S> {
     /// Landing or leaving.
     pub kind: EventKind,
-    /// `t`.
-    pub time: S,
+    /// Its time.
+    pub t: S,
     /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
     /// impact, the `v_t + c v_x < 0` which that ray brings.
-    pub end_velocity: S,
+    pub v_end: S,
     /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
-    pub centre: S,
+    pub h: S,
     /// `h′(t)`.
-    pub centre_velocity: S,
-    /// How far `time` may be off, in its own unit: zero where it is exact.
-    pub time_error: f64,
+    pub h_rate: S,
+    /// Bound of the error of `t`: zero where it is exact.
+    pub t_error: f64,
 }
 
 /// A time on the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact<S> {
-    /// Its beginning.
-    pub from: S,
-    /// Its end; `None` where the history ends before.
-    pub to: Option<S>,
+    /// Time of the impact, at which it begins.
+    pub impact: S,
+    /// Time of the release, at which it ends; `None` where the history ends before.
+    pub release: Option<S>,
     /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
     /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
     pub impulse: S,
@@ -108,14 +108,14 @@ pub struct Energy<S> {
 /// modulus: see [`StressHistory`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressPiece<S> {
-    /// Its beginning.
-    pub from: S,
-    /// Its end.
-    pub to: S,
-    /// `v_x(0, from⁺)`.
-    pub left: S,
-    /// `v_x(0, to⁻)`.
-    pub right: S,
+    /// Its first time.
+    pub start: S,
+    /// Its last time.
+    pub end: S,
+    /// `v_x(0, start⁺)`.
+    pub strain_start: S,
+    /// `v_x(0, end⁻)`.
+    pub strain_end: S,
     /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
     pub chebyshev: Vec<S>,
 }
@@ -125,32 +125,37 @@ impl<S> Event<S> {
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
         Event {
             kind: self.kind,
-            time: f(self.time),
-            end_velocity: f(self.end_velocity),
-            centre: f(self.centre),
-            centre_velocity: f(self.centre_velocity),
-            time_error: self.time_error,
+            t: f(self.t),
+            v_end: f(self.v_end),
+            h: f(self.h),
+            h_rate: f(self.h_rate),
+            t_error: self.t_error,
         }
     }
 
     pub(crate) fn numbers(&self) -> [&S; 4] {
-        [&self.time, &self.end_velocity, &self.centre, &self.centre_velocity]
+        [&self.t, &self.v_end, &self.h, &self.h_rate]
     }
 }
 
 impl<S> Contact<S> {
     /// The same contact in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
-        Contact { from: f(self.from), to: self.to.map(&f), impulse: f(self.impulse), peak_strain: f(self.peak_strain) }
+        Contact {
+            impact: f(self.impact),
+            release: self.release.map(&f),
+            impulse: f(self.impulse),
+            peak_strain: f(self.peak_strain),
+        }
     }
 
     /// When it begins and ends.
     pub fn times(&self) -> (&S, Option<&S>) {
-        (&self.from, self.to.as_ref())
+        (&self.impact, self.release.as_ref())
     }
 
     pub(crate) fn numbers(&self) -> Vec<&S> {
-        [&self.from, &self.impulse, &self.peak_strain].into_iter().chain(&self.to).collect()
+        [&self.impact, &self.impulse, &self.peak_strain].into_iter().chain(&self.release).collect()
     }
 }
 
@@ -160,8 +165,8 @@ impl<S: Clone> Contact<S> {
         let impacts = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact);
         let contact = |(k, impact): (usize, &Event<S>)| {
             let (impulse, peak_strain) = found(k);
-            let to = events.get(k + 1).map(|release| release.time.clone());
-            Contact { from: impact.time.clone(), to, impulse, peak_strain }
+            let to = events.get(k + 1).map(|release| release.t.clone());
+            Contact { impact: impact.t.clone(), release: to, impulse, peak_strain }
         };
         impacts.map(contact).collect()
     }
@@ -181,16 +186,16 @@ impl<S> Energy<S> {
 impl<S> StressPiece<S> {
     /// Where pieces begin and end, and the values there.
     pub fn numbers(pieces: &[Self]) -> Vec<&S> {
-        pieces.iter().flat_map(|piece| [&piece.from, &piece.to, &piece.left, &piece.right]).collect()
+        pieces.iter().flat_map(|piece| [&piece.start, &piece.end, &piece.strain_start, &piece.strain_end]).collect()
     }
 
     /// The same piece in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
         StressPiece {
-            from: f(self.from),
-            to: f(self.to),
-            left: f(self.left),
-            right: f(self.right),
+            start: f(self.start),
+            end: f(self.end),
+            strain_start: f(self.strain_start),
+            strain_end: f(self.strain_end),
             chebyshev: self.chebyshev.into_iter().map(f).collect(),
         }
     }
@@ -209,10 +214,10 @@ impl<S: Scalar> StressPiece<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn eval(&self, time: &S) -> S {
-        let width = self.to.clone() - &self.from;
-        let share = (time.clone() - &self.from) / &width;
+        let width = self.end.clone() - &self.start;
+        let share = (time.clone() - &self.start) / &width;
         if self.chebyshev.is_empty() {
-            return (self.right.clone() - &self.left) * &share + &self.left;
+            return (self.strain_end.clone() - &self.strain_start) * &share + &self.strain_start;
         }
         // Clenshaw's recurrence on −1 … 1.
         let x = share.int(2) * &share - share.one();
@@ -241,9 +246,9 @@ impl<S: Scalar> StressPiece<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn integral(&self, time: &S) -> S {
-        let passed = time.clone() - &self.from;
+        let passed = time.clone() - &self.start;
         if self.chebyshev.is_empty() {
-            return (self.left.clone() + self.eval(time)) * &passed / passed.int(2);
+            return (self.strain_start.clone() + self.eval(time)) * &passed / passed.int(2);
         }
         let coefficient = |k: usize| self.chebyshev.get(k).cloned().unwrap_or_else(|| passed.zero());
         let term = |k: usize| {
@@ -256,7 +261,7 @@ impl<S: Scalar> StressPiece<S> {
         let start =
             chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
         chebyshev.insert(0, start);
-        let half = (self.to.clone() - &self.from) / passed.int(2);
+        let half = (self.end.clone() - &self.start) / passed.int(2);
         StressPiece { chebyshev, ..self.clone() }.eval(time) * &half
     }
 }
@@ -276,7 +281,8 @@ pub struct StressHistory<S> {
 impl<S: Scalar> fmt::Display for StressHistory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, piece) in self.pieces.iter().enumerate() {
-            let [from, to, left, right] = [&piece.from, &piece.to, &piece.left, &piece.right].map(Scalar::text);
+            let [from, to, left, right] =
+                [&piece.start, &piece.end, &piece.strain_start, &piece.strain_end].map(Scalar::text);
             let to = match &self.ending {
                 Ending::ExactnessEnds { time, .. } if k + 1 == self.pieces.len() => format!("just before {time}"),
                 _ => to,

@@ -105,7 +105,7 @@ pub trait Motion<S: Scalar>: Send + Sync {
 
     /// When a contact, counted from 0, begins and ends.
     fn contact_times(&self, contact: usize) -> Option<(S, Option<S>)> {
-        self.contacts().get(contact).map(|contact| (contact.from.clone(), contact.to.clone()))
+        self.contacts().get(contact).map(|contact| (contact.impact.clone(), contact.release.clone()))
     }
 
     /// The impulse of a contact, counted from 0.
@@ -203,8 +203,8 @@ pub trait Motion<S: Scalar>: Send + Sync {
         }
         let events = self.events();
         let passed = partition(events, |event| match side {
-            Side::Left => event.time.below(time),
-            Side::Right => Ok(!time.below(&event.time)?),
+            Side::Left => event.t.below(time),
+            Side::Right => Ok(!time.below(&event.t)?),
         })?;
         let contact = passed.checked_sub(1).is_some_and(|last| events[last].kind == EventKind::Impact);
         Ok(like.int(contact.into()))

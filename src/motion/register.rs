@@ -52,7 +52,7 @@ impl<S: Scalar> RayRegister<S> {
     /// The rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
         let mut found = Self::of_start(motion);
-        for event in motion.events().iter().filter(|event| event.time.to_f64() != 0.0) {
+        for event in motion.events().iter().filter(|event| event.t.to_f64() != 0.0) {
             found.push(ray_of(event));
         }
         Self::with(motion, found)
@@ -67,7 +67,7 @@ impl<S: Scalar> RayRegister<S> {
             rounded && !start.near(&time.zero(), time).is_empty()
         };
         let most = (motion.scales().time.to_f64() * MOST_LATE).log2();
-        let times = motion.events().iter().map(|event| &event.time);
+        let times = motion.events().iter().map(|event| &event.t);
         let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
         let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
         [start, displaced]
@@ -81,7 +81,7 @@ impl<S: Scalar> RayRegister<S> {
             let late = corner / &wave_speed;
             found.extend([(-late.clone(), true), (late - &round_trip, true)]);
         }
-        let stands = motion.events().first().filter(|event| event.time.to_f64() == 0.0);
+        let stands = motion.events().first().filter(|event| event.t.to_f64() == 0.0);
         found.extend(stands.map(ray_of));
         found
     }
@@ -217,7 +217,7 @@ impl<S: Scalar> RayRegister<S> {
 
 /// When it leaves the ground, and whether it may carry a jump.
 fn ray_of<S: Scalar>(event: &Event<S>) -> (S, bool) {
-    (event.time.clone(), event.kind == EventKind::Impact && event.end_velocity.vanishes() != Ok(true))
+    (event.t.clone(), event.kind == EventKind::Impact && event.v_end.vanishes() != Ok(true))
 }
 
 /// The fraction of a number of round trips.

@@ -13,7 +13,7 @@ use crate::number::Scalar;
 ///
 /// **Accuracy**: the tolerance, and that of the pieces.
 pub fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
-    let ends = pieces.iter().flat_map(|piece| [&piece.left, &piece.right]);
+    let ends = pieces.iter().flat_map(|piece| [&piece.strain_start, &piece.strain_end]);
     let greatest = ends.fold(0.0, |most: f64, strain| most.max(strain.to_f64().abs()));
     let mut parts = Vec::new();
     for piece in pieces {
@@ -30,14 +30,26 @@ fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<Stress
     let mut shares = Vec::new();
     halve(coefficients, (0.0, 1.0), tolerance, MOST_HALVINGS, &mut shares);
     shares.pop();
-    let (mut from, mut left) = (piece.from.clone(), piece.left.clone());
+    let (mut from, mut left) = (piece.start.clone(), piece.strain_start.clone());
     for share in shares {
-        let to = (piece.to.clone() - &piece.from) * piece.from.double(share) + &piece.from;
+        let to = (piece.end.clone() - &piece.start) * piece.start.double(share) + &piece.start;
         let right = piece.eval(&to);
-        parts.push(StressPiece { from, to: to.clone(), left, right: right.clone(), chebyshev: Vec::new() });
+        parts.push(StressPiece {
+            start: from,
+            end: to.clone(),
+            strain_start: left,
+            strain_end: right.clone(),
+            chebyshev: Vec::new(),
+        });
         (from, left) = (to, right);
     }
-    parts.push(StressPiece { from, to: piece.to.clone(), left, right: piece.right.clone(), chebyshev: Vec::new() });
+    parts.push(StressPiece {
+        start: from,
+        end: piece.end.clone(),
+        strain_start: left,
+        strain_end: piece.strain_end.clone(),
+        chebyshev: Vec::new(),
+    });
 }
 
 /// Where the parts of the polynomial with these Chebyshev coefficients end whose chords are within the tolerance, from

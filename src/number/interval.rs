@@ -120,7 +120,7 @@ impl Interval {
     /// let rod = dalembert::Problem::builder().length(1).wave_speed(3).impact_speed(1).build()?;
     /// let history = rod.certified(20)?;
     /// // t_b = 2L/c = 2/3, which no binary number is.
-    /// let end = history.contacts()[0].to.clone().unwrap();
+    /// let end = history.contacts()[0].release.clone().unwrap();
     /// let exact = |end: &dalembert::rug::Float| end.to_rational().unwrap();
     /// assert!(exact(end.lo()) * 3 < 2 && exact(end.hi()) * 3 > 2);
     /// assert_eq!(format!("{end:.20}"), "0.66666666666666666667");

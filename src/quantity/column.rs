@@ -234,13 +234,13 @@ impl<S: Scalar> Pushes<S> {
         let mut sum = stiffness.zero();
         let with_sum = |piece: StressPiece<S>| {
             let before = sum.clone();
-            sum = sum.clone() + piece.integral(&piece.to);
+            sum = sum.clone() + piece.integral(&piece.end);
             (piece, before)
         };
         let pieces = motion.stress_pieces().into_iter().map(with_sum).collect::<Vec<_>>();
         let size = |value: &S| 2.0 * value.to_f64().abs() + value.width().to_f64();
         let of = |(piece, _): &(StressPiece<S>, S)| {
-            size(&piece.left).max(size(&piece.right)).max(piece.chebyshev.iter().map(size).sum())
+            size(&piece.strain_start).max(size(&piece.strain_end)).max(piece.chebyshev.iter().map(size).sum())
         };
         let most = pieces.iter().map(of).fold(0.0, f64::max);
         Pushes { pieces, stiffness, most }
@@ -252,11 +252,11 @@ impl<S: Scalar> Pushes<S> {
         // A time in fewer bits than the pieces have.
         let longer = (time.log2_roundoff() > self.stiffness.log2_roundoff()).then(|| self.stiffness.zero() + time);
         let time = longer.as_ref().unwrap_or(time);
-        let begun = self.pieces.partition_point(|(piece, _)| !time.below(&piece.from).unwrap_or(false));
+        let begun = self.pieces.partition_point(|(piece, _)| !time.below(&piece.start).unwrap_or(false));
         let Some((piece, before)) = begun.checked_sub(1).map(|last| &self.pieces[last]) else { return time.zero() };
-        let pushed = match time.below(&piece.from) {
+        let pushed = match time.below(&piece.start) {
             Ok(_) => piece.integral(time) + before,
-            Err(_) => before.clone().widened(&((time.clone() - &piece.from) * &time.double(self.most))),
+            Err(_) => before.clone().widened(&((time.clone() - &piece.start) * &time.double(self.most))),
         };
         pushed * &self.stiffness
     }

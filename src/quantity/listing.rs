@@ -3,44 +3,42 @@
 use std::iter::repeat;
 
 use super::restitution::{Undefined, energy_shares, flights, restitution};
-use super::table::{Quantity, Source};
+use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
 use crate::motion::{EventKind, Motion};
 use crate::number::Scalar;
-use Quantity::*;
 
-/// What a history lists.
+/// A table that a history lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Table {
-    /// Impacts and releases: `time`, `end_velocity`, `centre`, `centre_velocity`.
+    /// Impacts and releases: `t`, `v_end`, `h`, `h_rate`.
     Events,
-    /// Contacts: `from`, `to`, `impulse`, `peak_strain`; with a material `peak_stress` and `peak_force` too.
+    /// Contacts: `impact`, `release`, `duration`, velocities of the end, `impulse`, `peak_strain`, coefficients of
+    /// restitution, energies at the release; with a material `peak_stress` and `peak_force` too.
     Contacts,
-    /// For each contact `e_P`, `e_E²` and its factors: `momentum`, `energy_squared`, `translational_part`,
-    /// `energy_kept`.
-    Restitution,
-    /// Flights: `from`, `to`, and `top_time` and `top` where the centre of mass turns.
+    /// Flights: `takeoff`, `landing`, and `top_time` and `top` where the centre of mass turns.
     Flights,
-    /// `v_x(0,·)` piece by piece: `from`, `to`, `strain_from`, `strain_to`.
+    /// `v_x(0,·)` piece by piece: `start`, `end`, `strain_start`, `strain_end`; with a material `stress_start` and
+    /// `stress_end` too.
     Stress,
 }
 
 impl Table {
-    /// Its columns.
+    /// The columns, in their order.
     pub fn quantities(self) -> &'static [Quantity] {
-        match self {
-            Table::Events => &[EventTime, EventVelocity, EventCentre, EventCentreVelocity],
-            Table::Contacts => &[Impact, Release, ContactImpulse, PeakStrain, PeakStress, PeakForce],
-            Table::Restitution => &[MomentumRestitution, EnergyRestitution, TranslationalShare, EnergyKept],
-            Table::Flights => &[FlightBegins, FlightEnds, TopTime, Top],
-            Table::Stress => &[PieceBegins, PieceEnds, PieceStrainBegins, PieceStrainEnds],
-        }
+        let needs = match self {
+            Table::Events => Needs::Event,
+            Table::Contacts => Needs::Contact,
+            Table::Flights => Needs::Flight,
+            Table::Stress => Needs::Piece,
+        };
+        needs.all()
     }
 }
 
-/// Columns by name. What there is not, such as the end of a contact that lasts, is `None`.
-pub type Columns<S> = Vec<(&'static str, Vec<Option<S>>)>;
+/// The columns of a table. A value that there is not, such as the release of a contact that lasts, is `None`.
+pub type Columns<S> = Vec<(Quantity, Vec<Option<S>>)>;
 
 /// The columns of `table`, in units of the problem.
 ///
@@ -51,9 +49,8 @@ pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> 
     let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
     let present: Vec<Quantity> = present.collect();
     let rows = values(motion, &present, units)?;
-    let column = |(k, quantity): (usize, &Quantity)| {
-        (quantity.key(), rows.iter().map(|row| row.get(k).cloned().flatten()).collect())
-    };
+    let column =
+        |(k, quantity): (usize, &Quantity)| (*quantity, rows.iter().map(|row| row.get(k).cloned().flatten()).collect());
     Ok(present.iter().enumerate().map(column).collect())
 }
 
@@ -117,7 +114,7 @@ impl Source {
             Source::Ends => {
                 let velocities = |kind: EventKind| {
                     let events = motion.events().iter().filter(move |event| event.kind == kind);
-                    events.map(|event| Ok(event.end_velocity.clone())).chain(repeat(Err(Undefined::Unfinished)))
+                    events.map(|event| Ok(event.v_end.clone())).chain(repeat(Err(Undefined::Unfinished)))
                 };
                 let ends = velocities(EventKind::Impact).zip(velocities(EventKind::Release));
                 ends.take(motion.contacts().len()).map(|(impact, release)| vec![impact, release]).collect()
@@ -128,20 +125,24 @@ impl Source {
             Source::Flight => flights(motion)?
                 .into_iter()
                 .map(|flight| {
-                    let (time, top) = flight.highest.unzip();
                     let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
-                    vec![Ok(flight.from), flight.to.ok_or(Undefined::Lasts), turns(time), turns(top)]
+                    vec![
+                        Ok(flight.takeoff),
+                        flight.landing.ok_or(Undefined::Lasts),
+                        turns(flight.top_time),
+                        turns(flight.top),
+                    ]
                 })
                 .collect(),
             Source::Piece => motion
                 .stress_pieces()
                 .iter()
-                .map(|piece| known(&[&piece.from, &piece.to, &piece.left, &piece.right]))
+                .map(|piece| known(&[&piece.start, &piece.end, &piece.strain_start, &piece.strain_end]))
                 .collect(),
             Source::Span | Source::Restitution | Source::Shares | Source::Left => motion
                 .contacts()
                 .iter()
-                .map(|contact| self.of_times(motion, &contact.from, contact.to.as_ref()))
+                .map(|contact| self.of_times(motion, &contact.impact, contact.release.as_ref()))
                 .collect::<Result<Vec<_>, _>>()?,
             _ => Vec::new(),
         })
@@ -153,7 +154,7 @@ impl Source {
         Ok(match (self, to) {
             (Source::Restitution, _) => {
                 let found = restitution(motion, (from, to))?;
-                vec![found.momentum, found.energy_squared]
+                vec![found.e_p, found.e_e2]
             }
             (Source::Shares, _) => energy_shares(motion, (from, to))?.into(),
             (Source::Left, Some(to)) => known(&motion.energy(to)?.numbers()),

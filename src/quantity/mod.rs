@@ -4,6 +4,7 @@
 mod column;
 mod convert;
 mod listing;
+mod name;
 mod one;
 mod restitution;
 mod slice;

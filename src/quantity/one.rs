@@ -75,7 +75,7 @@ impl One {
         let bounce = || motion.contact_times(0).and_then(|(_, to)| to).ok_or_else(ended);
         let event = |kind: EventKind, near: f64| {
             let apart = |time: &S| (time.to_f64() - near).abs();
-            let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.time.clone());
+            let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.t.clone());
             let found = of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)));
             found.ok_or_else(ended)
         };
@@ -90,10 +90,10 @@ impl One {
                 (Ending::Undecided(_) | Ending::ExactnessEnds { .. } | Ending::Unproved { .. }, _) => Err(ended()),
                 (Ending::Bounce, _) if *run != Run::Impacts(1) => Err(ended()),
                 (_, None) => Err(Missing::none("nothing happens in it")),
-                (_, Some(last)) => Ok(last.time.clone()),
+                (_, Some(last)) => Ok(last.t.clone()),
             },
             (Quantity::ShortestPiece, ..) => {
-                let lengths = motion.stress_pieces().into_iter().map(|piece| piece.to - &piece.from);
+                let lengths = motion.stress_pieces().into_iter().map(|piece| piece.end - &piece.start);
                 lengths.min_by(|a, b| a.to_f64().total_cmp(&b.to_f64())).ok_or_else(ended)
             }
             (quantity, _, Needs::Contact | Needs::Flight) => match of_contact(motion, units, quantity, 0) {

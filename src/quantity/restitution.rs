@@ -9,10 +9,10 @@ use crate::number::Scalar;
 /// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Restitution<S> {
-    /// `e_P = −P(to)/P(from)`.
-    pub momentum: Result<S, Undefined>,
-    /// `e_E² = E_h(to)/E_h(from)`.
-    pub energy_squared: Result<S, Undefined>,
+    /// `e_P = −P(release)/P(impact)`.
+    pub e_p: Result<S, Undefined>,
+    /// `e_E² = E_h(release)/E_h(impact)`.
+    pub e_e2: Result<S, Undefined>,
 }
 
 /// Why a quantity of a contact or a flight is not defined.
@@ -43,12 +43,12 @@ pub enum Undefined {
 
 impl<S> Restitution<S> {
     pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Restitution<T> {
-        Restitution { momentum: self.momentum.map(&f), energy_squared: self.energy_squared.map(&f) }
+        Restitution { e_p: self.e_p.map(&f), e_e2: self.e_e2.map(&f) }
     }
 
     /// Every number in it.
     pub fn numbers(&self) -> Vec<&S> {
-        self.momentum.iter().chain(&self.energy_squared).collect()
+        self.e_p.iter().chain(&self.e_e2).collect()
     }
 }
 
@@ -64,7 +64,7 @@ impl<S> Restitution<S> {
 /// **Errors**: what the history cannot answer. A coefficient that is not defined has the reason in its place.
 pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&S>)) -> Result<Restitution<S>, Error> {
     let Some(to) = to else {
-        return Ok(Restitution { momentum: Err(Undefined::Unfinished), energy_squared: Err(Undefined::Unfinished) });
+        return Ok(Restitution { e_p: Err(Undefined::Unfinished), e_e2: Err(Undefined::Unfinished) });
     };
     let (h0, rate0) = history.centre(from)?;
     let (h, rate) = history.centre(to)?;
@@ -80,7 +80,7 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&
     } else {
         Ok(after / before)
     };
-    Ok(Restitution { momentum, energy_squared })
+    Ok(Restitution { e_p: momentum, e_e2: energy_squared })
 }
 
 /// The factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of the
@@ -102,27 +102,30 @@ pub fn energy_shares<S: Scalar>(
 /// A flight of the rod.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight<S> {
-    /// Its beginning.
-    pub from: S,
-    /// Its end; `None` where the history ends before.
-    pub to: Option<S>,
-    /// `t*` and `h_max = h(t*)`, where the centre of mass turns within the flight.
-    pub highest: Option<(S, S)>,
+    /// Time at which it begins.
+    pub takeoff: S,
+    /// Time at which it ends; `None` where the history ends before.
+    pub landing: Option<S>,
+    /// `t*`, at which the centre of mass turns; `None` where it does not turn in the flight.
+    pub top_time: Option<S>,
+    /// `h_max = h(t*)`, the height at which it turns.
+    pub top: Option<S>,
 }
 
 impl<S> Flight<S> {
     pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Flight<T> {
         Flight {
-            from: f(self.from),
-            to: self.to.map(&f),
-            highest: self.highest.map(|(time, centre)| (f(time), f(centre))),
+            takeoff: f(self.takeoff),
+            landing: self.landing.map(&f),
+            top_time: self.top_time.map(&f),
+            top: self.top.map(f),
         }
     }
 
     /// Every number in them.
     pub(crate) fn numbers(flights: &[Self]) -> Vec<&S> {
-        let numbers = flights.iter().flat_map(|Flight { from, to, highest }| {
-            once(from).chain(to).chain(highest.iter().flat_map(|(time, height)| [time, height]))
+        let numbers = flights.iter().flat_map(|Flight { takeoff, landing, top_time, top }| {
+            once(takeoff).chain(landing).chain(top_time).chain(top)
         });
         numbers.collect()
     }
@@ -140,12 +143,13 @@ pub fn flights<S: Scalar>(history: &dyn Motion<S>) -> Result<Vec<Flight<S>>, Err
     let end = history.end();
     let mut flights = Vec::new();
     for (k, release) in events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Release) {
-        let to = events.get(k + 1).map(|impact| impact.time.clone());
+        let landing = events.get(k + 1).map(|impact| impact.t.clone());
         let highest = match history.highest(k) {
-            Some((time, _)) if to.as_ref().unwrap_or(&end).below(&time)? => None,
+            Some((time, _)) if landing.as_ref().unwrap_or(&end).below(&time)? => None,
             highest => highest,
         };
-        flights.push(Flight { from: release.time.clone(), to, highest });
+        let (top_time, top) = highest.unzip();
+        flights.push(Flight { takeoff: release.t.clone(), landing, top_time, top });
     }
     Ok(flights)
 }

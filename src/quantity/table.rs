@@ -67,7 +67,6 @@ pub enum Needs {
 /// All that is known of a quantity.
 struct Facts {
     name: &'static str,
-    key: &'static str,
     also: &'static [&'static str],
     symbol: &'static str,
     measure: Option<Measure>,
@@ -76,24 +75,18 @@ struct Facts {
     meaning: &'static str,
 }
 
-/// A name, the key in lists of its own kind where that is another one, and other names that are understood.
-macro_rules! names {
-    (key $name:literal) => {
-        $name
-    };
-    (key $name:literal $key:literal) => {
-        $key
-    };
-    (also) => {
+/// The other names that are understood, if any.
+macro_rules! other_names {
+    () => {
         &[]
     };
-    (also $names:tt) => {
+    ($names:tt) => {
         &$names
     };
 }
 
 macro_rules! quantities {
-    ($($quantity:ident: $name:literal $(as $key:literal)? $(also $also:tt)?, $symbol:literal, $measure:expr,
+    ($($quantity:ident: $name:literal $(also $also:tt)?, $symbol:literal, $measure:expr,
         $source:ident $answer:literal, $meaning:literal;)+) => {
         /// A quantity of a motion, by name. The table holds every one that is printed, asked for or compared.
         ///
@@ -129,8 +122,7 @@ macro_rules! quantities {
                 match self {
                     $(Quantity::$quantity => Facts {
                         name: $name,
-                        key: names!(key $name $($key)?),
-                        also: names!(also $($also)?),
+                        also: other_names!($($also)?),
                         symbol: $symbol,
                         measure: $measure,
                         source: (Source::$source, $answer),
@@ -149,28 +141,28 @@ quantities! {
     // Over time.
     Time: "t" also ["time"], "t", Some(Time), Time 0, "time";
     Side: "side", "", None, Side 0, "which limit at a jump: from earlier times, from later ones, or both the same";
-    EndDisplacement: "u_end" as "v" also ["u", "displacement", "disp", "gap", "u_y", "uy"], "v(0,t)", Some(Length),
+    EndDisplacement: "u_end" also ["u", "displacement", "disp", "gap", "u_y", "uy"], "v(0,t)", Some(Length),
         End 0, "displacement of the end at the ground, upwards: its gap";
-    EndVelocity: "v_end" as "v_t" also ["v", "velocity", "vel", "v_y", "vy"], "v_t(0,t)", Some(Velocity), End 1,
+    EndVelocity: "v_end" also ["v", "velocity", "vel", "v_y", "vy"], "v_t(0,t)", Some(Velocity), End 1,
         "velocity of the end at the ground, upwards";
-    Strain: "strain" as "v_x" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0,
+    Strain: "strain" also ["eps"], "v_x(0,t)", Some(Strain), Strain 0,
         "strain at the ground, positive in tension";
     Stress: "stress" also ["sigma"], "E v_x(0,t)", Some(Stress), Strain 0, "stress at the ground, positive in tension";
     Force: "force"
         also ["f", "contact_force", "reaction", "reaction_force", "lambda", "f_n", "fn", "normal_force", "rf"],
         "−E S v_x(0,t)", Some(Force), Strain 0, "contact force, positive in compression";
-    TopDisplacement: "u_top" as "v" also ["top_displacement", "u_tip", "tip_displacement"], "v(L,t)", Some(Length),
+    TopDisplacement: "u_top" also ["top_displacement", "u_tip", "tip_displacement"], "v(L,t)", Some(Length),
         Top 0, "displacement of the upper end";
-    TopVelocity: "v_top" as "v_t" also ["top_velocity", "v_tip", "tip_velocity"], "v_t(L,t)", Some(Velocity), Top 1,
+    TopVelocity: "v_top" also ["top_velocity", "v_tip", "tip_velocity"], "v_t(L,t)", Some(Velocity), Top 1,
         "velocity of the upper end";
     Centre: "h" also ["centre"], "h", Some(Length), Centre 0,
         "centre of mass above its place in the undeformed rod on the ground";
     CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, "velocity of the centre of mass";
-    Energy: "E_total" as "total" also ["E", "energy", "total", "total_energy", "etot"], "E", Some(Energy), Energy 0,
+    Energy: "E_total" also ["E", "energy", "total", "total_energy", "etot"], "E", Some(Energy), Energy 0,
         "energy: E_h + E_z, or kinetic + strain_energy + gravity";
-    TranslationalEnergy: "E_h" as "translational", "E_h", Some(Energy), Energy 1,
+    TranslationalEnergy: "E_h", "E_h", Some(Energy), Energy 1,
         "energy of the centre of mass: ρSL(h′²/2 + g h)";
-    VibrationalEnergy: "E_z" as "vibrational" also ["vibrational"], "E_z", Some(Energy), Energy 2,
+    VibrationalEnergy: "E_z" also ["vibrational"], "E_z", Some(Energy), Energy 2,
         "energy of the vibration: ½ρS∫((v_t − h′)² + c²v_x²)dx";
     KineticEnergy: "kinetic" also ["kinetic_energy", "elke"], "½ρS∫v_t²dx", Some(Energy), Parts 0, "kinetic energy";
     StrainEnergy: "strain_energy" also ["internal_energy", "else"], "½ES∫v_x²dx", Some(Energy), Parts 1,
@@ -181,21 +173,21 @@ quantities! {
 
     // Along the rod.
     Point: "x", "x", Some(Length), Field 0, "place along the rod, from the end at the ground";
-    PointDisplacement: "u" as "v" also ["u_end"], "v", Some(Length), Field 1, "displacement, upwards";
-    PointVelocity: "v" as "v_t" also ["v_end"], "v_t", Some(Velocity), Field 2, "velocity, upwards";
-    PointStrain: "strain" as "v_x" also ["eps"], "v_x", Some(Strain), Field 3, "strain, positive in tension";
+    PointDisplacement: "u" also ["u_end"], "v", Some(Length), Field 1, "displacement, upwards";
+    PointVelocity: "v" also ["v_end"], "v_t", Some(Velocity), Field 2, "velocity, upwards";
+    PointStrain: "strain" also ["eps"], "v_x", Some(Strain), Field 3, "strain, positive in tension";
     PointStress: "stress" also ["sigma"], "E v_x", Some(Stress), Field 3, "stress, positive in tension";
 
     // Of an event.
-    EventTime: "time", "t", Some(Time), Event 0, "time of an impact or a release";
-    EventVelocity: "end_velocity", "v_t(0,t)", Some(Velocity), Event 1,
+    EventTime: "t", "t", Some(Time), Event 0, "time of an impact or a release";
+    EventVelocity: "v_end", "v_t(0,t)", Some(Velocity), Event 1,
         "velocity of the end, just before an impact, just after a release";
-    EventCentre: "centre", "h", Some(Length), Event 2, "centre of mass at an impact or a release";
-    EventCentreVelocity: "centre_velocity", "h′", Some(Velocity), Event 3, "its velocity then";
+    EventCentre: "h", "h", Some(Length), Event 2, "centre of mass at an impact or a release";
+    EventCentreVelocity: "h_rate", "h′", Some(Velocity), Event 3, "its velocity then";
 
     // Of a contact.
-    Impact: "impact" as "from", "contact from", Some(Time), Span 0, "time at which a contact begins";
-    Release: "release" as "to", "to", Some(Time), Span 1, "time at which a contact ends";
+    Impact: "impact", "contact from", Some(Time), Span 0, "time at which a contact begins";
+    Release: "release", "to", Some(Time), Span 1, "time at which a contact ends";
     Duration: "duration", "", Some(Time), Span 2, "how long a contact lasts";
     ImpactVelocity: "impact_velocity", "v_t(0,t⁻)", Some(Velocity), Ends 0, "velocity of the end just before a contact";
     ReleaseVelocity: "release_velocity", "v_t(0,t⁺)", Some(Velocity), Ends 1,
@@ -206,33 +198,33 @@ quantities! {
     PeakStress: "peak_stress", "peak stress", Some(Stress), Push 1,
         "the most compressive stress at the ground in a contact";
     PeakForce: "peak_force", "peak force", Some(Force), Push 1, "the greatest force of the ground in a contact";
-    MomentumRestitution: "e_P" as "momentum", "e_P", None, Restitution 0,
+    MomentumRestitution: "e_P", "e_P", None, Restitution 0,
         "ratio of the momenta at both ends of a contact";
-    EnergyRestitution: "e_E2" as "energy_squared" also ["restitution"], "e_E²", None, Restitution 1,
+    EnergyRestitution: "e_E2" also ["restitution"], "e_E²", None, Restitution 1,
         "ratio of the energies of the centre of mass at both ends of a contact";
     TranslationalShare: "translational_part", "E_h/E", None, Shares 0,
         "what part of the energy at the end of a contact moves the centre of mass";
     EnergyKept: "energy_kept", "E/E₀", None, Shares 1, "what part of the energy a contact keeps";
-    EnergyLeft: "E_total_after" as "total", "E", Some(Energy), Left 0, "energy at the end of a contact";
-    TranslationalLeft: "E_h_after" as "translational", "E_h", Some(Energy), Left 1,
+    EnergyAfter: "E_total_after", "E", Some(Energy), Left 0, "energy at the end of a contact";
+    TranslationalAfter: "E_h_after", "E_h", Some(Energy), Left 1,
         "energy of the centre of mass at the end of a contact";
-    VibrationalLeft: "E_z_after" as "vibrational", "E_z", Some(Energy), Left 2,
+    VibrationalAfter: "E_z_after", "E_z", Some(Energy), Left 2,
         "energy of the vibration at the end of a contact";
 
     // Of a flight.
-    FlightBegins: "flight" as "from", "flight from", Some(Time), Flight 0, "time at which a flight begins";
-    FlightEnds: "landing" as "to", "to", Some(Time), Flight 1, "time at which a flight ends";
+    Takeoff: "takeoff", "flight from", Some(Time), Flight 0, "time at which a flight begins";
+    Landing: "landing", "to", Some(Time), Flight 1, "time at which a flight ends";
     TopTime: "top_time", "highest at", Some(Time), Flight 2,
         "when the centre of mass is highest in a flight, if it turns";
     Top: "top", "h_max", Some(Length), Flight 3, "how high the centre of mass comes in a flight, if it turns";
 
     // Of a piece of the stress at the ground.
-    PieceBegins: "from", "from", Some(Time), Piece 0, "where a piece of the stress at the ground begins";
-    PieceEnds: "to", "to", Some(Time), Piece 1, "where it ends";
-    PieceStrainBegins: "strain_from", "v_x(0,from⁺)", Some(Strain), Piece 2, "strain at the ground where it begins";
-    PieceStrainEnds: "strain_to", "v_x(0,to⁻)", Some(Strain), Piece 3, "strain at the ground where it ends";
-    PieceStressBegins: "stress_from", "E v_x(0,from⁺)", Some(Stress), Piece 2, "stress at the ground where it begins";
-    PieceStressEnds: "stress_to", "E v_x(0,to⁻)", Some(Stress), Piece 3, "stress at the ground where it ends";
+    PieceStart: "start", "start", Some(Time), Piece 0, "where a piece of the stress at the ground begins";
+    PieceEnd: "end", "end", Some(Time), Piece 1, "where it ends";
+    PieceStrainStart: "strain_start", "v_x(0,start⁺)", Some(Strain), Piece 2, "strain at the ground where it begins";
+    PieceStrainEnd: "strain_end", "v_x(0,end⁻)", Some(Strain), Piece 3, "strain at the ground where it ends";
+    PieceStressStart: "stress_start", "E v_x(0,start⁺)", Some(Stress), Piece 2, "stress at the ground where it begins";
+    PieceStressEnd: "stress_end", "E v_x(0,end⁻)", Some(Stress), Piece 3, "stress at the ground where it ends";
 
     // Of the first contact, and of the whole run.
     BounceTime: "bounce_time", "t_b", Some(Time), Bounce 0, "time of the first release";
@@ -276,7 +268,13 @@ impl Source {
 impl Needs {
     /// The quantities that need this, in the order of a table.
     pub fn quantities(self) -> impl Iterator<Item = Quantity> {
-        Quantity::ALL.iter().copied().filter(move |quantity| quantity.needs() == self)
+        self.all().iter().copied()
+    }
+
+    pub(super) fn all(self) -> &'static [Quantity] {
+        // The table lists quantities of one kind one after the other.
+        let mut kinds = Quantity::ALL.chunk_by(|a, b| a.needs() == b.needs());
+        kinds.find(|kind| kind[0].needs() == self).unwrap_or_default()
     }
 
     /// The quantity of this name among them.
@@ -301,11 +299,6 @@ impl Quantity {
     /// The name: `u_end`. No other quantity that needs the same has it.
     pub fn name(self) -> &'static str {
         self.facts().name
-    }
-
-    /// The name in a list of its own kind, which says the rest: `from` of a contact, `total` of energies.
-    pub fn key(self) -> &'static str {
-        self.facts().key
     }
 
     /// What else it is called.

@@ -5,9 +5,10 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use super::error::{SceneError, position};
-use super::reader::{Key, Reader, Value, did_you_mean};
+use super::reader::{Key, Reader, Value};
 use super::suggest;
 use super::target::Target;
+use crate::names::did_you_mean;
 use crate::number::Number;
 use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
@@ -75,7 +76,7 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 /// use dalembert::Scene;
 /// let scene = Scene::parse("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 2, gap = 3 }\n")?;
 /// let history = scene.problem.doubles()?;
-/// assert_eq!((history.contacts()[0].from, history.contacts()[0].to), (1.5, Some(3.5))); // gap/μ, and 2L/c more
+/// assert_eq!((history.contacts()[0].impact, history.contacts()[0].release), (1.5, Some(3.5))); // gap/μ, and 2L/c more
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

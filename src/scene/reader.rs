@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::SceneError;
-use super::suggest;
+use crate::names::{did_you_mean, nearest};
 use crate::number::Number;
 use crate::problem::given::Given;
 use crate::problem::written::short;
@@ -57,7 +57,7 @@ impl<'a> Reader<'a> {
         let place = known.iter().position(|name| *name == text);
         place.map(Some).ok_or_else(|| {
             let found = format!("{key} = {}", short(self.slice(&span)));
-            let hint = did_you_mean(suggest::nearest(text, known));
+            let hint = did_you_mean(nearest(text, known.iter().copied()));
             self.error(span, Kind::OutOfRange, found, format!("one of {}{hint}", known.join(", ")))
         })
     }
@@ -107,9 +107,4 @@ impl<'a> Reader<'a> {
     pub(super) fn slice(&self, span: &Range<usize>) -> &'a str {
         self.source.get(span.clone()).unwrap_or_default()
     }
-}
-
-/// ` (did you mean …?)` for what may be meant.
-pub(super) fn did_you_mean(meant: Option<impl std::fmt::Display>) -> String {
-    meant.map_or(String::new(), |meant| format!(" (did you mean {meant}?)"))
 }

@@ -1,5 +1,7 @@
 //! What a person may have meant by a word that no scene has.
 
+use crate::names::nearest;
+
 /// Common words for a key, in lower case.
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("title", &["name", "description"]),
@@ -29,7 +31,7 @@ const FREE: &[&str] = &["open", "loose", "unclamped", "neumann"];
 
 /// The key meant by `key` in the table of this name, in words: `modulus`, or `drop_height in [impact]`.
 pub(super) fn key(key: &str, table: &str, known: &[&'static str]) -> Option<String> {
-    if let Some(near) = nearest(key, known) {
+    if let Some(near) = nearest(key, known.iter().copied()) {
         return Some(near.into());
     }
     let word = key.to_lowercase().replace('-', "_").replace('\'', "");
@@ -55,31 +57,6 @@ pub(super) fn top(text: &str) -> Option<&'static str> {
     match word {
         _ if FIXED.contains(&word) => Some("fixed"),
         _ if FREE.contains(&word) => Some("free"),
-        _ => nearest(word, &["fixed", "free"]),
+        _ => nearest(word, ["fixed", "free"]),
     }
-}
-
-/// The known word that is spelled most like `word`, if any is close.
-pub(super) fn nearest(word: &str, known: &[&'static str]) -> Option<&'static str> {
-    // A word of more than 40 bytes is close to none, and the distance is quadratic.
-    if word.len() > 40 {
-        return None;
-    }
-    let (distance, name) = known.iter().map(|name| (edit_distance(word, name), *name)).min()?;
-    (distance <= 1 + name.len() / 4).then_some(name)
-}
-
-/// The least number of characters to insert, delete or replace that makes `a` into `b`.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = i;
-        row[0] = i + 1;
-        for (j, y) in b.chars().enumerate() {
-            let replaced = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.chars().count()]
 }

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::error::SceneError;
 use super::reader::{Reader, Value};
-use super::suggest;
 use crate::motion::Side;
+use crate::names::nearest;
 use crate::number::Number;
 use crate::problem::ProblemErrorKind as Kind;
 use crate::quantity::{Measure, Needs, Quantity};
@@ -90,7 +90,7 @@ impl<'a> Reader<'a> {
 
     /// The published value of this table, which stands at `span`.
     fn target(&self, span: Range<usize>, has_material: bool) -> Result<Target, SceneError> {
-        let near = |key: &str| suggest::nearest(key, KEYS).map(String::from);
+        let near = |key: &str| nearest(key, KEYS.iter().copied()).map(String::from);
         self.check_known((self.document, "[[target]]"), KEYS, near)?;
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::Missing, format!("no {key} in [[target]]"), expected)

@@ -43,7 +43,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         let mut course = engine.course().clone().map(M::read);
         for event in &mut course.events {
             // The time has been rounded once more.
-            event.time_error = event.time_error.max(event.time.log2_error().exp2());
+            event.t_error = event.t_error.max(event.t.log2_error().exp2());
         }
         let precision = engine.end().precision();
         let rounds = N::spelling(&1.into(), &precision).spelled_as().is_some();
@@ -141,7 +141,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if spelled(time).is_some() {
             return M::read(end.clone()).alike(time).then_some(end);
         }
-        let mut known = self.engine.events().iter().map(|event| &event.time).chain([&end]);
+        let mut known = self.engine.events().iter().map(|event| &event.t).chain([&end]);
         // Both are rounded, each to its own bits.
         let same = |known: &&N| {
             let known = M::read((*known).clone());

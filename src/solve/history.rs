@@ -33,7 +33,7 @@ use crate::reason::Warning;
 /// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
 /// let history = rod.solve()?;
 /// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-/// assert_eq!(history.contacts()?[0].to.as_ref().map(Value::to_f64), Some(2.0));
+/// assert_eq!(history.contacts()?[0].release.as_ref().map(Value::to_f64), Some(2.0));
 /// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
 /// assert_eq!(history.at(0.25, 0.5)?.strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())
@@ -99,12 +99,12 @@ impl Listing {
         Quantity::EnergyRestitution,
         Quantity::TranslationalShare,
         Quantity::EnergyKept,
-        Quantity::EnergyLeft,
-        Quantity::TranslationalLeft,
-        Quantity::VibrationalLeft,
+        Quantity::EnergyAfter,
+        Quantity::TranslationalAfter,
+        Quantity::VibrationalAfter,
     ];
     /// Quantities of a flight.
-    pub const FLIGHTS: [Quantity; 4] = [Quantity::FlightBegins, Quantity::FlightEnds, Quantity::TopTime, Quantity::Top];
+    pub const FLIGHTS: [Quantity; 4] = [Quantity::Takeoff, Quantity::Landing, Quantity::TopTime, Quantity::Top];
 }
 
 impl History {
@@ -199,11 +199,11 @@ impl History {
             })?;
             Ok(events.into_iter().map(|event| Event {
                 kind: event.kind,
-                time: self.value(event.time, Some(Measure::Time)),
-                end_velocity: self.value(event.end_velocity, Some(Measure::Velocity)),
-                centre: self.value(event.centre, Some(Measure::Length)),
-                centre_velocity: self.value(event.centre_velocity, Some(Measure::Velocity)),
-                time_error: event.time_error,
+                t: self.value(event.t, Some(Measure::Time)),
+                v_end: self.value(event.v_end, Some(Measure::Velocity)),
+                h: self.value(event.h, Some(Measure::Length)),
+                h_rate: self.value(event.h_rate, Some(Measure::Velocity)),
+                t_error: event.t_error,
             }).collect())
         })
     }
@@ -216,8 +216,8 @@ impl History {
             })?;
             let scales = history.carried_scales();
             Ok(contacts.into_iter().map(|contact| Contact {
-                from: self.value(contact.from, Some(Measure::Time)),
-                to: contact.to.map(|to| self.value(to, Some(Measure::Time))),
+                impact: self.value(contact.impact, Some(Measure::Time)),
+                release: contact.release.map(|release| self.value(release, Some(Measure::Time))),
                 impulse: self.quantity(Quantity::ContactImpulse, contact.impulse, &scales),
                 peak_strain: self.value(contact.peak_strain, Some(Measure::Strain)),
             }).collect())

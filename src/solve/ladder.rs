@@ -268,7 +268,7 @@ fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
 /// Whether the last event is not told from the end of the run, which it may come after.
 fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
-    let left = engine.end() - &event.time;
+    let left = engine.end() - &event.t;
     left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
 }
 

@@ -45,7 +45,7 @@ impl Places<'_> {
             Places::Printed(list) => list.iter().map(|x| S::spelling(x, &precision)).collect(),
             Places::Events => {
                 let mut times = vec![end.zero()];
-                for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
+                for time in motion.events().iter().map(|event| &event.t).chain([&end]) {
                     if times.last().map_or(Ok(true), |last| last.below(time))? {
                         times.push(time.clone());
                     }

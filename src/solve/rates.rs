@@ -188,7 +188,7 @@ fn with_rates<S: Bounded>(
         }
     }
     // What is listed comes before a coincidence in the trip that begins then.
-    let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.time.to_f64() < from);
+    let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.t.to_f64() < from);
     let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
     Ok((rows, history.warnings().iter().all(settled)))
 }

@@ -36,8 +36,8 @@ impl Sensitivity {
         for (event, row) in history.events().iter().zip(&derivatives) {
             let sides = row[0].as_ref().map(|derivative| derivative.sides());
             let slopes = sides.into_iter().flatten().flatten().map(|slope| slope.value().abs());
-            let most = slopes.fold(0.0, f64::max) * value.abs() / event.time;
-            found.extend((event.time > 0.0 && most > 0.0).then_some(most));
+            let most = slopes.fold(0.0, f64::max) * value.abs() / event.t;
+            found.extend((event.t > 0.0 && most > 0.0).then_some(most));
         }
         let (first, last) = (*found.first()?, *found.last()?);
         let grown = (last / first).log10() / found.len().checked_sub(1).filter(|count| *count > 0)? as f64;

@@ -34,7 +34,7 @@ use crate::threads::locked;
 /// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
 /// let motion = rod.doubles()?;
 /// // Corollary 1: μ = 3 ≥ g t₁ = 2, so the contact lasts exactly t₁ = 2L/c.
-/// assert_eq!(motion.contacts()[0].to, Some(2.0));
+/// assert_eq!(motion.contacts()[0].release, Some(2.0));
 /// // d'Alembert: at t = 1/2 the wave front of the impact is at x = 1/2; below it v_x = −(μ + g(t − x))/c.
 /// assert_eq!(motion.at(0.25, 0.5)?.strain, -3.25);
 /// # Ok::<(), dalembert::Error>(())
@@ -179,7 +179,7 @@ impl<S: Target> TypedHistory<S> {
     /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
     /// let history = rod.digits(50)?;
     /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
-    /// assert_eq!(history.text(history.contacts()[0].to.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
+    /// assert_eq!(history.text(history.contacts()[0].release.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
     /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
     /// # }
     /// # Ok::<(), dalembert::Error>(())
@@ -391,32 +391,37 @@ impl<S: Target> TypedHistory<S> {
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
-    /// The columns of a table by name, such as the `from`, `to`, `impulse` and `peak_strain` of all contacts; with a
-    /// material in its units. What there is not, such as the end of a contact that lasts, is `None`.
+    /// The columns of a table, such as the `impact`, `release`, `impulse` and `peak_strain` of all contacts; with a
+    /// material in its units. What there is not, such as the release of a contact that lasts, is `None`.
     ///
     /// **Accuracy**: that of the [`Plan`].
     ///
     /// ```
-    /// use dalembert::{Problem, quantity::Table};
+    /// use dalembert::{Problem, Quantity, quantity::Table};
     /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
     /// // c = 2 and t₁ = 2; ρS L μ turns round.
     /// let contacts = rod.doubles()?.table(Table::Contacts)?;
-    /// assert_eq!(contacts[1], ("to", vec![Some(2.0)]));
-    /// assert_eq!(contacts[2], ("impulse", vec![Some(8.0)]));
+    /// assert_eq!(contacts[1], (Quantity::Release, vec![Some(2.0)]));
+    /// assert_eq!(contacts[5], (Quantity::ContactImpulse, vec![Some(8.0)]));
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
         let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
-        Ok(self.ask_table(table)?.into_iter().map(|(name, column)| (name, strip(column))).collect())
+        Ok(self.ask_table(table)?.into_iter().map(|(quantity, column)| (quantity, strip(column))).collect())
     }
 
     /// [`TypedHistory::table`] in numbers that carry their bound.
     #[doc(hidden)]
     pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
         let units = self.units();
+        // In doubles a ratio is as accurate as its parts.
+        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         self.ask(
             |motion| quantity::table(motion, table, &units),
-            |columns| columns.iter().flat_map(|(_, column)| column.iter().flatten()).collect(),
+            |columns| {
+                let settled = columns.iter().filter(|(quantity, _)| !doubles || quantity.measure().is_some());
+                settled.flat_map(|(_, column)| column.iter().flatten()).collect()
+            },
         )
     }
 

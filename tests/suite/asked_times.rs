@@ -73,7 +73,7 @@ fn asked(problem: &Problem, numbers: Numbers, times: &[Number]) -> (Vec<[Values;
 /// The times that doubles print for the events, and a unit of their last digit beside them.
 fn printed(problem: &Problem) -> Vec<Number> {
     let history = problem.doubles().unwrap();
-    let times = history.events().iter().skip(1).map(|event| event.time);
+    let times = history.events().iter().skip(1).map(|event| event.t);
     times
         .flat_map(|time| [time, time.next_down(), time.next_up()])
         .map(|time| time.to_string().parse().unwrap())
@@ -100,8 +100,8 @@ fn held(problem: &Problem, modes: &[Numbers], counts: &mut Counts) {
     for (time, [left, _]) in times.iter().zip(&known) {
         let exact = Float::with_val(BITS, time.to_rational());
         let apart = |event: &Float| Float::with_val(BITS, &exact - event).to_f64();
-        let passed = truth.events().iter().rfind(|event| apart(&event.time) > 1e-50);
-        let near = truth.events().iter().map(|event| apart(&event.time).abs()).fold(1.0, f64::min);
+        let passed = truth.events().iter().rfind(|event| apart(&event.t) > 1e-50);
+        let near = truth.events().iter().map(|event| apart(&event.t).abs()).fold(1.0, f64::min);
         if near < 1e-50 {
             continue;
         }
@@ -296,9 +296,9 @@ fn an_event_has_its_own_energies() {
     let problem = rod.impacts(1).build().unwrap();
     let doubles = Undamped::<Estimate<f64>>::solve(&problem, &()).unwrap();
     let exact = Undamped::<Rational>::solve(&problem, &()).unwrap();
-    let release = exact.energy(&exact.events()[1].time).unwrap().vibrational;
+    let release = exact.energy(&exact.events()[1].t).unwrap().vibrational;
     assert_eq!(release, Rational::from((2, 3)));
-    let found = doubles.energy(&doubles.events()[1].time).unwrap().vibrational;
+    let found = doubles.energy(&doubles.events()[1].t).unwrap().vibrational;
     let off = (Rational::from_f64(*found.value()).unwrap() - release).to_f64().abs();
     assert!(off <= found.bound() && found.bound() < 1e-6, "{found:?}");
 }

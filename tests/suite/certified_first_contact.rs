@@ -96,10 +96,10 @@ fn proved(digits: i32, bits: u32) {
             continue;
         }
         let bounce = &contact.events()[1];
-        check(&format!("{name} t_b"), &bounce.time, &case["bounce_time"], time, digits);
-        check(&format!("{name} h(t_b)"), &bounce.centre, &case["bounce_h"], speed * time, digits);
-        check(&format!("{name} h′(t_b)"), &bounce.centre_velocity, &case["bounce_h_rate"], speed, digits);
-        let energy = contact.energy(&bounce.time).unwrap();
+        check(&format!("{name} t_b"), &bounce.t, &case["bounce_time"], time, digits);
+        check(&format!("{name} h(t_b)"), &bounce.h, &case["bounce_h"], speed * time, digits);
+        check(&format!("{name} h′(t_b)"), &bounce.h_rate, &case["bounce_h_rate"], speed, digits);
+        let energy = contact.energy(&bounce.t).unwrap();
         let unit = speed * speed * scales.length.to_f64();
         let truth = &case["bounce_energy"];
         check(&format!("{name} E"), &energy.total, &truth["total"], unit, digits);
@@ -122,7 +122,7 @@ fn a_thousand_digits_of_figure_one() {
     for (damping, near) in [("2.6", 1.788481033298875), ("2.9", 2.553022499313244), ("3.0", 3.299026051445772)] {
         let started = std::time::Instant::now();
         let contact = solve(&problem(["1/2", "1", damping, "0", "1"]), 3400);
-        let time = &contact.events()[1].time;
+        let time = &contact.events()[1].t;
         assert!((time.mid().to_f64() - near).abs() < 1e-14, "{damping}");
         let width = time.width();
         assert!(width.hi().to_rational().unwrap() < power_of_ten(-1001), "{damping}: {}", width.text());
@@ -157,7 +157,7 @@ fn bounce_or_none_on_both_sides_of_pi() {
         ("3.14", "31.40409847658940057227989202780933895332"),
     ] {
         let contact = solve(&damped([damping, "0", "1"]), 512);
-        check(damping, &contact.events()[1].time, &Value::from(truth), 1.0, 50);
+        check(damping, &contact.events()[1].t, &Value::from(truth), 1.0, 50);
     }
 }
 
@@ -165,12 +165,12 @@ fn bounce_or_none_on_both_sides_of_pi() {
 #[test]
 fn both_sides_of_the_threshold() {
     let below = solve(&problem(["1", "1", "0.2", "1", "2.59364495455919430337818987448"]), 128);
-    let (lattice, time) = (below.bounce().unwrap().1, &below.events()[1].time);
+    let (lattice, time) = (below.bounce().unwrap().1, &below.events()[1].t);
     assert_eq!(lattice, None);
     assert!(*time.lo() > 2 && *time.hi() < 2.00001, "{}", time.text());
     let above = solve(&problem(["1", "1", "0.2", "1", "2.59364495456119430337818987448"]), 128);
     assert_eq!(above.bounce().unwrap().1, Some(1));
-    assert_eq!(above.events()[1].time.width().to_f64(), 0.0);
+    assert_eq!(above.events()[1].t.width().to_f64(), 0.0);
 }
 
 #[test]
@@ -178,9 +178,9 @@ fn the_least_and_the_greatest_damping() {
     // 1e-300: t_b is 2t₁ − μ/g but for 1e-300.
     for (damping, digits) in [("1e-9", 8), ("1e-300", 280)] {
         let contact = solve(&problem(["1", "1", damping, "1", "3/2"]), 1100);
-        let off = contact.events()[1].time.clone() - exactly(&contact, &number("5/2"));
+        let off = contact.events()[1].t.clone() - exactly(&contact, &number("5/2"));
         assert!(off.magnitude().hi().to_rational().unwrap() < power_of_ten(-digits), "{damping}: {}", off.text());
-        assert!(contact.events()[1].time.radius() < 1e-250);
+        assert!(contact.events()[1].t.radius() < 1e-250);
     }
     let contact = solve(&problem(["1", "1", "25", "1", "1"]), 256);
     assert!(matches!(contact.ending(), Ending::NoBounce(_)), "{:?}", contact.ending());
@@ -200,8 +200,8 @@ fn everything(contact: &ContactHistory<Interval>, times: &[&str]) -> Vec<Interva
     times.push(contact.end());
     let mut list = vec![contact.contacts()[0].impulse.clone(), contact.contacts()[0].peak_strain.clone()];
     for event in contact.events() {
-        list.extend([event.time.clone(), event.end_velocity.clone(), event.centre.clone()]);
-        list.push(event.centre_velocity.clone());
+        list.extend([event.t.clone(), event.v_end.clone(), event.h.clone()]);
+        list.push(event.h_rate.clone());
     }
     for t in &times {
         for side in [Side::Left, Side::Right] {
@@ -255,7 +255,7 @@ fn ordinary_numbers_lie_inside() {
         let rod = Parameters::<Float>::of(&problem(case), &500).unwrap();
         let contact = FirstContact::new(&rod.carry());
         match contact.bounce() {
-            Bounce::At { time, .. } => assert!(holds(&proved.events()[1].time, time.value(), 1e-120), "{case:?}"),
+            Bounce::At { time, .. } => assert!(holds(&proved.events()[1].t, time.value(), 1e-120), "{case:?}"),
             Bounce::Never(_) => assert!(proved.bounce().is_none(), "{case:?}"),
             Bounce::Undecided { why, .. } => panic!("{case:?}: {why}"),
         }
@@ -352,13 +352,13 @@ fn pieces_hold_the_stress() {
     for case in [CASES[2], CASES[3], CASES[5], CASES[7]] {
         let contact = solve(&problem(case), 160);
         let pieces = contact.stress_pieces();
-        assert_eq!(*pieces[0].from.hi(), 0);
-        assert!(pieces.last().unwrap().to.meet(&contact.end()).is_some());
+        assert_eq!(*pieces[0].start.hi(), 0);
+        assert!(pieces.last().unwrap().end.meet(&contact.end()).is_some());
         for piece in pieces.iter().take(3) {
             for part in [1, 4, 9] {
-                let x = piece.from.ratio(part, 5) - piece.from.one();
-                let time = (piece.to.clone() - &piece.from) * &piece.from.ratio(part, 10) + &piece.from;
-                let (mut before, mut value) = (piece.from.zero(), piece.from.zero());
+                let x = piece.start.ratio(part, 5) - piece.start.one();
+                let time = (piece.end.clone() - &piece.start) * &piece.start.ratio(part, 10) + &piece.start;
+                let (mut before, mut value) = (piece.start.zero(), piece.start.zero());
                 for c in piece.chebyshev.iter().skip(1).rev() {
                     let next = x.clone() * &x.int(2) * &value - &before + c;
                     before = std::mem::replace(&mut value, next);
@@ -376,7 +376,7 @@ fn pieces_hold_the_stress() {
 #[test]
 fn every_number_has_its_proved_digits() {
     let history = problem(["1", "1", "0.3", "1", "2"]).certified(100).unwrap();
-    let (time, e) = (history.contacts()[0].to.clone().unwrap(), history.restitution(0).unwrap());
+    let (time, e) = (history.contacts()[0].release.clone().unwrap(), history.restitution(0).unwrap());
     check("t_b", &time, &Value::from("3.97277918129047974002999995477923813872379549"), 1.0, 100);
-    check("e_P", &e.momentum.unwrap(), &Value::from("-0.28693309509651477688219222890632650211"), 1.0, 100);
+    check("e_P", &e.e_p.unwrap(), &Value::from("-0.28693309509651477688219222890632650211"), 1.0, 100);
 }

@@ -61,10 +61,10 @@ fn fifty_digits_of_every_event_of_the_reference() {
             let kind = if truth["kind"] == "impact" { EventKind::Impact } else { EventKind::Release };
             assert_eq!(event.kind, kind, "{name}");
             for (key, ours, scale) in [
-                ("time", &event.time, 1.0),
-                ("approach", &event.end_velocity, speed),
-                ("h", &event.centre, length),
-                ("h_rate", &event.centre_velocity, speed),
+                ("time", &event.t, 1.0),
+                ("approach", &event.v_end, speed),
+                ("h", &event.h, length),
+                ("h_rate", &event.h_rate, speed),
             ] {
                 if !truth[key].is_null() {
                     proved(&format!("{name}: {key} at {}", truth["time"]), ours, &truth[key], scale);
@@ -87,15 +87,15 @@ fn a_tangential_landing_is_proved_by_exact_arithmetic() {
     let problem = rod("1", "80");
     let exact = IntervalPrecision::with_exact(192);
     let events = Undamped::<Interval>::solve(&problem, &exact).unwrap().events().to_vec();
-    let touch = events.iter().find(|event| event.time.contains(&31.into())).unwrap();
+    let touch = events.iter().find(|event| event.t.contains(&31.into())).unwrap();
     assert_eq!(touch.kind, EventKind::Impact);
-    assert_eq!(touch.end_velocity.vanishes(), Ok(true));
+    assert_eq!(touch.v_end.vanishes(), Ok(true));
     // One period later, and everything in between is the same again.
-    let first: Vec<_> = events.iter().filter(|event| *event.time.hi() < 36).collect();
+    let first: Vec<_> = events.iter().filter(|event| *event.t.hi() < 36).collect();
     for (before, after) in first.iter().zip(&events[first.len()..]) {
-        let later = before.time.clone() + &before.time.int(36);
-        assert_eq!(later.compare(&after.time), Ok(Ordering::Equal), "{later:?} {:?}", after.time);
-        assert_eq!(before.centre.compare(&after.centre), Ok(Ordering::Equal));
+        let later = before.t.clone() + &before.t.int(36);
+        assert_eq!(later.compare(&after.t), Ok(Ordering::Equal), "{later:?} {:?}", after.t);
+        assert_eq!(before.h.compare(&after.h), Ok(Ordering::Equal));
     }
     assert_eq!(first.len(), 16);
     // Intervals alone leave it open, however many bits they have.
@@ -108,7 +108,7 @@ fn a_tangential_landing_is_proved_by_exact_arithmetic() {
         // What is there holds, and what may come is the same but for the width of what is known.
         assert!(*spread > 0.0 && spread.log2() < 20.0 - f64::from(bits), "{spread:e}");
         for (ours, exact) in history.events().iter().zip(&events) {
-            assert!(ours.time.meet(&exact.time).is_some() && ours.kind == exact.kind);
+            assert!(ours.t.meet(&exact.t).is_some() && ours.kind == exact.kind);
         }
     }
 }
@@ -124,7 +124,7 @@ fn irrational_wave_speeds_keep_their_coincidences() {
     let t1 = length / (Float::with_val(400, 210e9) / 7800u32).sqrt();
     // After the touch at gap/μ = 5e-5/0.1.
     let t1 = t1 + Float::with_val(400, 1) / 2000;
-    let to = contact.to.unwrap();
+    let to = contact.release.unwrap();
     assert!(*to.lo() <= t1 && *to.hi() >= t1 && to.radius() < 1e-50, "{to:?}");
 }
 
@@ -135,7 +135,7 @@ fn digits_of_another_run_lie_inside() {
         let problem = rod(speed, time);
         let float = undamped::<Float>(&problem, &700).unwrap();
         let history = problem.certified(40).unwrap();
-        let mut proved: Vec<Interval> = history.events().iter().map(|event| event.time.clone()).collect();
+        let mut proved: Vec<Interval> = history.events().iter().map(|event| event.t.clone()).collect();
         for k in 1..8i64 {
             let t = history.end().clone() * &history.end().ratio(k, 8);
             let (h, rate) = history.centre(t.clone()).unwrap();
@@ -143,7 +143,7 @@ fn digits_of_another_run_lie_inside() {
                 (history.energy(t.clone()).unwrap(), history.ground_end(t.clone(), Side::Right).unwrap().0);
             proved.extend([h, rate, energy.vibrational, end, history.strain(t, Side::Left).unwrap()]);
         }
-        let mut rounded: Vec<Float> = float.events().iter().map(|event| event.time.clone()).collect();
+        let mut rounded: Vec<Float> = float.events().iter().map(|event| event.t.clone()).collect();
         for k in 1..8u32 {
             let t = float.end() * k / 8u32;
             let (h, rate) = float.centre(&t).unwrap();

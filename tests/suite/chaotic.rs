@@ -19,8 +19,8 @@ fn every_event_has_its_digits() {
     let check = undamped::<Float>(&problem, &(2 * bits)).unwrap();
     assert_eq!(history.events().len(), check.events().len());
     for (a, b) in history.events().iter().zip(check.events()) {
-        let error = Float::with_val(64, &b.time - &a.time).abs().to_f64();
-        assert!(error <= 1e-15 * b.time.to_f64().max(1.0), "{error:e} at {}", b.time);
+        let error = Float::with_val(64, &b.t - &a.t).abs().to_f64();
+        assert!(error <= 1e-15 * b.t.to_f64().max(1.0), "{error:e} at {}", b.t);
     }
     // Double precision has long lost it by then, and says so.
     let rounded = undamped::<f64>(&problem, &()).unwrap();

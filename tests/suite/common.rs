@@ -107,7 +107,7 @@ pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> TypedHistory<f64>
 
 /// `t_b` and its bound, where the rod bounces.
 pub(crate) fn bounce_time(history: &TypedHistory<f64>) -> Option<(f64, f64)> {
-    history.events().get(1).map(|release| (release.time, release.time_error))
+    history.events().get(1).map(|release| (release.t, release.t_error))
 }
 
 /// Numbers that look random, the same on every machine (splitmix64).

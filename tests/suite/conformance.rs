@@ -35,7 +35,7 @@ impl Tally {
 fn times<S: Scalar>(motion: &dyn Motion<S>) -> Vec<S> {
     let (end, rays) = (motion.end(), RayRegister::of(motion));
     let mut times = vec![end.zero(), end.clone(), end.clone() * end.ratio(3, 17), end.clone() * end.ratio(7, 9)];
-    times.extend(motion.events().iter().map(|event| event.time.clone()));
+    times.extend(motion.events().iter().map(|event| event.t.clone()));
     for point in [end.zero(), motion.scales().length, motion.scales().length * end.ratio(1, 4)] {
         times.extend(rays.passing(&point, 0.0, end.to_f64()).into_iter().take(9).map(|ray| ray.time));
     }
@@ -132,16 +132,17 @@ fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
     assert_eq!(forwards, backwards);
     // Times are known by their events.
     for contact in motion.contacts() {
-        let known = |time: &S| motion.events().iter().any(|event| event.time.text() == time.text());
-        assert!(known(&contact.from) && contact.to.as_ref().is_none_or(known), "{contact:?}");
+        let known = |time: &S| motion.events().iter().any(|event| event.t.text() == time.text());
+        assert!(known(&contact.impact) && contact.release.as_ref().is_none_or(known), "{contact:?}");
     }
     let pieces = motion.stress_pieces();
     for pair in pieces.windows(2) {
-        tally.same(&"pieces without a gap", &pair[0].to, &pair[1].from);
+        tally.same(&"pieces without a gap", &pair[0].end, &pair[1].start);
     }
     for (piece, side) in pieces.iter().flat_map(|piece| [(piece, Side::Left), (piece, Side::Right)]) {
-        let (time, value) = if side == Side::Left { (&piece.to, &piece.left) } else { (&piece.from, &piece.left) };
-        let value = if side == Side::Left { &piece.right } else { value };
+        let (time, value) =
+            if side == Side::Left { (&piece.end, &piece.strain_start) } else { (&piece.start, &piece.strain_start) };
+        let value = if side == Side::Left { &piece.strain_end } else { value };
         if let Ok(strain) = motion.strain(time, side) {
             tally.same(&("stress piece", time, side), &strain, value);
         }

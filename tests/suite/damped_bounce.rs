@@ -61,23 +61,23 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
         for (k, (ours, theirs)) in history.events().iter().zip(marched.events()).enumerate() {
             // Of a landing that hardly moves, or a release without a jump that the next ray may shift, neither bound is
             // small.
-            let apart = (ours.time - theirs.time).abs();
-            let allowed = ours.time_error + theirs.time_error;
+            let apart = (ours.t - theirs.t).abs();
+            let allowed = ours.t_error + theirs.t_error;
             if ours.kind != theirs.kind || (allowed > 1e-6 * scales.time && apart > allowed) {
-                last = ours.time.min(theirs.time);
+                last = ours.t.min(theirs.t);
                 break;
             }
             assert!(apart <= allowed, "{problem:?} event {k}: {ours:?} {theirs:?}");
             let see = |what: &str, a: f64, b: f64, unit: f64| {
                 assert!((a - b).abs() <= bound * unit, "{problem:?} event {k}, {what}: {a:e} {b:e}, {bound:e}");
             };
-            see("h", ours.centre, theirs.centre, scales.velocity * scales.time);
-            see("h'", ours.centre_velocity, theirs.centre_velocity, scales.velocity);
+            see("h", ours.h, theirs.h, scales.velocity * scales.time);
+            see("h'", ours.h_rate, theirs.h_rate, scales.velocity);
             compared += 1;
         }
         settled += i32::from(history.events().len() == marched.events().len());
         // Times on either side of the bounce, some with the closed form still in the upper part of the rod.
-        let release = history.events()[1].time;
+        let release = history.events()[1].t;
         for share in [0.1, 0.7, 1.0 + 0.2 * scales.time / release, 1.3, 1.9, 2.6] {
             let t = release * share;
             if t >= last {
@@ -144,13 +144,14 @@ fn answers_carry_their_bounds() {
             );
         };
         for (ours, truth) in bounded.events().iter().zip(truth.events()) {
-            near("time", &ours.time, &truth.time);
-            near("velocity", &ours.end_velocity, &truth.end_velocity);
-            near("h", &ours.centre, &truth.centre);
-            near("h'", &ours.centre_velocity, &truth.centre_velocity);
+            near("time", &ours.t, &truth.t);
+            near("velocity", &ours.v_end, &truth.v_end);
+            near("h", &ours.h, &truth.h);
+            near("h'", &ours.h_rate, &truth.h_rate);
         }
         // A contact without end lasts as long as the history, which may end elsewhere in more digits.
-        for (ours, truth) in bounded.contacts().iter().zip(truth.contacts()).filter(|(ours, _)| ours.to.is_some()) {
+        for (ours, truth) in bounded.contacts().iter().zip(truth.contacts()).filter(|(ours, _)| ours.release.is_some())
+        {
             near("impulse", &ours.impulse, &truth.impulse);
             near("peak", &ours.peak_strain, &truth.peak_strain);
         }
@@ -182,10 +183,9 @@ fn a_flight_outlasts_its_vibration() {
         let problem = problem.impacts(2).build().unwrap();
         let history = problem.doubles().unwrap();
         let [_, release, landing, ..] = history.events() else { panic!("{:?}", history.events()) };
-        let (age, drag) = (landing.time - release.time, 2.0 * damping);
+        let (age, drag) = (landing.t - release.t, 2.0 * damping);
         // h(τ) = h₀ + (h₀′ + g/2r)(1 − e^{−2rτ})/2r − gτ/2r, and h = 0 where a rod without vibration lands.
-        let height =
-            release.centre + (release.centre_velocity + 1.0 / drag) * -(-drag * age).exp_m1() / drag - age / drag;
+        let height = release.h + (release.h_rate + 1.0 / drag) * -(-drag * age).exp_m1() / drag - age / drag;
         assert!(height.abs() < 1e-10 * age, "r = {damping}: {height:e} after {age}");
         assert!(age > 1e4, "{age}");
     }

@@ -149,22 +149,22 @@ fn the_undamped_lattice_is_the_limit() {
         let lattice = undamped::<f64>(&plain, &()).unwrap();
         let scales = history.scales();
         // Landings without speed, and releases where the stress only comes to zero, may be missed by one of the two.
-        let transversal = |event: &Event<f64>| event.end_velocity.abs() > 0.02 * scales.velocity;
+        let transversal = |event: &Event<f64>| event.v_end.abs() > 0.02 * scales.velocity;
         let magnified = |event: &Event<f64>| {
-            (event.time_error / scales.time / f64::EPSILON).max(1.0) * 1e-12 * (1.0 + event.time / scales.time)
+            (event.t_error / scales.time / f64::EPSILON).max(1.0) * 1e-12 * (1.0 + event.t / scales.time)
         };
         for (ours, plain) in history.events().iter().zip(lattice.events()) {
             // From a landing without speed on, lists of events need not agree.
             if !transversal(ours) || !transversal(plain) || magnified(ours) > 1e-5 {
                 break;
             }
-            let off = (ours.time - plain.time).abs() / scales.time;
+            let off = (ours.t - plain.t).abs() / scales.time;
             if ours.kind == plain.kind && off <= magnified(ours) {
                 continue;
             }
             // Nor from a contact without stress on, which the damping may turn into a flight that hardly leaves the
             // ground: then the end of the one touches where that of the other lands or leaves.
-            let first = ours.time.min(plain.time);
+            let first = ours.t.min(plain.t);
             let end = |motion: &dyn Motion<f64>| motion.ground_end(&first, Side::Right).unwrap().0;
             let (a, b) = (end(&history), end(&lattice));
             let bound = magnified(ours) * scales.velocity * scales.time;
@@ -205,11 +205,11 @@ fn doubles_keep_their_promise() {
         if history.events().len() == truth.events().len() {
             for (a, b) in history.events().iter().zip(truth.events()) {
                 // Of a hop that rounding decides, times are known to the square root of the error only.
-                if a.kind == EventKind::Impact && a.end_velocity.abs() < 1e-6 * scales.velocity {
+                if a.kind == EventKind::Impact && a.v_end.abs() < 1e-6 * scales.velocity {
                     break;
                 }
-                let off = (a.time - b.time.to_f64()).abs();
-                prop_assert!(off <= a.time_error + b.time_error, "{a:?} {off:e}");
+                let off = (a.t - b.t.to_f64()).abs();
+                prop_assert!(off <= a.t_error + b.t_error, "{a:?} {off:e}");
             }
         }
         Ok([times(&history, 6).len()])

@@ -33,8 +33,8 @@ fn rests(history: &dyn Motion<f64>, time: i64, v: impl Fn(f64) -> f64, stress: f
     assert_eq!(history.end(), end);
     let pieces = history.stress_pieces();
     let last = pieces.last().unwrap();
-    assert_eq!(last.to, end);
-    assert!(pieces.windows(2).all(|pair| pair[0].to == pair[1].from));
+    assert_eq!(last.end, end);
+    assert!(pieces.windows(2).all(|pair| pair[0].end == pair[1].start));
     for t in [end, 0.9 * end + 0.123] {
         close("stress", history.strain(&t, Side::Left).unwrap(), stress, 1.0, 1e-11);
         for x in [0.0, 0.31, 1.0] {
@@ -79,7 +79,7 @@ fn a_rod_on_the_ground_rests_on_its_weight() {
 fn the_field_goes_over_into_rest_without_a_step() {
     let history = solve(&rod("1", "3", "0.2", 1_000));
     let pieces = history.stress_pieces();
-    let begin = pieces.last().unwrap().from;
+    let begin = pieces.last().unwrap().start;
     assert!(begin < 300.0, "{begin}");
     for t in [begin - 1e-3, begin, begin + 1e-9, begin + 1e-3] {
         for x in [0.2, 0.7, 1.0] {
@@ -98,7 +98,7 @@ fn without_gravity_the_rod_stops_in_the_air() {
         assert!(matches!(history.ending(), Ending::NoFurtherImpact(_)), "{:?}", history.ending());
         // h′ + 2rh is constant in flight.
         let release = &history.events()[1];
-        let height = release.centre + release.centre_velocity / (2.0 * damping.parse::<f64>().unwrap());
+        let height = release.h + release.h_rate / (2.0 * damping.parse::<f64>().unwrap());
         assert!(history.error_estimate() < 1e-10);
         rests(&history, 1_000_000, |_| height, 0.0);
     }

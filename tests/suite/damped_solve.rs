@@ -66,10 +66,10 @@ fn every_first_contact_in_doubles() {
         }
         let release = &history.events()[1];
         assert_eq!(release.kind, EventKind::Release, "{name}");
-        close(&format!("{name}: t_b"), release.time, f(bounce), 0.0, 1e-12);
-        close(&format!("{name}: h(t_b)"), release.centre, f(&case["bounce_h"]), 1e-3 * rise, 1e-12);
-        close(&format!("{name}: h'(t_b)"), release.centre_velocity, f(&case["bounce_h_rate"]), 1e-3 * speed, 1e-12);
-        let energy = history.energy(release.time).unwrap();
+        close(&format!("{name}: t_b"), release.t, f(bounce), 0.0, 1e-12);
+        close(&format!("{name}: h(t_b)"), release.h, f(&case["bounce_h"]), 1e-3 * rise, 1e-12);
+        close(&format!("{name}: h'(t_b)"), release.h_rate, f(&case["bounce_h_rate"]), 1e-3 * speed, 1e-12);
+        let energy = history.energy(release.t).unwrap();
         let truth = &case["bounce_energy"];
         let start = 0.5 * rod.speed * rod.speed * rod.length;
         close(&format!("{name}: E"), energy.total, f(&truth["total"]), 1e-3 * start, 1e-12);
@@ -116,10 +116,10 @@ fn every_first_contact_to_thirty_digits() {
             continue;
         }
         let release = history.events()[1].clone();
-        same("t_b", &release.time, &case["bounce_time"]);
-        same("h(t_b)", &release.centre, &case["bounce_h"]);
-        same("h'(t_b)", &release.centre_velocity, &case["bounce_h_rate"]);
-        let energy = history.energy(release.time.clone()).unwrap();
+        same("t_b", &release.t, &case["bounce_time"]);
+        same("h(t_b)", &release.h, &case["bounce_h"]);
+        same("h'(t_b)", &release.h_rate, &case["bounce_h_rate"]);
+        let energy = history.energy(release.t.clone()).unwrap();
         same("E", &energy.total, &case["bounce_energy"]["total"]);
         same("E_h", &energy.translational, &case["bounce_energy"]["translational"]);
         same("E_z", &energy.vibrational, &case["bounce_energy"]["vibrational"]);
@@ -137,9 +137,9 @@ fn later_impacts() {
         for (event, truth) in history.events()[1..].iter().zip(expected) {
             let value = |key: &str| truth[key].as_f64().unwrap();
             assert_eq!(event.kind == EventKind::Impact, truth["kind"] == "impact", "{name}");
-            close(&format!("{name}: time"), event.time, value("time"), 1.0, 1e-9);
-            close(&format!("{name}: h"), event.centre, value("h"), 1.0, 1e-9);
-            close(&format!("{name}: h'"), event.centre_velocity, value("h_rate"), 1.0, 1e-9);
+            close(&format!("{name}: time"), event.t, value("time"), 1.0, 1e-9);
+            close(&format!("{name}: h"), event.h, value("h"), 1.0, 1e-9);
+            close(&format!("{name}: h'"), event.h_rate, value("h_rate"), 1.0, 1e-9);
         }
     }
 }
@@ -162,7 +162,7 @@ fn late_bounces_are_no_rounding_noise() {
         let release = in_doubles(&late(damping), None).events()[1].clone();
         assert_eq!(release.kind, EventKind::Release);
         // Doubles carry r = 3.14 itself only to 1e-16, but the scene's decimal is exact.
-        close(damping, release.time, truth.parse().unwrap(), 0.0, 1e-15);
+        close(damping, release.t, truth.parse().unwrap(), 0.0, 1e-15);
     }
 }
 
@@ -186,7 +186,7 @@ fn the_threshold_of_the_first_bounce() {
     let near = |speed: &str| {
         let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(1));
         problem.rod.damping = Some("0.2".parse().unwrap());
-        in_doubles(&problem, None).events()[1].time
+        in_doubles(&problem, None).events()[1].t
     };
     let below = near("2.59364495455930337818987448");
     assert!(below > 2.0 && below < 2.0 + 1e-9, "{below}");
@@ -213,9 +213,9 @@ fn the_ladder_of_accuracies() {
         assert!(history.error_estimate() <= accuracy, "{accuracy:e}");
         assert_eq!(history.events().len(), truth.events().len());
         for (ours, truth) in history.events().iter().zip(truth.events()) {
-            close("time", ours.time, truth.time.to_f64(), scales.time, accuracy);
-            close("h", ours.centre, truth.centre.to_f64(), scales.time * scales.velocity, accuracy);
-            close("h'", ours.centre_velocity, truth.centre_velocity.to_f64(), scales.velocity, accuracy);
+            close("time", ours.t, truth.t.to_f64(), scales.time, accuracy);
+            close("h", ours.h, truth.h.to_f64(), scales.time * scales.velocity, accuracy);
+            close("h'", ours.h_rate, truth.h_rate.to_f64(), scales.velocity, accuracy);
         }
     }
 }
@@ -229,7 +229,7 @@ fn later_impacts_to_fifty_digits() {
     let (a, b) = (problem.digits(50).unwrap(), problem.digits(60).unwrap());
     assert_eq!(a.events().len(), 7);
     for (a, b) in a.events().iter().zip(b.events()) {
-        for (x, y) in [(&a.time, &b.time), (&a.centre, &b.centre), (&a.centre_velocity, &b.centre_velocity)] {
+        for (x, y) in [(&a.t, &b.t), (&a.h, &b.h), (&a.h_rate, &b.h_rate)] {
             let error = (x.clone() - y).abs();
             assert!(error <= y.clone().abs() * 1e-50, "{} against {}", x, y);
         }
@@ -240,7 +240,7 @@ fn later_impacts_to_fifty_digits() {
 #[cfg(feature = "mp")]
 #[test]
 fn a_first_contact_to_a_thousand_digits() {
-    let digits = |n: u32| late("2.6").digits(n).unwrap().events()[1].time.clone();
+    let digits = |n: u32| late("2.6").digits(n).unwrap().events()[1].t.clone();
     let (a, b) = (digits(1000), digits(1020));
     let error = (rug::Float::with_val(4000, &a) - &b).abs();
     assert!(error <= rug::Float::with_val(64, rug::Float::parse("1e-1000").unwrap()), "{error}");
@@ -257,13 +257,13 @@ fn ten_impacts_know_how_far_they_are_off() {
         let history = in_doubles(&problem, Some(1e-10));
         let truth = problem.digits(20).unwrap();
         let (scales, estimate) = (history.scales(), history.error_estimate());
-        let worst = history.events().iter().fold(0.0, |worst: f64, event| worst.max(event.time_error));
+        let worst = history.events().iter().fold(0.0, |worst: f64, event| worst.max(event.t_error));
         assert!(worst <= 1e-10 * history.end(), "{damping} {speed}: {worst:e}");
         assert_eq!(history.events().len(), 20);
         for (ours, truth) in history.events().iter().zip(truth.events()) {
-            close("time", ours.time, truth.time.to_f64(), scales.time, estimate);
-            close("h", ours.centre, truth.centre.to_f64(), scales.time * scales.velocity, estimate);
-            close("h'", ours.centre_velocity, truth.centre_velocity.to_f64(), scales.velocity, estimate);
+            close("time", ours.t, truth.t.to_f64(), scales.time, estimate);
+            close("h", ours.h, truth.h.to_f64(), scales.time * scales.velocity, estimate);
+            close("h'", ours.h_rate, truth.h_rate.to_f64(), scales.velocity, estimate);
         }
     }
 }

@@ -60,7 +60,7 @@ fn single_numbers_are_those_of_the_whole() {
         let rod = damped(damping, speed);
         let query = |motion: &dyn Motion<Estimate<f64>>| {
             let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(Vec::new()) };
-            let squared = restitution(motion, (&from, Some(&to)))?.energy_squared;
+            let squared = restitution(motion, (&from, Some(&to)))?.e_e2;
             let vibrational = motion.energy(&to)?.vibrational;
             Ok([Some(to), motion.impulse(0), squared.ok(), Some(vibrational)].into_iter().flatten().collect())
         };
@@ -112,7 +112,7 @@ fn a_meeting_is_decided_by_fractions() {
     assert_eq!(undecided, cfg!(not(feature = "mp")), "{warnings:?}");
     // Corollary 1, without any error.
     let exact = rod("3").exact().unwrap();
-    assert_eq!(exact.text(exact.contacts()[0].to.as_ref().unwrap()), "2");
+    assert_eq!(exact.text(exact.contacts()[0].release.as_ref().unwrap()), "2");
 }
 
 /// μ = 1 lands without speed at t = 31: a double root, at which 1000 digits need exact roots. `--digits` has them too.
@@ -123,11 +123,11 @@ fn digits_never_fail_where_proofs_succeed() {
     let (digits, proved) = (rod.digits(1000).unwrap(), rod.certified(1000).unwrap());
     assert_eq!(digits.events().len(), proved.events().len());
     for (ours, truth) in digits.events().iter().zip(proved.events()) {
-        let apart = rug::Float::with_val(3500, &ours.time - truth.time.mid()).abs();
-        assert!(apart.is_zero() || apart.log10() < -996.0, "{}", truth.time.mid());
+        let apart = rug::Float::with_val(3500, &ours.t - truth.t.mid()).abs();
+        assert!(apart.is_zero() || apart.log10() < -996.0, "{}", truth.t.mid());
     }
-    let touch = digits.events().iter().find(|event| event.time == 31).unwrap();
-    assert!(touch.end_velocity.is_zero());
+    let touch = digits.events().iter().find(|event| event.t == 31).unwrap();
+    assert!(touch.v_end.is_zero());
 }
 
 /// What a time gives does not depend on which other times are asked, nor in which order.
@@ -159,7 +159,7 @@ fn doubles_turn_to_longer_numbers_by_themselves() {
     assert!(matches!(far.rung(), Rung::Bits(_)), "{}", far.rung());
     assert_eq!(far.events().len(), truth.events().len());
     for (ours, truth) in far.events().iter().zip(truth.events()) {
-        assert!((ours.time - truth.time.to_f64()).abs() <= DEFAULT_ACCURACY * 120.0);
+        assert!((ours.t - truth.t.to_f64()).abs() <= DEFAULT_ACCURACY * 120.0);
     }
 }
 

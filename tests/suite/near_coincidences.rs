@@ -49,13 +49,13 @@ fn tuned(dice: &mut Random) -> Option<(Problem, Float)> {
     let phase = |history: &TypedHistory<Float>| {
         let events = history.events();
         let alike = events.len() > later && events.iter().zip(&kinds).all(|(event, kind)| event.kind == *kind);
-        let from = || earlier.map_or_else(|| Float::new(200), |k| events[k].time.clone());
-        alike.then(|| (Float::with_val(200, &events[later].time) - from()) / &trip)
+        let from = || earlier.map_or_else(|| Float::new(200), |k| events[k].t.clone());
+        alike.then(|| (Float::with_val(200, &events[later].t) - from()) / &trip)
     };
     let start = phase(&first)?;
     let whole = start.to_f64().round().max(if earlier.is_some() { 1.0 } else { 0.0 });
     // One round trip more shows what the coincidence does.
-    let end = first.events()[later].time.to_f64() + 1.3 * trip.to_f64();
+    let end = first.events()[later].t.to_f64() + 1.3 * trip.to_f64();
     problem.run = Run::Time(format!("{end:.4e}").parse().unwrap());
     let mut before = (speed(&problem), start - whole);
     let mut now = Float::with_val(200, &before.0 * 1.01);
@@ -88,7 +88,7 @@ fn doubles_hold(name: &str, problem: &Problem, truth: &TypedHistory<Float>) -> u
         |run| {
             let of = |k: usize| {
                 let event = &run.events()[k];
-                [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(Clone::clone)
+                [&event.t, &event.v_end, &event.h, &event.h_rate].map(Clone::clone)
             };
             Ok((0..truth.events().len()).map(of).collect::<Vec<_>>())
         },
@@ -96,7 +96,7 @@ fn doubles_hold(name: &str, problem: &Problem, truth: &TypedHistory<Float>) -> u
     );
     let mut count = 0;
     for (found, event) in numbers.unwrap().iter().zip(truth.events()) {
-        let truth = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity];
+        let truth = [&event.t, &event.v_end, &event.h, &event.h_rate];
         for (found, truth) in found.iter().zip(truth) {
             let off = Float::with_val(200, truth - found.value()).to_f64().abs();
             assert!(off <= found.bound() + 1e-33 * truth.to_f64().abs(), "{name}: {found:?} is off by {off:e}");

@@ -291,12 +291,12 @@ fn near(problem: &Problem, numbers: Numbers, (t, wide): (&Float, &Float)) -> (Ve
     let (events, warnings): (Vec<_>, Vec<Warning>) = match &solution {
         Solution::Double(history) => {
             let events = history.events().iter();
-            (events.map(|e| (e.kind, float(e.time), e.time_error)).collect(), history.warnings())
+            (events.map(|e| (e.kind, float(e.t), e.t_error)).collect(), history.warnings())
         }
         Solution::Digits(history, digits) => {
             let rounding = 10f64.powi(-(*digits as i32));
             let events = history.events().iter();
-            let event = |e: &dalembert::Event<_>| (e.kind, Float::clone(&e.time), e.time.to_f64() * rounding);
+            let event = |e: &dalembert::Event<_>| (e.kind, Float::clone(&e.t), e.t.to_f64() * rounding);
             (events.map(event).collect(), history.warnings())
         }
         _ => unreachable!(),
@@ -392,7 +392,7 @@ fn touches_and_releases_that_were_passed_over_are_found() {
         assert_eq!(history.events().len(), count, "{scene}");
         assert!(history.warnings().is_empty(), "{:?}", history.warnings());
         for time in known {
-            let off = history.events().iter().map(|event| (event.time - time).abs()).fold(1.0, f64::min);
+            let off = history.events().iter().map(|event| (event.t - time).abs()).fold(1.0, f64::min);
             assert!(off < 1e-15, "{time} {off:e} {scene}");
         }
     }

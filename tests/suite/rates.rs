@@ -12,7 +12,7 @@ fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {
     // Points and times of rays among them: halves of the rod, quarters of round trips, events.
     let mut times: Vec<f64> = (0..=parts).map(|k| end * k as f64 / parts as f64).collect();
     times.extend((1..12).map(|k| 0.25 * round * f64::from(k)).filter(|time| *time < end));
-    times.extend(history.events().iter().map(|event| event.time));
+    times.extend(history.events().iter().map(|event| event.t));
     // At the end itself there are no later times, and a ray may arrive there.
     times.retain(|time| *time < end * (1.0 - 1e-9));
     times.sort_by(f64::total_cmp);

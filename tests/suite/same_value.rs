@@ -132,8 +132,8 @@ fn in_numbers<S: Target, T: Scalar>(
     // As many events before either history ends, and as many in all where they end alike.
     let known = whole.end().to_f64().min(truth.end().to_f64()) * (1.0 - 1e-9);
     let before = |time: f64| time < known;
-    let ours = whole.events().iter().filter(|event| before(event.time.to_f64())).count();
-    let exact = truth.events().iter().filter(|event| before(event.time.to_f64())).count();
+    let ours = whole.events().iter().filter(|event| before(event.t.to_f64())).count();
+    let exact = truth.events().iter().filter(|event| before(event.t.to_f64())).count();
     prop_assert_eq!(ours, exact, "{}: events before {}", numbers, known);
     if whole.ending() == truth.ending() {
         prop_assert_eq!(whole.events().len(), truth.events().len(), "{}", numbers);
@@ -142,7 +142,7 @@ fn in_numbers<S: Target, T: Scalar>(
     for (ours, exact) in whole.events().iter().zip(truth.events()) {
         prop_assert_eq!(ours.kind, exact.kind, "{}: {:?} {:?}", numbers, ours, exact);
         for side in [Side::Left, Side::Right] {
-            let (Ok(found), Ok(truth)) = (values(&*whole, &ours.time, side), values(truth, &exact.time, side)) else {
+            let (Ok(found), Ok(truth)) = (values(&*whole, &ours.t, side), values(truth, &exact.t, side)) else {
                 continue;
             };
             compared += same(&format!("{numbers} {side:?} of event {ours:?}"), &found, &truth)?;

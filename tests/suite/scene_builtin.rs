@@ -76,8 +76,8 @@ fn touches_of_the_manuals() {
     ] {
         let history = scene(name).problem.doubles().unwrap();
         let contact = &history.contacts()[0];
-        close(contact.from, touch, 1e-5);
-        close(contact.to.unwrap(), release, 1e-5);
+        close(contact.impact, touch, 1e-5);
+        close(contact.release.unwrap(), release, 1e-5);
     }
 }
 

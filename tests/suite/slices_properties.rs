@@ -112,7 +112,7 @@ fn without_damping_they_are_fractions() {
             .chain([0.0, end / 2.0])
             .map(|t| (Estimate::exact(t), Rational::from_f64(t).unwrap()))
             .collect();
-        times.extend(history.events().iter().zip(truth.events()).map(|(a, b)| (a.time.clone(), b.time.clone())));
+        times.extend(history.events().iter().zip(truth.events()).map(|(a, b)| (a.t.clone(), b.t.clone())));
         times.retain(|(_, t)| *t <= *truth.end());
         for (t, exactly) in times {
             for slice in BOTH {
@@ -262,7 +262,7 @@ fn they_are_integrals_of_the_field() {
     let points = [0.125, 0.5, 0.5625, 1.5];
     for problem in scenes.map(|scene| scene.build().unwrap()) {
         let (history, digits) = (problem.doubles().unwrap(), problem.digits(40).unwrap());
-        let events: Vec<Float> = digits.events().iter().map(|event| event.time.clone()).collect();
+        let events: Vec<Float> = digits.events().iter().map(|event| event.t.clone()).collect();
         let precision = events[0].prec();
         let float = |x: f64| Float::with_val(precision, x);
         let rule = gauss_legendre(&float(1.0), 30);

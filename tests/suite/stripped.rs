@@ -56,7 +56,7 @@ impl<S: Answer, H: Motion<S::Carried>> Stripped<S, H> {
 }
 
 fn event<S: Answer>(event: &Event<S::Carried>) -> Event<S> {
-    Event { time_error: event.time.log2_error().exp2(), ..event.clone().map(S::strip) }
+    Event { t_error: event.t.log2_error().exp2(), ..event.clone().map(S::strip) }
 }
 
 impl<S: Answer, H: Motion<S::Carried>> Motion<S> for Stripped<S, H> {

@@ -183,7 +183,7 @@ fn rays_modes_and_the_cells() {
         assert!(slack < 1e-9 * scale, "{damping}: {slack:e}");
         for part in [0.2, 0.55, 0.8, 1.0] {
             let time = part * last * rod.round_trip();
-            if cells.contacts()[0].to.is_some_and(|end| end < time) {
+            if cells.contacts()[0].release.is_some_and(|end| end < time) {
                 continue;
             }
             let near = |what: &str, truth: f64, a: &Estimate<f64>, b: &Estimate<f64>| {

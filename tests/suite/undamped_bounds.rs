@@ -49,11 +49,11 @@ fn covered(what: &str, ours: &Estimate<f64>, truth: &Estimate<Float>) -> Result<
 
 fn covered_event(ours: &Event<Estimate<f64>>, truth: &Event<Estimate<Float>>) -> Result<(), TestCaseError> {
     prop_assert_eq!(ours.kind, truth.kind);
-    let place = format!("{:?} at {}", ours.kind, ours.time.value());
-    covered(&place, &ours.time, &truth.time)?;
-    covered(&format!("v_t, {place}"), &ours.end_velocity, &truth.end_velocity)?;
-    covered(&format!("h, {place}"), &ours.centre, &truth.centre)?;
-    covered(&format!("h′, {place}"), &ours.centre_velocity, &truth.centre_velocity)
+    let place = format!("{:?} at {}", ours.kind, ours.t.value());
+    covered(&place, &ours.t, &truth.t)?;
+    covered(&format!("v_t, {place}"), &ours.v_end, &truth.v_end)?;
+    covered(&format!("h, {place}"), &ours.h, &truth.h)?;
+    covered(&format!("h′, {place}"), &ours.h_rate, &truth.h_rate)
 }
 
 proptest! {
@@ -98,7 +98,7 @@ proptest! {
         let whole = undamped::<f64>(&problem, &()).unwrap();
         let round_trip = whole.scales().time;
         // A ray of the start that is at an end of the rod, an event, a break of the profile, and a time of no note.
-        let event = whole.events().last().map_or(1.0, |event| event.time);
+        let event = whole.events().last().map_or(1.0, |event| event.t);
         let mut times = vec![round_trip * (part % 20) as f64 / 2.0, event, event + round_trip, 0.123 * part as f64];
         times.retain(|time| *time < whole.end());
         for time in times {

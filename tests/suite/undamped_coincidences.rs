@@ -45,10 +45,10 @@ proptest! {
         for (a, b) in ours.iter().zip(truth.events()) {
             prop_assert_eq!(a.kind, b.kind);
             let pairs = [
-                (&a.time, &b.time),
-                (&a.end_velocity, &b.end_velocity),
-                (&a.centre, &b.centre),
-                (&a.centre_velocity, &b.centre_velocity),
+                (&a.t, &b.t),
+                (&a.v_end, &b.v_end),
+                (&a.h, &b.h),
+                (&a.h_rate, &b.h_rate),
             ];
             for (a, b) in pairs {
                 let off = Float::with_val(200, b - a.value()).abs().to_f64();
@@ -67,7 +67,7 @@ fn a_landing_before_a_ray_has_its_own_velocity() {
     let velocity = |speed: &str| {
         let rod = crate::common::uniform("7", "4", "5", speed, Run::Impacts(2)).doubles().unwrap();
         let landing = rod.events().iter().filter(|event| event.kind == EventKind::Impact).nth(1).unwrap();
-        (rod.rung(), landing.end_velocity)
+        (rod.rung(), landing.v_end)
     };
     let (rung, found) = velocity("315");
     assert!(rung == Rung::Fractions && (found + 297.5).abs() < 1e-11, "{rung} {found}");
@@ -99,7 +99,7 @@ fn enclosures_confirm_doubles() {
         [Rung::Double, Rung::Confirmed(384)].map(|rung| f64::run(&problem, &plan, rung, &observe).unwrap());
     assert!(double.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. })));
     assert!(confirmed.warnings().is_empty(), "{:?}", confirmed.warnings());
-    let times = |of: &dyn Motion<Estimate<f64>>| of.events().iter().map(|event| event.time.clone()).collect::<Vec<_>>();
+    let times = |of: &dyn Motion<Estimate<f64>>| of.events().iter().map(|event| event.t.clone()).collect::<Vec<_>>();
     let (ours, theirs) = (times(&*double), times(&*confirmed));
     assert!(ours.len() > 20 && ours.len() == theirs.len());
     for (a, b) in ours.iter().zip(&theirs) {

@@ -39,21 +39,19 @@ fn all_events_in_double_precision() {
             let place = format!("{name} at {time}");
             assert_eq!(event.kind, kind(truth), "{place}");
             // A landing that v(0,·) reaches with zero slope is a double root: half the digits of its time.
-            let (_, before) = history.ground_end(&(event.time - 1e-4), Side::Right).unwrap_or_default();
+            let (_, before) = history.ground_end(&(event.t - 1e-4), Side::Right).unwrap_or_default();
             let tangential = event.kind == EventKind::Impact && before.abs() < 1e-3;
             let accuracy = if tangential { 1e-7 } else { 1e-12 };
-            close(&format!("{place}: time"), event.time, time, length, accuracy);
-            assert!((event.time - time).abs() <= event.time_error.max(f64::EPSILON * time), "{place}: the bound holds");
-            for (key, ours, scale) in [
-                ("approach", event.end_velocity, speed),
-                ("h", event.centre, length),
-                ("h_rate", event.centre_velocity, speed),
-            ] {
+            close(&format!("{place}: time"), event.t, time, length, accuracy);
+            assert!((event.t - time).abs() <= event.t_error.max(f64::EPSILON * time), "{place}: the bound holds");
+            for (key, ours, scale) in
+                [("approach", event.v_end, speed), ("h", event.h, length), ("h_rate", event.h_rate, speed)]
+            {
                 if let Some(truth) = value(key) {
                     close(&format!("{place}: {key}"), ours, truth, scale, 1e-12);
                 }
             }
-            let (v, _) = history.ground_end(&event.time, Side::Left).unwrap();
+            let (v, _) = history.ground_end(&event.t, Side::Left).unwrap();
             close(&format!("{place}: v(0,t)"), v, 0.0, length, 1e-12);
         }
     }
@@ -72,12 +70,9 @@ fn all_events_to_38_digits() {
         let history = undamped::<Float>(&problem, &320).unwrap();
         assert_eq!(history.events().len(), expected.len(), "{name}");
         for (event, truth) in history.events().iter().zip(expected) {
-            for (key, ours) in [
-                ("time", &event.time),
-                ("approach", &event.end_velocity),
-                ("h", &event.centre),
-                ("h_rate", &event.centre_velocity),
-            ] {
+            for (key, ours) in
+                [("time", &event.t), ("approach", &event.v_end), ("h", &event.h), ("h_rate", &event.h_rate)]
+            {
                 if truth[key].is_null() {
                     continue;
                 }
@@ -107,17 +102,17 @@ fn rational_histories_are_exact() {
         let history = undamped::<Rational>(&problem(&case, Run::Time(60.into())), &()).unwrap();
         assert_eq!(history.ending(), &dalembert::Ending::Time, "{name}");
         for (event, truth) in history.events().iter().zip(events(&case)) {
-            let difference = event.time.clone() - number(&truth["time"]).to_rational();
+            let difference = event.t.clone() - number(&truth["time"]).to_rational();
             assert!(Scalar::to_f64(&difference).abs() < 1e-35, "{name}");
             // Times are multiples of L/c, which decimals cannot say but fractions can.
             let steps =
-                event.time.clone() * number(&case["wave_speed"]).to_rational() / number(&case["length"]).to_rational();
+                event.t.clone() * number(&case["wave_speed"]).to_rational() / number(&case["length"]).to_rational();
             let whole = steps.floor_int().map(|n| steps.int(n));
             assert_eq!(whole.as_ref(), Some(&steps), "{name}");
         }
         let start = history.energy(&Rational::default()).unwrap().total;
         for event in history.events() {
-            assert_eq!(history.energy(&event.time).unwrap().total, start, "{name}");
+            assert_eq!(history.energy(&event.t).unwrap().total, start, "{name}");
         }
     }
 }

@@ -26,7 +26,7 @@ fn values_carry_unit_bound_and_kind() {
     // ρ S L (2 μ + g t₁): the momentum that turns round, and what gravity gave in the contact.
     let contacts = exact.contacts().unwrap();
     assert_eq!((contacts[0].impulse.to_string(), contacts[0].impulse.unit()), ("14".into(), "N s"));
-    assert_eq!(contacts[0].to.as_ref().map(Value::to_string), Some("1".into()));
+    assert_eq!(contacts[0].release.as_ref().map(Value::to_string), Some("1".into()));
     assert_eq!(exact.events().unwrap().len(), 2);
     let energy = exact.energy("1/2").unwrap();
     // E = ρSL μ²/2 at the touch, and it is kept.

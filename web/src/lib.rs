@@ -130,7 +130,7 @@ impl Run {
 
     /// Times of impacts and releases, in turns, an impact first.
     pub fn events(&self) -> Vec<f64> {
-        self.history.events().iter().map(|event| event.time).collect()
+        self.history.events().iter().map(|event| event.t).collect()
     }
 
     /// Contact by contact: beginning, end, duration, `e_P`, `e_E²`, and `E`, `E_h`, `E_z` at the end.
@@ -139,10 +139,10 @@ impl Run {
             |motion| {
                 let row = |contact: &Contact<_>| {
                     let e = restitution(motion, contact.times())?;
-                    let energy = contact.to.as_ref().map(|to| motion.energy(to)).transpose()?;
-                    let time = contact.to.clone().map(|to| to - &contact.from);
-                    let mut row = vec![Some(contact.from.clone()), contact.to.clone(), time];
-                    row.extend([e.momentum.ok(), e.energy_squared.ok()]);
+                    let energy = contact.release.as_ref().map(|to| motion.energy(to)).transpose()?;
+                    let time = contact.release.clone().map(|to| to - &contact.impact);
+                    let mut row = vec![Some(contact.impact.clone()), contact.release.clone(), time];
+                    row.extend([e.e_p.ok(), e.e_e2.ok()]);
                     row.extend(energy.map_or([None, None, None], |e| numbers(e).map(Some)));
                     Ok(row)
                 };

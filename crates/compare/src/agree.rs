@@ -86,7 +86,7 @@ impl Agreement {
     fn covered(&self, ours: &Ours<'_>, until: Option<f64>) -> Coverage {
         let last = self.grid.times.last().copied().unwrap_or_default();
         let end = until.unwrap_or(last);
-        let ends = || ours.history.contacts().iter().filter_map(|contact| contact.to);
+        let ends = || ours.history.contacts().iter().filter_map(|contact| contact.release);
         let count = |to: f64| ends().filter(|end| *end <= to + self.step).count();
         Coverage { time: [last, end], contacts: [count(last.min(end)), count(end)], breaks_off: end - last > self.step }
     }

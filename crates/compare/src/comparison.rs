@@ -78,7 +78,7 @@ impl Options {
             (Some(to), _) => Some(to.to_f64()),
             (None, Run::Time(time)) => Some(time.to_f64()),
             (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
-                problem.doubles().ok()?.contacts().last().and_then(|contact| contact.to)
+                problem.doubles().ok()?.contacts().last().and_then(|contact| contact.release)
             }
             (None, Run::Impacts(_)) => None,
         }

@@ -88,8 +88,8 @@ impl Fit {
             _ => scales.velocity,
         };
         let sizes: Vec<f64> = parameters.iter().zip(&start).map(scale).collect();
-        let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-        let second = history.events().iter().map(|event| event.time).find(|time| *time > release);
+        let release = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+        let second = history.events().iter().map(|event| event.t).find(|time| *time > release);
         let last = grid.times.last().copied().unwrap_or_default();
         let (mut values, mut left) = (start.clone(), STEPS);
         let run = |values: &[f64], most: usize, residuals: Residuals<'_>| {

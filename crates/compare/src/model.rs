@@ -143,8 +143,8 @@ impl<'a> Model<'a> {
         // The mass at the ground by itself: where it is stopped, and what of the time it lies there.
         let mut contacts = Vec::new();
         for contact in history.contacts() {
-            let before = history.columns(&[Quantity::EndVelocity], &[contact.from], Some(Side::Left))?;
-            contacts.push((contact.from, contact.to.unwrap_or(f64::INFINITY), before[0][0].abs()));
+            let before = history.columns(&[Quantity::EndVelocity], &[contact.impact], Some(Side::Left))?;
+            contacts.push((contact.impact, contact.release.unwrap_or(f64::INFINITY), before[0][0].abs()));
         }
         let given = |time: f64| -> f64 {
             let of = |(from, to, speed): &(f64, f64, f64)| speed + gravity * (time.min(*to) - from);

@@ -64,7 +64,7 @@ impl<'a> Ours<'a> {
         let mut leaves = at_ground(-rod.round_trip(), 0.0)?;
         leaves.retain(|time| *time < 0.0);
         leaves.extend(&jumps);
-        let events = history.events().iter().map(|event| event.time);
+        let events = history.events().iter().map(|event| event.t);
         let switches = std::iter::once(0.0).chain(events).collect();
         Ok(Ours { history, rod, material, pieces, jumps, switches, leaves })
     }
@@ -203,18 +203,18 @@ impl<'a> Ours<'a> {
         let mut pieces = self.pieces.iter().peekable();
         let mut touches = Vec::new();
         for contact in self.history.contacts() {
-            let end = contact.to.unwrap_or(f64::INFINITY);
+            let end = contact.release.unwrap_or(f64::INFINITY);
             let mut force = Vec::new();
-            while let Some(piece) = pieces.next_if(|piece| piece.from < end) {
-                let (middle, half) = (f64::midpoint(piece.from, piece.to), (piece.to - piece.from) / 2.0);
+            while let Some(piece) = pieces.next_if(|piece| piece.start < end) {
+                let (middle, half) = (f64::midpoint(piece.start, piece.end), (piece.end - piece.start) / 2.0);
                 let nodes = gauss_legendre(&1.0_f64, piece.chebyshev.len().max(2)).into_iter();
-                let nodes = nodes.filter(|_| middle >= contact.from).map(|(node, weight)| {
+                let nodes = nodes.filter(|_| middle >= contact.impact).map(|(node, weight)| {
                     let time = middle + half * node;
                     [time, factor * piece.eval(&time), half * weight]
                 });
                 force.extend(nodes);
             }
-            let touch = pressed(contact.from, contact.to, force.into_iter());
+            let touch = pressed(contact.impact, contact.release, force.into_iter());
             let peak = touch.peak.map(|peak| peak.max(factor * contact.peak_strain));
             touches.push(Touch { impulse: Some(self.line() * contact.impulse), peak, ..touch });
         }
@@ -224,7 +224,7 @@ impl<'a> Ours<'a> {
     /// A separation that is shorter is chatter: a quarter of the round trip, or of our shortest flight.
     pub(super) fn shortest_separation(&self) -> f64 {
         let contacts = self.history.contacts();
-        let flights = contacts.windows(2).filter_map(|pair| pair[0].to.map(|to| pair[1].from - to));
+        let flights = contacts.windows(2).filter_map(|pair| pair[0].release.map(|to| pair[1].impact - to));
         flights.fold(self.rod.round_trip(), f64::min) / 4.0
     }
 

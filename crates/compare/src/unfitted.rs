@@ -80,7 +80,7 @@ pub(super) fn lost_start(columns: &[Compared]) -> Option<Verdict> {
 /// what is left of the energy gives the standard error.
 pub(super) fn lighter(ours: &Ours<'_>, agreement: &Agreement) -> Option<Verdict> {
     let Agreement { grid, step, .. } = agreement;
-    let first = ours.history.contacts().first().map_or(f64::INFINITY, |contact| contact.from);
+    let first = ours.history.contacts().first().map_or(f64::INFINITY, |contact| contact.impact);
     let count = grid.times.partition_point(|time| *time < first - 2.0 * step);
     let factor = |what: Quantity| {
         let column = agreement.column(what)?;
@@ -126,10 +126,10 @@ pub(super) fn gained(columns: &[Compared]) -> Option<Verdict> {
 pub(super) fn spread(ours: &Ours<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
     let (history, Agreement { grid, quantities: columns, .. }) = (ours.history, agreement);
     let trip = history.scales().time;
-    let released = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-    let events = history.events().iter().map(|event| event.time);
+    let released = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+    let events = history.events().iter().map(|event| event.t);
     let events: Vec<f64> = events.filter(|time| *time > 0.0 && *time <= released).collect();
-    let first = history.contacts().first().map_or(0.0, |contact| contact.from);
+    let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
     let mut widths = Vec::new();
     for column in columns.iter().filter(|column| column.what.jumps() && column.what.measure().is_some()) {
         let times = if column.what == Quantity::TopVelocity { vec![first + trip / 2.0] } else { events.clone() };
@@ -153,7 +153,7 @@ pub(super) fn spread(ours: &Ours<'_>, agreement: &Agreement) -> Result<Option<f6
 pub(super) fn half_step(ours: &Ours<'_>, agreement: &Agreement) -> Option<Verdict> {
     let Agreement { grid, quantities: columns, step, .. } = agreement;
     let (trip, first) = (ours.history.scales().time, ours.history.contacts().first());
-    let first = first.map_or(f64::INFINITY, |contact| contact.from);
+    let first = first.map_or(f64::INFINITY, |contact| contact.impact);
     let of = |column: &Compared| {
         let until = match column.what {
             Quantity::EndVelocity => first,

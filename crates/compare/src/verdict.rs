@@ -373,14 +373,14 @@ fn hints(ours: &Ours<'_>, agreement: &Agreement) -> Result<(Vec<Verdict>, Vec<To
         return Ok((said, Vec::new()));
     }
     // The first contact and the flight after it.
-    let release = history.contacts().iter().find_map(|contact| contact.to).unwrap_or(f64::INFINITY);
-    let until = history.events().iter().map(|event| event.time).find(|time| *time > release);
+    let release = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+    let until = history.events().iter().map(|event| event.t).find(|time| *time > release);
     let model = Model::of(ours, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
     if model.times.len() < FEWEST {
         return Ok((said, Vec::new()));
     }
     let trip = history.scales().time;
-    let first = history.contacts().first().map_or(0.0, |contact| contact.from);
+    let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
     let exact = model.values(model.problem, |time| time)?;
     let ends = [first, first + trip / 2.0, release].into_iter().filter(|end| *end > 0.0).collect();
     let mut judge = Judge { model, base: Vec::new(), exact, ends, trip };

@@ -112,7 +112,7 @@ impl Asked {
         let span = self.span(history, rod.round_trip())?;
         let contacts = history.contacts().iter();
         let contacts = contacts
-            .map(|contact| [contact.from.to_f64(), contact.to.as_ref().map_or(end, Scalar::to_f64)])
+            .map(|contact| [contact.impact.to_f64(), contact.release.as_ref().map_or(end, Scalar::to_f64)])
             .filter(|[from, to]| *to >= span[0] && *from <= span[1]);
         let strip = Strip { trip: rod.round_trip(), rod, span };
         let breaks = breaks(history, &strip)?;
@@ -120,14 +120,14 @@ impl Asked {
         let (mut stress, mut restitution, mut cells, mut world) = (Vec::new(), Vec::new(), None, Vec::new());
         if self.wants(Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
-            let inside = pieces.filter(|piece| piece.to >= span[0] && piece.from <= span[1]);
+            let inside = pieces.filter(|piece| piece.end >= span[0] && piece.start <= span[1]);
             stress = straight(&inside.collect::<Vec<_>>(), STRAIGHT);
         }
         if self.wants(Picture::Restitution) {
             for contact in 0..history.contacts().len().min(MOST_CONTACTS) {
                 let found = history.restitution(contact)?;
                 let value = |x: &Result<S, _>| x.as_ref().ok().map(Scalar::to_f64);
-                restitution.push([value(&found.momentum), value(&found.energy_squared)]);
+                restitution.push([value(&found.e_p), value(&found.e_e2)]);
             }
         }
         if self.wants(Picture::Along) && self.deformed {
@@ -144,7 +144,7 @@ impl Asked {
     /// The span to be drawn: what is asked for, or so much of the history as shows its first contacts.
     pub(super) fn span<S: Target>(&self, history: &TypedHistory<S>, trip: f64) -> Result<[f64; 2], Error> {
         let end = known_until(history);
-        let events: Vec<_> = history.events().iter().map(|event| (event.time.to_f64(), event.kind)).collect();
+        let events: Vec<_> = history.events().iter().map(|event| (event.t.to_f64(), event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
@@ -259,8 +259,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, strip: &Strip, breaks: &[Break]) -> 
     let count = if breaks.len() > MOST_BREAKS { DENSE } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The numbers of the engine itself where two limits may differ: they meet the rays.
-    let mut times: Vec<(f64, S)> =
-        motion.events().iter().map(|event| (event.time.to_f64(), event.time.clone())).collect();
+    let mut times: Vec<(f64, S)> = motion.events().iter().map(|event| (event.t.to_f64(), event.t.clone())).collect();
     if breaks.len() <= MOST_BREAKS {
         match motion.waves() {
             Ok(waves) => {

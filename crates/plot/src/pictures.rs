@@ -191,11 +191,14 @@ fn symbol(column: Quantity) -> &'static str {
 /// The stress at the ground, or without a material the strain.
 fn stress(scene: &Gathered) -> Vec<Line> {
     let factor = scene.units.factor::<f64>(Measure::Stress, &()).unwrap_or(1.0);
-    let peak =
-        scene.stress.iter().flat_map(|piece| [piece.left, piece.right]).fold(0.0, |peak, v| f64::max(peak, v.abs()));
+    let peak = scene
+        .stress
+        .iter()
+        .flat_map(|piece| [piece.strain_start, piece.strain_end])
+        .fold(0.0, |peak, v| f64::max(peak, v.abs()));
     let mut stretches: Vec<Line> = Vec::new();
     for piece in &scene.stress {
-        let [from, to] = [piece.from.max(scene.span[0]), piece.to.min(scene.span[1])];
+        let [from, to] = [piece.start.max(scene.span[0]), piece.end.min(scene.span[1])];
         let ends = [from, to].map(|t| (t, factor * piece.eval(&t)));
         match stretches.last_mut() {
             Some(last) if last.last().is_some_and(|end| (end.1 - ends[0].1).abs() <= UNSEEN * factor * peak) => {

@@ -38,11 +38,11 @@ impl Sizes {
             let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
             for flight in flights(motion)? {
-                rise = flight.highest.iter().map(|(_, height)| height.to_f64()).fold(rise, f64::max);
+                rise = flight.top.iter().map(|height| height.to_f64()).fold(rise, f64::max);
             }
             let mut energy = [0.0f64; 2];
             for contact in motion.contacts().iter().take(CONTACTS) {
-                let (from, to) = (contact.from.to_f64(), contact.to.as_ref().unwrap_or(&motion.end()).to_f64());
+                let (from, to) = (contact.impact.to_f64(), contact.release.as_ref().unwrap_or(&motion.end()).to_f64());
                 let middles = (0..MIDDLES).map(|k| from + (to - from) * (k as f64 + 0.5) / MIDDLES as f64);
                 for time in [from].into_iter().chain(middles) {
                     let found = motion.energy(&motion.end().double(time))?;

@@ -244,7 +244,7 @@ type Ended = Option<(Double, Vec<Option<Double>>)>;
 type Wanted = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<Vec<Option<Double>>, Error>;
 
 /// `e_E²`.
-const RESTITUTION: Wanted = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.energy_squared.ok()]);
+const RESTITUTION: Wanted = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.e_e2.ok()]);
 
 /// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
 const SHARES: Wanted = |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok).to_vec());
@@ -345,7 +345,7 @@ fn tenth(grid: &Grid) -> Result<Vec<Option<Double>>, Failed> {
             contact.map(|contact| restitution(motion, contact.times())).transpose()
         };
         let found = rod.doubles().ok()?.ask(query, |found| found.iter().flat_map(Restitution::numbers).collect());
-        found.ok()??.energy_squared.ok()
+        found.ok()??.e_e2.ok()
     };
     (0..grid.len()).into_par_iter().map(|index| Ok(one(index))).collect::<Result<Vec<_>, _>>()
 }

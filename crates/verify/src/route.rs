@@ -103,7 +103,7 @@ pub fn within_first_contact(question: &Question) -> Result<(), String> {
     }
     let Some(time) = &question.one.time else { return Ok(()) };
     let first = question.problem.first_contact().map_err(|error| error.to_string())?;
-    match (first.contacts().first().and_then(|contact| contact.to), first.ending()) {
+    match (first.contacts().first().and_then(|contact| contact.release), first.ending()) {
         (Some(end), _) if time.to_f64() > end * (1.0 + 1e-12) => {
             Err(format!("it covers the first contact only, which ends at t = {end:.6}"))
         }

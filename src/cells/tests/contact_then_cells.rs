@@ -23,8 +23,8 @@ fn events_move_with_a_displaced_release_as_the_bound_says() {
             let bounce = contact.bounce();
             let straight = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce)?;
             let first = straight.events()[1].clone();
-            let (time, leaves) = (first.time.into_value() + displaced, first.end_velocity.into_value());
-            let release = (time, f64::abs(displaced) + first.time_error, leaves);
+            let (time, leaves) = (first.t.into_value() + displaced, first.v_end.into_value());
+            let release = (time, f64::abs(displaced) + first.t_error, leaves);
             let form = straight.contact.form();
             let task = Task { problem: &problem, precision: &(), effort: Effort::of(13.0), observe: &unobserved };
             let nothing = Estimate::new(0.0, f64::INFINITY);
@@ -35,10 +35,10 @@ fn events_move_with_a_displaced_release_as_the_bound_says() {
         let (ours, theirs) = (&straight.events()[1..], off.events());
         assert_eq!(ours.len(), theirs.len(), "{damping} {speed}");
         for (k, (a, b)) in ours.iter().zip(theirs).enumerate() {
-            let moved = (a.time.value() - b.time.value()).abs();
-            assert!(moved <= b.time_error, "{damping} {speed}, event {k}: {moved:e} {:e}", b.time_error);
+            let moved = (a.t.value() - b.t.value()).abs();
+            assert!(moved <= b.t_error, "{damping} {speed}, event {k}: {moved:e} {:e}", b.t_error);
             let most = f64::abs(displaced) * 30f64.powi(k as i32 + 1);
-            assert!(b.time_error <= most, "{damping} {speed}, event {k}: {:e} {most:e}", b.time_error);
+            assert!(b.t_error <= most, "{damping} {speed}, event {k}: {:e} {most:e}", b.t_error);
         }
     }
 }

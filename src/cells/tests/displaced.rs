@@ -57,16 +57,16 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
         // A run whose events are in doubt never comes to rest within its bounds: it ends here.
         let effort = Effort { cells: 200_000, ..Effort::of(13.0) };
         let (medium, data) = medium::<f64>(&problem, &(), effort.digits, 1)?;
-        let held = Held::until(contact.form(), &data, release.time.value());
+        let held = Held::until(contact.form(), &data, release.t.value());
         let (mut state, error) = held.state(&medium, &data);
         for (segment, (part, up)) in state.segments.iter_mut().zip(case.shape.iter().cycle()) {
             segment.q[0] += size * part;
             segment.q[1] += size * (1.0 - part.abs()) * if *up { 1.0 } else { -1.0 };
         }
-        let leaves = release.end_velocity.value() / data.units.velocity;
+        let leaves = release.v_end.value() / data.units.velocity;
         // Nothing is known but the state.
         let rate = Estimate::new(0.0, f64::INFINITY);
-        let release = ((leaves, release.time_error / data.units.time), rate);
+        let release = ((leaves, release.t_error / data.units.time), rate);
         let state = (held, (state, error + size));
         let task = Task { problem: &problem, precision: &(), effort, observe: &unobserved };
         Damped::released(&task, (medium, data), state, release)
@@ -91,37 +91,37 @@ fn compare(case: &Displaced) -> Result<(), TestCaseError> {
         Ok(())
     };
     let pairs = || a.events().iter().zip(b.events());
-    let others = pairs().any(|(x, y)| (x.time.value() - y.time.value()).abs() > y.time.bound() + 1e-3);
+    let others = pairs().any(|(x, y)| (x.t.value() - y.t.value()).abs() > y.t.bound() + 1e-3);
     if a.events().len() != b.events().len() || others {
         prop_assert!(doubtful(&b, f64::INFINITY), "other events, and no warning");
         return Ok(());
     }
     for (k, (x, y)) in pairs().enumerate() {
-        within(&format!("time {k}"), &x.time, &y.time)?;
-        within(&format!("end velocity {k}"), &x.end_velocity, &y.end_velocity)?;
-        within(&format!("centre {k}"), &x.centre, &y.centre)?;
-        within(&format!("centre velocity {k}"), &x.centre_velocity, &y.centre_velocity)?;
+        within(&format!("time {k}"), &x.t, &y.t)?;
+        within(&format!("end velocity {k}"), &x.v_end, &y.v_end)?;
+        within(&format!("centre {k}"), &x.h, &y.h)?;
+        within(&format!("centre velocity {k}"), &x.h_rate, &y.h_rate)?;
         for (side, point) in [(Side::Left, 0.3), (Side::Right, 0.8), (Side::Right, 1.0)] {
             let point = Estimate::exact(point);
-            let (at_a, at_b) = (a.field(&point, &x.time, side), b.field(&point, &y.time, side));
+            let (at_a, at_b) = (a.field(&point, &x.t, side), b.field(&point, &y.t, side));
             within(&format!("displacement at {k}"), &at_a?.displacement, &at_b?.displacement)?;
         }
-        let (of_a, of_b) = (a.energy(&x.time)?, b.energy(&y.time)?);
+        let (of_a, of_b) = (a.energy(&x.t)?, b.energy(&y.t)?);
         within(&format!("translational energy at {k}"), &of_a.translational, &of_b.translational)?;
         within(&format!("vibrational energy at {k}"), &of_a.vibrational, &of_b.vibrational)?;
     }
     for (k, (x, y)) in a.contacts().iter().zip(b.contacts()).enumerate() {
-        let (Some(to), Some(_)) = (&x.to, &y.to) else { continue };
+        let (Some(to), Some(_)) = (&x.release, &y.release) else { continue };
         within(&format!("impulse {k}"), &x.impulse, &y.impulse)?;
         // A peak leaves out what lasts no longer than hops that are not told apart.
         if !doubtful(&b, to.to_f64() + 1e-3) {
             within(&format!("peak {k}"), &x.peak_strain, &y.peak_strain)?;
         }
     }
-    let (from, to) = (a.events()[0].time.to_f64(), a.end().to_f64().min(b.end().to_f64()));
+    let (from, to) = (a.events()[0].t.to_f64(), a.end().to_f64().min(b.end().to_f64()));
     for (part, place) in &case.samples {
         let time = from + (to - from) * part;
-        if pairs().any(|(x, y)| (x.time.to_f64() - time).abs() < 1e-6 + 2.0 * y.time.bound()) {
+        if pairs().any(|(x, y)| (x.t.to_f64() - time).abs() < 1e-6 + 2.0 * y.t.bound()) {
             continue;
         }
         let (point, time) = (Estimate::exact(*place), Estimate::exact(time));

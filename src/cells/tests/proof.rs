@@ -45,17 +45,17 @@ impl Held {
         assert!(known.events().len() <= truth.events().len(), "{name}");
         for (k, (a, b)) in known.events().iter().zip(truth.events()).enumerate() {
             assert_eq!(a.kind, b.kind, "{name}");
-            self.compare(&format!("{name}: time {k}"), &a.time, &b.time);
-            self.compare(&format!("{name}: velocity {k}"), &a.end_velocity, &b.end_velocity);
-            self.compare(&format!("{name}: centre {k}"), &a.centre, &b.centre);
-            self.compare(&format!("{name}: rate {k}"), &a.centre_velocity, &b.centre_velocity);
+            self.compare(&format!("{name}: time {k}"), &a.t, &b.t);
+            self.compare(&format!("{name}: velocity {k}"), &a.v_end, &b.v_end);
+            self.compare(&format!("{name}: centre {k}"), &a.h, &b.h);
+            self.compare(&format!("{name}: rate {k}"), &a.h_rate, &b.h_rate);
         }
         let contacts = known.course().contacts.iter().zip(&truth.course().contacts);
-        for (a, b) in contacts.filter(|(a, b)| a.to.is_some() && b.to.is_some()) {
+        for (a, b) in contacts.filter(|(a, b)| a.release.is_some() && b.release.is_some()) {
             self.compare(&format!("{name}: impulse"), &a.impulse, &b.impulse);
             self.compare(&format!("{name}: peak"), &a.peak_strain, &b.peak_strain);
         }
-        let times: Vec<f64> = known.events().iter().map(|event| event.time.to_f64()).collect();
+        let times: Vec<f64> = known.events().iter().map(|event| event.t.to_f64()).collect();
         for pair in times.windows(2) {
             let time = Estimate::exact(Float::with_val(BITS, pair[0] + 0.37 * (pair[1] - pair[0])));
             for (a, b) in [Pair::GroundEnd, Pair::Centre, Pair::Energy, Pair::EnergyParts].map(|pair| {

@@ -128,14 +128,14 @@ impl Account {
             .map_err(at("events"))?
             .into_iter()
             .map(|e| {
-                let numbers = [&e.time, &e.end_velocity, &e.centre, &e.centre_velocity].map(S::read);
-                (e.kind, numbers, e.time_error)
+                let numbers = [&e.t, &e.v_end, &e.h, &e.h_rate].map(S::read);
+                (e.kind, numbers, e.t_error)
             })
             .collect();
         let mut tables = Vec::new();
-        for table in [Table::Contacts, Table::Restitution, Table::Flights] {
+        for table in [Table::Contacts, Table::Flights] {
             for (name, column) in history.ask_table(table).map_err(at("table"))? {
-                tables.push((name, column.iter().map(|x| x.as_ref().map(S::read)).collect()));
+                tables.push((name.name(), column.iter().map(|x| x.as_ref().map(S::read)).collect()));
             }
         }
         let mut found = Vec::new();

@@ -24,7 +24,7 @@ impl<'a> Traced<'a> {
             // What the end has just before t = 0.
             speed: -history.ground_end(Rational::new(), Side::Left).unwrap().1,
             free: problem.rod.top == Top::Free,
-            events: history.events().iter().map(|event| (event.kind, event.time.clone())).collect(),
+            events: history.events().iter().map(|event| (event.kind, event.t.clone())).collect(),
         }
     }
 

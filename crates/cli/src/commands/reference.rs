@@ -191,7 +191,7 @@ struct Series<'a> {
 fn event_times<S: Scalar>(motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
     let end = motion.end();
     let mut times = vec![end.zero()];
-    for time in motion.events().iter().map(|event| &event.time).chain([&end]) {
+    for time in motion.events().iter().map(|event| &event.t).chain([&end]) {
         if times.last().map_or(Ok(true), |last| last.below(time))? {
             times.push(time.clone());
         }

@@ -9,14 +9,14 @@ use crate::args::{NumberArgs, OutputArgs};
 use crate::failure::Failure;
 use crate::file::{self, Format};
 use crate::output::{
-    CONTACT, Derived, EVENT, Form, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline,
-    record, shared,
+    Derived, Form, Head, LEGEND, Part, Record, history_json, history_part, history_table, outline, record, shared,
 };
 use crate::source;
 use dalembert::Error;
 use dalembert::engine::Motion;
 use dalembert::number::{Number, Scalar};
 use dalembert::problem::{Parameter, Run};
+use dalembert::quantity::Table;
 use dalembert::solve::{Question, Target, TypedHistory};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
@@ -125,8 +125,9 @@ impl Visit for Solve {
         let mut record = gathered(history, &progress, |motion| self.gather(motion, &head))?;
         for by in self.derivatives.iter().copied() {
             // There are no more contacts than events: a row has an event, and a contact beside it where there is one.
-            let mut events = shared(history.derivatives(by, &[&EVENT[..], &CONTACT].concat())?);
-            let contacts = events.iter_mut().map(|row| row.split_off(EVENT.len().min(row.len())));
+            let [event, contact] = [Table::Events, Table::Contacts].map(Table::quantities);
+            let mut events = shared(history.derivatives(by, &[event, contact].concat())?);
+            let contacts = events.iter_mut().map(|row| row.split_off(event.len().min(row.len())));
             let contacts = contacts.filter(|row| !row.is_empty()).collect();
             record.add(Derived { by, events, contacts });
         }

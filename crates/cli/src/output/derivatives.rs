@@ -16,15 +16,10 @@ pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
 }
 
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
-pub(super) fn add_columns(
-    data: &mut Dataset,
-    quantities: &[Quantity],
-    (by, rows): (Parameter, &Derivatives<Shared>),
-    name: fn(Quantity) -> String,
-) {
+pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows): (Parameter, &Derivatives<Shared>)) {
     for (k, quantity) in quantities.iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
-        let (name, key) = (format!("{}_by_{by}", name(*quantity)), format!("derivatives/{}/{by}", quantity.key()));
+        let (name, key) = (format!("{quantity}_by_{by}"), format!("derivatives/{quantity}/{by}"));
         let column = Column::data(name.clone()).keyed(key.clone());
         data.columns.push(column.bounded().optional());
         for (row, cell) in data.rows.iter_mut().zip(cells()) {

@@ -36,7 +36,7 @@ pub(crate) use record::{Derived, Head, Record};
 pub(crate) use reference::{Preamble, Rows};
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
 pub(crate) use sample::{Quantity, Samples, samples, samples_data};
-pub(crate) use solve::{CONTACT, EVENT, Form, LEGEND, Part, history_json, history_part, history_table, record};
+pub(crate) use solve::{Form, LEGEND, Part, history_json, history_part, history_table, record};
 pub(crate) use sweep::sweep_data;
 pub(crate) use table::{WIDTH, wrapped};
 pub(crate) use target::targets_data;

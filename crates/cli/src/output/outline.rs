@@ -23,11 +23,12 @@ pub(crate) fn outline<S: Scalar>(motion: &dyn Motion<S>) -> Vec<f64> {
 fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     let mut least = vec![0.0f64; BLOCKS];
     let width = end / BLOCKS as f64;
-    for piece in pieces.iter().filter(|piece| piece.to > piece.from && piece.left.min(piece.right) < 0.0) {
-        let first = (piece.from / width) as usize;
+    for piece in pieces.iter().filter(|piece| piece.end > piece.start && piece.strain_start.min(piece.strain_end) < 0.0)
+    {
+        let first = (piece.start / width) as usize;
         for (k, part) in least.iter_mut().enumerate().skip(first) {
-            let [from, to] = [k, k + 1].map(|k| (k as f64 * width).clamp(piece.from, piece.to));
-            if from >= piece.to {
+            let [from, to] = [k, k + 1].map(|k| (k as f64 * width).clamp(piece.start, piece.end));
+            if from >= piece.end {
                 break;
             }
             if to > from {

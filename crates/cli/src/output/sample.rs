@@ -67,11 +67,6 @@ impl Quantity {
     }
 }
 
-/// What gives a column its name: of one quantity its key, of several its whole name, since each may have a `v`.
-fn naming(wanted: &[Quantity]) -> fn(quantity::Quantity) -> String {
-    if wanted.len() == 1 { |quantity| quantity.key().into() } else { |quantity| quantity.name().into() }
-}
-
 pub(crate) struct Samples {
     wanted: Vec<Quantity>,
     pub(crate) quantities: Vec<quantity::Quantity>,
@@ -105,11 +100,10 @@ pub(crate) fn samples<S: Scalar>(
     let has_points = of_field && !found.is_empty();
     let asked = wanted.iter().flat_map(|quantity| quantity.columns()).map(|column| column.0).collect::<Vec<_>>();
     let values = found.iter().map(|(.., values)| values.iter().map(Some).collect::<Vec<_>>()).collect::<Vec<_>>();
-    let name = naming(wanted);
-    let column = |quantity| Column::new(name(quantity)).keyed(format!("values/{}", name(quantity)));
+    let column = |quantity: quantity::Quantity| Column::new(quantity.name()).keyed(format!("values/{quantity}"));
     let mut data = listed(history, &asked, &column, head, &values);
-    let point = if has_points { Column::new("point").headed("x") } else { Column::data("point") };
-    let time = Column::new("time").headed("t").with_unit(units.name(Measure::Time));
+    let point = if has_points { Column::new("x") } else { Column::data("x") };
+    let time = Column::new("t").with_unit(units.name(Measure::Time));
     data.columns.splice(0..0, [time, point.with_unit(units.name(Measure::Length)), Column::new("side")]);
     data.keys = data.keys.map(|_| 2 + usize::from(has_points));
     let mut numbers = Vec::new();
@@ -154,7 +148,7 @@ pub(crate) fn samples_data(samples: Samples, head: &Head) -> Dataset {
         ..data
     };
     for (by, rows) in &derivatives {
-        derivatives::add_columns(&mut data, &quantities, (*by, rows), naming(&wanted));
+        derivatives::add_columns(&mut data, &quantities, (*by, rows));
     }
     data
 }

@@ -13,48 +13,17 @@ use dalembert::Error;
 use dalembert::engine::{Motion, straight};
 use dalembert::number::{DOUBLE_DIGITS, Scalar};
 use dalembert::quantity::Quantity::{self, *};
-use dalembert::quantity::{Measure, Row, Undefined, Units, rows};
+use dalembert::quantity::{Measure, Needs, Row, Table, Undefined, Units, rows};
 use dalembert::{Ending, StressPiece};
 
-pub(crate) const EVENT: [Quantity; 4] = [EventTime, EventVelocity, EventCentre, EventCentreVelocity];
-pub(crate) const CONTACT: [Quantity; 13] = [
-    Impact,
-    Release,
-    ContactImpulse,
-    PeakStrain,
-    PeakStress,
-    PeakForce,
-    MomentumRestitution,
-    EnergyRestitution,
-    TranslationalShare,
-    EnergyKept,
-    EnergyLeft,
-    TranslationalLeft,
-    VibrationalLeft,
-];
-/// The place of the greatest compression among these.
-const PEAK: usize = 3;
-const FLIGHT: [Quantity; 4] = [FlightBegins, FlightEnds, TopTime, Top];
-const PIECE: [Quantity; 6] =
-    [PieceBegins, PieceEnds, PieceStrainBegins, PieceStrainEnds, PieceStressBegins, PieceStressEnds];
-
-/// The column of a quantity in a list, in JSON inside of what it belongs to.
+/// The column of a quantity of an event, a contact, a flight or a piece of the stress.
 fn column(quantity: Quantity) -> Column {
-    let key = quantity.key();
-    let column = Column::new(key).headed(quantity.symbol());
+    let name = quantity.name();
     match quantity {
-        EventTime => column.headed(key),
-        MomentumRestitution | EnergyRestitution => {
-            column.named(format!("restitution_{key}")).keyed(format!("restitution/{key}"))
-        }
-        TranslationalShare | EnergyKept => Column::json(format!("restitution/{key}")),
-        EnergyLeft | TranslationalLeft | VibrationalLeft => column.keyed(format!("energy/{key}")),
-        FlightEnds => Column::json(key),
-        TopTime => column.keyed("highest/time"),
-        Top => column.keyed("highest/centre"),
-        PieceStressBegins | PieceStressEnds => Column::csv(key),
-        PieceBegins | PieceEnds | PieceStrainBegins | PieceStrainEnds => Column::data(key),
-        _ => column,
+        EventTime => Column::new(name).headed("time"),
+        Duration | ImpactVelocity | ReleaseVelocity | TranslationalShare | EnergyKept | Landing => Column::data(name),
+        _ if quantity.needs() == Needs::Piece => Column::data(name),
+        _ => Column::new(name).headed(quantity.symbol()),
     }
 }
 
@@ -102,32 +71,33 @@ const STRAIGHT: f64 = 1e-6;
 
 impl Record {
     pub(crate) fn add(&mut self, derived: Derived) {
-        add_columns(&mut self.events, &EVENT, (derived.by, &derived.events), csv_name);
-        add_columns(&mut self.contacts, &CONTACT, (derived.by, &derived.contacts), csv_name);
+        add_columns(&mut self.events, Table::Events.quantities(), (derived.by, &derived.events));
+        add_columns(&mut self.contacts, Table::Contacts.quantities(), (derived.by, &derived.contacts));
         self.derivatives.push(derived);
     }
 }
 
-fn csv_name(quantity: Quantity) -> String {
-    column(quantity).name.map_or_else(|| quantity.key().to_string(), Into::into)
-}
-
 /// Why `e_P` and `e_E²` of a contact are not defined, where they are not.
 fn undefined_ratios<S>(contact: &Row<S>) -> [Option<Undefined>; 2] {
-    [MomentumRestitution, EnergyRestitution].map(|ratio| {
-        let place = CONTACT.iter().position(|quantity| *quantity == ratio)?;
-        contact.get(place)?.as_ref().err().copied()
-    })
+    RATIOS.map(|ratio| contact.get(place(ratio))?.as_ref().err().copied())
+}
+
+/// The quantities of a contact whose reason is told where they are not defined.
+const RATIOS: [Quantity; 2] = [MomentumRestitution, EnergyRestitution];
+
+/// The place of a quantity among those of a contact.
+fn place(quantity: Quantity) -> usize {
+    Table::Contacts.quantities().iter().position(|known| *known == quantity).unwrap_or(0)
 }
 
 fn pieces<S: Scalar>(history: &dyn Motion<S>, pieces: &[StressPiece<S>], head: &Head) -> Dataset {
     let rows = pieces
         .iter()
-        .map(|StressPiece { from, to, left, right, .. }| {
+        .map(|StressPiece { start: from, end: to, strain_start: left, strain_end: right, .. }| {
             vec![Some(from), Some(to), Some(left), Some(right), Some(left), Some(right)]
         })
         .collect::<Vec<_>>();
-    listed(history, &PIECE, &column, head, &rows)
+    listed(history, Table::Stress.quantities(), &column, head, &rows)
 }
 
 /// The stress at the ground, as it is printed.
@@ -162,11 +132,11 @@ pub(crate) fn record<S: Scalar>(
             rows.iter().map(|row| row.iter().map(|value| value.as_ref().ok()).collect::<Vec<_>>()).collect::<Vec<_>>();
         Ok::<_, Error>((listed(history, quantities, &column, head, &defined), rows))
     };
-    let (mut events, _) = gather(&EVENT)?;
-    let (mut contacts, ends) = gather(&CONTACT)?;
-    let (flights, _) = gather(&FLIGHT)?;
+    let (mut events, _) = gather(Table::Events.quantities())?;
+    let (mut contacts, ends) = gather(Table::Contacts.quantities())?;
+    let (flights, _) = gather(Table::Flights.quantities())?;
     let known = |time: &S| time.ends(1).is_none() && time.log2_error().is_finite();
-    let uncertain = history.events().iter().any(|event| known(&event.time));
+    let uncertain = history.events().iter().any(|event| known(&event.t));
     events.columns.insert(0, Column::new("kind").headed("event").text());
     events.columns.splice(2..2, uncertain.then(|| Column::table("±")));
     for (row, event) in events.rows.iter_mut().zip(history.events()) {
@@ -175,7 +145,7 @@ pub(crate) fn record<S: Scalar>(
         row.splice(2..2, uncertain.then_some(bound));
     }
     let undefined = ends.iter().map(undefined_ratios).collect::<Vec<_>>();
-    let keys = ["momentum", "energy_squared"].map(|name| format!("restitution/undefined/{name}"));
+    let keys = RATIOS.map(|ratio| format!("undefined/{}", ratio.name()));
     contacts.columns.extend(keys.map(|key| Column::json(key).optional()));
     for (row, undefined) in contacts.rows.iter_mut().zip(&undefined) {
         row.extend(undefined.map(|reason| reason.map(|reason| reason.to_string()).into()));
@@ -212,11 +182,6 @@ pub(crate) fn record<S: Scalar>(
 
 /// The whole history, schema 1.
 pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
-    let (mut contacts, mut flights) = (record.contacts.objects(), record.flights.objects());
-    // An object of values that there are not is none.
-    for (list, key, value) in [(&mut contacts, "energy", "total"), (&mut flights, "highest", "time")] {
-        list.iter_mut().filter(|row| row[key][value].is_null()).for_each(|row| row[key] = Value::Null);
-    }
     json!({
         "schema": 1,
         "title": head.title,
@@ -225,8 +190,8 @@ pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
         "units": units_json(&head.units),
         "exact_until": head.exact_until_json(),
         "events": record.events.objects(),
-        "contacts": contacts,
-        "flights": flights,
+        "contacts": record.contacts.objects(),
+        "flights": record.flights.objects(),
         "stress": {"pieces": record.stress.objects()},
         "end": end_json(record, head),
         "error_estimate": record.error,
@@ -237,9 +202,9 @@ pub(crate) fn history_json(record: &Record, head: &Head) -> Value {
 
 fn end_json(Record { end: (time, ending), .. }: &Record, head: &Head) -> Value {
     let mut value = json!({
-        "time": time.json(head.digits),
+        "t": time.json(head.digits),
         "reason": if let Ending::ExactnessEnds { .. } = ending { "exactness ends".into() } else { ending.to_string() },
-        "uncertainty": {"time": time.json_bound(head.digits)},
+        "uncertainty": {"t": time.json_bound(head.digits)},
     });
     if let Ending::ExactnessEnds { kind, time, near } = ending {
         value["event"] = json!(kind);
@@ -271,11 +236,11 @@ pub(crate) fn history_part(record: Record, part: Part, coefficients: bool, head:
         data.notes.push(record.end.1.at(&record.end.0.printed(digits)));
     }
     if part == Part::Stress && coefficients {
-        let series = "the sum of chebyshev[k] T_k(x), x = 2(t - from)/(to - from) - 1";
-        data.notes.push(format!("v_x(0,t) is linear from strain_from to strain_to, or {series}"));
+        let series = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
+        data.notes.push(format!("v_x(0,t) is linear from strain_start to strain_end, or {series}"));
     } else if part == Part::Stress && record.curved {
         data.notes.push(format!(
-            "straight lines from strain_from to strain_to are within {STRAIGHT:e} of the greatest v_x(0,t); the \
+            "straight lines from strain_start to strain_end are within {STRAIGHT:e} of the greatest v_x(0,t); the \
              coefficients give the exact form"
         ));
     }
@@ -291,8 +256,8 @@ impulse        −E S ∫ v_x(0,t) dt over the contact; per ρS −c² ∫ v_x(0
 peak v_x(0,t)  the most compressive strain at the ground
 peak stress    E v_x(0,t) there, below zero
 peak force     −E S v_x(0,t) there: the force of the ground, above zero
-e_P            −P(to)/P(from), P = ρSL h′; below zero if h falls at the end
-e_E²           E_h(to)/E_h(from): above 1 where the vibration gives energy back
+e_P            −P(release)/P(impact), P = ρSL h′; below zero if h falls then
+e_E²           E_h(release)/E_h(impact): above 1 if the vibration gives energy back
 E, E_h, E_z    energy at the end of the contact, of the centre, of the vibration
 highest at     when the centre of mass is highest in a flight; h_max is its h
 per ρS         divided by the linear density, known with a material only
@@ -316,7 +281,7 @@ pub(crate) fn history_table(mut record: Record, head: &Head) -> String {
     }
     out += "\n";
     if !record.outline.is_empty() {
-        let peaks = record.contacts.rows.iter().map(|contact| contact[PEAK].double());
+        let peaks = record.contacts.rows.iter().map(|contact| contact[place(PeakStrain)].double());
         out += &sparkline(&record.outline, record.end.0.double(), peaks.fold(0.0, f64::min), head);
     }
     out += &format!("{}\n\n{}\n\n", record.events.table(), record.contacts.table());
@@ -361,10 +326,10 @@ fn derivative_tables(record: &Record, head: &Head) -> String {
     let mut out = String::new();
     for Derived { by, events, contacts } in &record.derivatives {
         let keys = record.events.rows.iter().map(event).collect();
-        out += &derivatives::table(("derivatives", keys), &symbols(&EVENT), (*by, events), head);
+        out += &derivatives::table(("derivatives", keys), &symbols(Table::Events.quantities()), (*by, events), head);
         // When a contact begins and ends is in the table above.
         let keys = record.contacts.rows.iter().map(contact).collect();
-        let symbols: Vec<_> = symbols(&CONTACT).into_iter().skip(2).collect();
+        let symbols: Vec<_> = symbols(Table::Contacts.quantities()).into_iter().skip(2).collect();
         out += &derivatives::table(("derivatives", keys), &symbols, (*by, contacts), head);
     }
     out

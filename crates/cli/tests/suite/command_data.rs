@@ -59,7 +59,7 @@ fn every_format_says_where_fractions_end() {
     assert!(of("table").ends_with(&format!("{said}; these are 12 digits\n")), "{}", of("table"));
 }
 
-/// The pieces of a CSV of the stress: its comments, and `from, to, left, right` with what stands behind them.
+/// The pieces of a CSV of the stress: its comments, and `start, end, left, right` with what stands behind them.
 fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
     let Run { code, out, err } = run(&[&["solve", scene, "--format", "csv", "--part", "stress"], more].concat());
     assert_eq!((code, err.as_str()), (Some(0), ""));
@@ -71,7 +71,7 @@ fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
         let series = if rows[0].split(',').nth(4) == Some("chebyshev") { cells[4].to_string() } else { String::new() };
         (numbers, series)
     };
-    assert!(rows[0].starts_with("from,to,strain_from,strain_to"));
+    assert!(rows[0].starts_with("start,end,strain_start,strain_end"));
     (comments.join("\n"), rows[1..].iter().map(row).collect())
 }
 
@@ -151,5 +151,5 @@ fn a_proved_release_has_nothing_to_pull_after_it() {
     let scene = "[rod]\nlength = 1\nwave_speed = \"1/3\"\ndamping = \"1/300\"\n[impact]\nspeed = 1\n";
     let args = ["sample", "-", "--quantity", "stress", "--times", "6", "--certified", "--format", "json"];
     let json: Value = serde_json::from_str(&run_with(&args, scene).out).unwrap();
-    assert_eq!(json["rows"][0]["values"]["v_x"]["value"], "0");
+    assert_eq!(json["rows"][0]["values"]["strain"]["value"], "0");
 }

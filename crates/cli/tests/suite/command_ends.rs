@@ -20,9 +20,9 @@ fn exactness_ends_at_a_surd_and_says_so() {
     assert!(err.starts_with("note: exactness ends before the impact at t = 3 + √2"), "{err}");
     let history: Value = serde_json::from_str(&out).unwrap();
     assert_eq!((&history["number"], &history["exact_until"]["surd"]), (&"20 digits".into(), &"3 + √2".into()));
-    assert_eq!(history["events"][2]["time"], "4.4142135623730950488");
+    assert_eq!(history["events"][2]["t"], "4.4142135623730950488");
     // The tangential landing at 31, and contact until 34.
-    let times: Vec<&str> = history["events"].as_array().unwrap().iter().filter_map(|e| e["time"].as_str()).collect();
+    let times: Vec<&str> = history["events"].as_array().unwrap().iter().filter_map(|e| e["t"].as_str()).collect();
     for time in ["31.000000000000000000", "34.000000000000000000", "36.000000000000000000"] {
         assert!(times.contains(&time), "{time} in {times:?}");
     }

@@ -8,17 +8,17 @@ use crate::command::{Run, json, keys, quiet, refused, refused_with, run_with};
 fn samples() {
     let out = quiet(&["sample", "paper-strong", "--quantity", "stress", "--times", "1,2", "--side", "left"]);
     let cells: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
-    assert_eq!(cells[0], ["t", "side", "v_x"]);
+    assert_eq!(cells[0], ["t", "side", "strain"]);
     // −(μ + g t)/c.
     assert_eq!(cells[2..], [["1", "left", "-4"], ["2", "left", "-5"]]);
 
     for (quantity, names) in [
-        ("stress", &["v_x"][..]),
-        ("end", &["v", "v_t"]),
-        ("top", &["v", "v_t"]),
+        ("stress", &["strain"][..]),
+        ("end", &["u_end", "v_end"]),
+        ("top", &["u_top", "v_top"]),
         ("centre", &["h", "h_rate"]),
-        ("energy", &["total", "translational", "vibrational"]),
-        ("field", &["v", "v_t", "v_x"]),
+        ("energy", &["E_total", "E_h", "E_z"]),
+        ("field", &["u", "v", "strain"]),
     ] {
         let args = ["sample", "paper-strong", "--quantity", quantity, "--times", "0..2:3"];
         let samples = json(&[&args[..], &["--format", "json"]].concat());
@@ -27,24 +27,24 @@ fn samples() {
         // The field has two ends and the middle for each time.
         assert_eq!(rows.len(), if quantity == "field" { 9 } else { 3 });
         for row in rows {
-            keys(row, &["time", "point", "side", "values", "uncertainty"]);
+            keys(row, &["t", "x", "side", "values", "uncertainty"]);
             keys(&row["uncertainty"], names);
             keys(&row["values"], names);
             assert_eq!(row["side"], "right");
-            assert!(row["time"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
-            assert_eq!(row["point"].is_number(), quantity == "field");
+            assert!(row["t"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
+            assert_eq!(row["x"].is_number(), quantity == "field");
         }
-        assert_eq!(rows[rows.len() - 1]["time"], 2.0);
+        assert_eq!(rows[rows.len() - 1]["t"], 2.0);
         let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
         let unit = if quantity == "energy" { " [per ρS]" } else { "" };
         let heads = ["", "_uncertainty"].map(|end| names.iter().map(move |name| format!("{name}{end}{unit}")));
         let heads: Vec<String> = heads.into_iter().flatten().collect();
-        assert_eq!(csv.lines().next().unwrap(), format!("time,point,side,{}", heads.join(",")));
+        assert_eq!(csv.lines().next().unwrap(), format!("t,x,side,{}", heads.join(",")));
         assert_eq!(csv.lines().count(), rows.len() + 1);
     }
 }
 
-/// Several quantities stand beside each other under their whole names, since two of them may have a `v`.
+/// Several quantities stand beside each other under the names that each has alone.
 #[test]
 fn samples_of_several_quantities() {
     let args = ["sample", "paper-strong", "--quantity", "end,energy", "--times", "0,1", "--format", "json"];
@@ -52,13 +52,10 @@ fn samples_of_several_quantities() {
     assert_eq!(several["quantity"], "end,energy");
     for (k, row) in several["rows"].as_array().unwrap().iter().enumerate() {
         keys(&row["values"], &["u_end", "v_end", "E_total", "E_h", "E_z"]);
-        for (quantity, names) in [
-            ("end", &[("v", "u_end"), ("v_t", "v_end")][..]),
-            ("energy", &[("total", "E_total"), ("vibrational", "E_z")]),
-        ] {
+        for (quantity, names) in [("end", ["u_end", "v_end"]), ("energy", ["E_total", "E_z"])] {
             let alone = json(&[&args[..3], &[quantity], &args[4..]].concat());
-            for (one, of_several) in names {
-                assert_eq!(row["values"][of_several], alone["rows"][k]["values"][one], "{quantity}");
+            for name in names {
+                assert_eq!(row["values"][name], alone["rows"][k]["values"][name], "{quantity}");
             }
         }
     }
@@ -75,9 +72,9 @@ fn samples_in_fractions_have_two_sides() {
         json(&[&args[..], &["--format", "json", "--side", side]].concat())
     };
     // At the release: −(μ + 2g)/c before it, nothing after it.
-    assert_eq!(at("left")["rows"][0]["values"]["v_x"], "-5");
-    assert_eq!(at("right")["rows"][0]["values"]["v_x"], "0");
-    assert_eq!(at("right")["rows"][1]["point"], "1/3");
+    assert_eq!(at("left")["rows"][0]["values"]["strain"], "-5");
+    assert_eq!(at("right")["rows"][0]["values"]["strain"], "0");
+    assert_eq!(at("right")["rows"][1]["x"], "1/3");
     // A zero in digits is a zero, not what rounding leaves of it.
     let args = ["sample", "doyen-ern-piperno", "--quantity", "centre", "--times", "0", "--digits", "38"];
     assert_eq!(json(&[&args[..], &["--format", "json"]].concat())["rows"][0]["values"]["h"], "0");
@@ -89,22 +86,20 @@ fn published_values_beside_ours() {
     let rows = json(&["scenes", "ansys-vm265", "--targets", "--format", "json"]);
     let rows = rows.as_array().unwrap();
     for row in rows {
-        keys(row, &["quantity", "time", "published", "ours", "difference", "within", "agrees", "source"]);
+        keys(row, &["quantity", "t", "published", "ours", "difference", "within", "agrees", "source"]);
     }
     // gap/μ, and 2L/c after it.
     let close = |value: &Value, truth: f64| assert!((value.as_f64().unwrap() - truth).abs() < 1e-12 * truth, "{value}");
     close(&rows[0]["ours"], 0.01 / 202.2);
     close(&rows[2]["ours"], 0.01 / 202.2 + 20.0 / (3e7f64 / 0.73e-3).sqrt());
-    assert_eq!((&rows[0]["quantity"], &rows[0]["time"]), (&"impact".into(), &Value::Null));
+    assert_eq!((&rows[0]["quantity"], &rows[0]["t"]), (&"impact".into(), &Value::Null));
 
     let table = quiet(&["scenes", "code-aster-sdnv100", "--targets"]);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
     assert!(table.contains("E_total, J                   2e-6      3200.0     3200            0   yes (2)"), "{table}");
     let csv = quiet(&["scenes", "ansys-vm85", "--targets", "--format", "csv"]);
     assert!(
-        csv.starts_with(
-            "quantity,unit,time,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"
-        ),
+        csv.starts_with("quantity,unit,t,published,ours,difference,within,agrees,source\nimpact,s,,0.0064,0.0064,0,"),
         "{csv}"
     );
 

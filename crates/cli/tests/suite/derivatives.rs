@@ -184,7 +184,7 @@ fn euler_identities_in_fractions(cases: u32, least: [u32; 2], rods: impl Strateg
             .collect();
         let (mut smooth, mut kinks) = (0, 0);
         for (i, event) in history.events().iter().enumerate() {
-            let numbers = [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity];
+            let numbers = [&event.t, &event.v_end, &event.h, &event.h_rate];
             for (j, number) in numbers.into_iter().enumerate() {
                 let one = |(by, value, rows): &(Parameter, Rational, dalembert::solve::Derivatives<Rational>)| {
                     if value.is_zero() {
@@ -322,7 +322,7 @@ fn a_damped_bounce_between_rays() {
         let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
         rod.rod.damping = Some(number("0.25"));
         let history = rod.doubles().unwrap();
-        let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].time);
+        let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].t);
         assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
         let u = (t * t - t1 * t1).sqrt();
         let h = bessel(0, r * t) - 2.0 * bessel(0, r * u);
@@ -407,9 +407,8 @@ fn doubles_against_long_numbers(cases: u32, least: [u32; 1], impacts: std::ops::
         let step = rational("1e-14");
         let runs = [-1, 0, 1].map(|side| {
             let run = times(&problem, by, &(Rational::from(1) + step.clone() * side)).digits(40).unwrap();
-            let numbers = |event: &dalembert::Event<Float>| {
-                [&event.time, &event.end_velocity, &event.centre, &event.centre_velocity].map(Float::clone)
-            };
+            let numbers =
+                |event: &dalembert::Event<Float>| [&event.t, &event.v_end, &event.h, &event.h_rate].map(Float::clone);
             run.events().iter().map(numbers).collect::<Vec<_>>()
         });
         let step = value.clone() * step;
@@ -466,7 +465,7 @@ fn euler_identities_damped(cases: u32, least: [u32; 1]) {
             .collect();
         let mut compared = 0;
         for (i, event) in history.events().iter().enumerate() {
-            let numbers = [event.time, event.end_velocity, event.centre, event.centre_velocity];
+            let numbers = [event.t, event.v_end, event.h, event.h_rate];
             for (j, number) in numbers.into_iter().enumerate() {
                 let one = |(by, value, rows): &(Parameter, f64, dalembert::solve::Derivatives<Estimate<f64>>)| {
                     let found = rows[i][j].as_ref()?.value()?;
@@ -511,7 +510,7 @@ fn thresholds() {
     let rod = uniform("1", "1", "1", "1", Run::Time(number("35")));
     let history = rod.doubles().unwrap();
     let found = history.derivatives(Parameter::Speed, &[EventTime]).unwrap();
-    let touch = history.events().iter().position(|event| (event.time - 31.0).abs() < 1e-9).unwrap();
+    let touch = history.events().iter().position(|event| (event.t - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
     assert!(reasons.contains(&true), "{:?}", found[touch]);
     // The bounce leaves t₁ with the rate of the root in the second round trip, u = 0, and μ = 2 (I₀ + I₁)/(2 − I₀) at
@@ -546,20 +545,20 @@ fn the_command() {
     let asked = ["solve", "doyen-ern-piperno", "--derivatives", "speed,density"];
     let found = json(&[&asked[..], &["--exact", "--format", "json"]].concat());
     let by = |key: &str, name: &str| found["events"][2]["derivatives"][key][name].clone();
-    assert_eq!(by("time", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
+    assert_eq!(by("t", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
     // The speed on the left is that before a ray, on the right that behind it.
-    assert_eq!(by("end_velocity", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
+    assert_eq!(by("v_end", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
     // c = √(E/ρ) = 30 with ρ = 1: ∂t_b/∂ρ = t_b/2ρ.
-    assert_eq!(found["events"][1]["derivatives"]["time"]["density"], "1/3");
+    assert_eq!(found["events"][1]["derivatives"]["t"]["density"], "1/3");
     // An impulse of ρ L (2μ + g t₁) = 200ρ + 200/3 ρ√ρ.
     assert_eq!(found["contacts"][0]["derivatives"]["impulse"]["density"], "300");
-    assert_eq!(found["contacts"][0]["derivatives"]["momentum"]["speed"], "0");
+    assert_eq!(found["contacts"][0]["derivatives"]["e_P"]["speed"], "0");
     let csv = quiet(&[&asked[..], &["--format", "csv"]].concat());
     let table: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     let column = |name: &str| table[0].iter().position(|head| *head == name).unwrap();
     let cell = |name: &str| table[3][column(name)];
-    assert_eq!((cell("time_by_speed"), cell("time_by_speed_left"), cell("time_by_speed_right")), ("", "0.6", "0.12"));
-    assert!(cell("time_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
+    assert_eq!((cell("t_by_speed"), cell("t_by_speed_left"), cell("t_by_speed_right")), ("", "0.6", "0.12"));
+    assert!(cell("t_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
     let shown = quiet(&asked);
     let row = shown.lines().find(|line| line.starts_with(" impact at 2.66666666667     right")).unwrap();
     let words: Vec<&str> = row.split_whitespace().skip(4).collect();
@@ -579,7 +578,7 @@ fn what_an_event_costs() {
     };
     let times = |speed: f64| -> Vec<f64> {
         let solved = json(&["solve", &file(speed), "--format", "json"]);
-        solved["events"].as_array().unwrap().iter().map(|event| event["time"].as_f64().unwrap()).collect()
+        solved["events"].as_array().unwrap().iter().map(|event| event["t"].as_f64().unwrap()).collect()
     };
     let found = &json(&["explain", &file(3.0), "--format", "json"])["sensitivity"];
     let (here, more) = (times(3.0), times(3.0 + 1e-5));

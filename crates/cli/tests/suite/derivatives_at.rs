@@ -170,11 +170,11 @@ fn the_command() {
     let by = ["--derivatives", "displacement[0],length"];
     let found = json(&[&asked[..], &by, &["--format", "json"]].concat());
     let rows: Vec<_> = found["rows"].as_array().unwrap().iter().map(|row| row["derivatives"].clone()).collect();
-    assert_eq!(rows[0]["v"], serde_json::json!({"displacement[0]": "1/2", "length": "1/4"}));
-    assert_eq!(rows[0]["v_t"], serde_json::json!({"displacement[0]": "-1", "length": "1/2"}));
-    assert_eq!(rows[1]["v"], serde_json::json!({"displacement[0]": "0", "length": "0"}));
+    assert_eq!(rows[0]["u_end"], serde_json::json!({"displacement[0]": "1/2", "length": "1/4"}));
+    assert_eq!(rows[0]["v_end"], serde_json::json!({"displacement[0]": "-1", "length": "1/2"}));
+    assert_eq!(rows[1]["u_end"], serde_json::json!({"displacement[0]": "0", "length": "0"}));
     let csv = quiet(&[&asked[..], &by, &["--format", "csv"]].concat());
-    assert!(csv.lines().next().unwrap().contains("v_by_displacement[0],"), "{csv}");
+    assert!(csv.lines().next().unwrap().contains("u_end_by_displacement[0],"), "{csv}");
     let shown = quiet(&[&asked[..], &by].concat());
     assert!(
         shown.contains("by displacement[0]:") && shown.contains(" t = 1/2   both        1/2           -1"),

@@ -182,9 +182,9 @@ fn chapter_1() {
         "01-fall.md",
         &[
             format!("c = √(E/ρ) = {wave_speed:.0} m/s"),
-            format!("t₁ = 2L/c = {:.5} ms", 1e3 * contact.to.unwrap()),
+            format!("t₁ = 2L/c = {:.5} ms", 1e3 * contact.release.unwrap()),
             format!("= {:.4} m/s. The speed", -strain * wave_speed),
-            format!("M = {:.0},", -strain * wave_speed / 9.81 / contact.to.unwrap()),
+            format!("M = {:.0},", -strain * wave_speed / 9.81 / contact.release.unwrap()),
             format!("{:.3} kN", force / 1e3),
             format!("weighs {:.2} N", 7850.0 * 1e-4 * 0.5 * 9.81),
         ],
@@ -209,9 +209,9 @@ fn chapter_3() {
 fn chapter_4() {
     holds("04-first-bounce.md");
     let history = unit("3/2", 1);
-    assert_eq!(history.contacts()[0].to, Some(Rational::from((5, 2))));
+    assert_eq!(history.contacts()[0].release, Some(Rational::from((5, 2))));
     let found = history.restitution(0).unwrap();
-    let [momentum, energy] = [found.momentum, found.energy_squared].map(Result::unwrap);
+    let [momentum, energy] = [found.e_p, found.e_e2].map(Result::unwrap);
     assert_eq!(Rational::from(&momentum * &momentum), energy);
     // The centre of mass is back where it was, and only there.
     assert_eq!(history.centre(Rational::from((5, 2))).unwrap().0, 0);
@@ -226,7 +226,7 @@ fn chapter_4() {
 fn chapter_5() {
     holds("05-energy-back.md");
     let history = unit("2", 4);
-    let times: Vec<String> = history.events().iter().map(|event| event.time.to_string()).collect();
+    let times: Vec<String> = history.events().iter().map(|event| event.t.to_string()).collect();
     let energy = history.energy(Rational::from(4)).unwrap();
     let [from, to, again, end, period] = [0, 1, 2, 3, 4].map(|k| times[k].as_str());
     answers(
@@ -245,7 +245,7 @@ fn chapter_6() {
     holds("06-damping.md");
     let rod = Problem::builder().length(1).wave_speed(1).damping("1/2").impact_speed(1).build().unwrap();
     let found = rod.doubles().unwrap().restitution(0).unwrap();
-    let [momentum, energy] = [found.momentum, found.energy_squared].map(Result::unwrap);
+    let [momentum, energy] = [found.e_p, found.e_e2].map(Result::unwrap);
     let parts = [format!("= {momentum:.6}, against"), format!("= {:.6}:", (-1f64).exp()), format!("is {energy:.6},")];
     answers("06-damping.md", &parts);
 }
@@ -255,7 +255,7 @@ fn chapter_7() {
     holds("07-never.md");
     let bounce = |damping: &str| {
         let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
-        rod.doubles().unwrap().contacts()[0].to.unwrap()
+        rod.doubles().unwrap().contacts()[0].release.unwrap()
     };
     let swing = |r: f64| (std::f64::consts::PI.powi(2) - r * r).sqrt();
     let half = |r: f64| std::f64::consts::PI / swing(r);
@@ -274,7 +274,7 @@ fn chapter_8() {
     holds("08-accuracy.md");
     let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed("0.999999999999").time(32);
     let history = rod.build().unwrap().doubles().unwrap();
-    answers("08-accuracy.md", &[format!("to {:.6}.", history.events().last().unwrap().time)]);
+    answers("08-accuracy.md", &[format!("to {:.6}.", history.events().last().unwrap().t)]);
 }
 
 #[test]
