@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::quantity::{Needs, SLICE, Slice};
 use dalembert::solve::{Derivatives, Solution, Target, TypedHistory, Visitor};
-use dalembert::{Error, Parameter, Problem, Quantity, Side, Units, Value};
+use dalembert::{Derivative, Error, Parameter, Problem, Quantity, Side, Units, Value};
 use dalembert_plot::Drawing;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
@@ -231,7 +231,7 @@ impl History {
     /// Returns the kind of each event, and the bound of the error of its time.
     fn kinds(&self, py: Python<'_>) -> PyResult<(Vec<String>, Vec<f64>)> {
         self.ask(py, |history| {
-            Ok(history.events()?.iter().map(|event| (event.kind.to_string(), event.time_error)).unzip())
+            Ok(history.events()?.iter().map(|event| (event.kind.to_string(), event.t_error)).unzip())
         })
     }
 
@@ -364,11 +364,10 @@ fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {
 fn sides(rows: &Derivatives<Value>, quantities: &[Quantity], is_double: bool) -> [Vec<Listed>; 2] {
     [0, 1].map(|side| {
         let column = |(k, quantity): (usize, &Quantity)| {
-            let value = |row| match Vec::get(row, k) {
-                Some(Some(found)) => dalembert::Derivative::sides(found)[side].map_err(|why| why.to_string()),
-                _ => Err("there is no number".to_string()),
-            };
-            let values: Vec<_> = rows.iter().map(value).collect();
+            let found = rows.iter().map(|row| row.get(k).and_then(Option::as_ref).map(Derivative::sides));
+            let none = || Err("there is no number".to_string());
+            let values = found.map(|sides| sides.map_or_else(none, |sides| sides[side].map_err(|why| why.to_string())));
+            let values: Vec<_> = values.collect();
             Listed::new(quantity.name(), &values, is_double)
         };
         quantities.iter().enumerate().map(column).collect()

@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::argument::{names, number, refuse, typed};
-use super::problem::{Setting, Problem, did_you_mean};
+use super::problem::{Problem, Setting, did_you_mean};
 use super::run;
 
 /// Values and bounds of one quantity, point by point.
