@@ -80,8 +80,8 @@ impl<'py> IntoPyObject<'py> for Column {
 struct Listed {
     name: &'static str,
     values: Column,
-    /// Bound of the error of each number, of derivatives.
-    bounds: Vec<f64>,
+    /// Bound of the error of each number.
+    bounds: Column,
     /// Rows without a number, and the reason.
     missing: Vec<(usize, String)>,
 }
@@ -93,7 +93,9 @@ impl Listed {
         Listed {
             name,
             values: Column::new(found.clone(), is_double),
-            bounds: found.map(|value| value.map_or(f64::NAN, |value| value.log2_error().exp2())).collect(),
+            bounds: Column::Doubles(
+                found.map(|value| value.map_or(f64::NAN, |value| value.log2_error().exp2())).collect(),
+            ),
             missing: values.iter().enumerate().filter_map(reason).collect(),
         }
     }
@@ -117,8 +119,6 @@ struct Facts {
     end: Cell,
     ending: String,
     engine: String,
-    warnings: Vec<String>,
-    error_estimate: f64,
     /// Natural scales: time, velocity, length, wave speed, gravity.
     scales: [f64; 5],
 }
@@ -204,18 +204,24 @@ impl History {
             Solution::Digits(..) | Solution::DigitsAfter(..) => "digits",
             Solution::Certified(..) => "certified",
         };
-        let in_digits = |end| format!("{end}; what follows is in {} digits", history.digits());
-        let first = history.exactness_end().map(in_digits);
         Facts {
             numbers,
             question: history.plan().numbers.to_string(),
             end: Cell::from(&history.end()),
             ending: history.ending().to_string(),
             engine: history.plan().engine.to_string(),
-            warnings: first.into_iter().chain(history.warnings().iter().map(ToString::to_string)).collect(),
-            error_estimate: history.error_estimate(),
             scales: history.visit(NaturalScales),
         }
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let in_digits = |end| format!("{end}; what follows is in {} digits", self.history.digits());
+        let first = self.history.exactness_end().map(in_digits);
+        first.into_iter().chain(self.history.warnings().iter().map(ToString::to_string)).collect()
+    }
+
+    fn error_estimate(&self) -> f64 {
+        self.history.error_estimate()
     }
 
     /// Returns the sheet of pictures of the scene, as SVG.

@@ -25,6 +25,8 @@ struct Facts {
     profiles: Vec<(&'static str, Points)>,
     has_fixed_top: bool,
     title: Option<String>,
+    units: &'static str,
+    accuracy: Option<f64>,
     wave_speed: f64,
     round_trip: f64,
     damping_ratio: f64,
@@ -33,8 +35,7 @@ struct Facts {
 }
 
 fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Written)>> {
-    let shape = format!("found {name} of another shape, expected points (x, value), an array of shape (n, 2)");
-    let pairs: Vec<[Bound<'_, PyAny>; 2]> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
+    let pairs: Vec<[Bound<'_, PyAny>; 2]> = typed(name, value, "points (x, value), an array of shape (n, 2)")?;
     pairs.iter().map(|[x, v]| Ok((written("x", x)?, written(name, v)?))).collect()
 }
 
@@ -105,6 +106,8 @@ impl Problem {
             profiles: profiles.into_iter().map(points).collect(),
             has_fixed_top: rod.top == Top::Fixed,
             title: self.title.clone(),
+            units: UnitSystem::ALL.iter().find(|(_, system)| *system == self.units).map_or("", |(word, _)| word),
+            accuracy: self.accuracy,
             wave_speed: parameters.wave_speed,
             round_trip: parameters.round_trip(),
             damping_ratio: groups.damping_ratio,

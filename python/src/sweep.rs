@@ -17,7 +17,11 @@ type Column = (Py<PyArray1<f64>>, Py<PyArray1<f64>>);
 /// Notes on points, by their index.
 type Notes = Vec<(usize, String)>;
 
-/// Returns values and bounds of each quantity, and a note for each point that has one.
+/// The answers of a sweep.
+#[derive(IntoPyObject)]
+pub(crate) struct Swept(Vec<&'static str>, Vec<Column>, Notes);
+
+/// Returns the names of the quantities, values and bounds of each, and a note for each point that has one.
 #[pyfunction]
 pub(crate) fn sweep(
     py: Python<'_>,
@@ -26,7 +30,7 @@ pub(crate) fn sweep(
     time: Option<&Bound<'_, PyAny>>,
     accuracy: &Bound<'_, PyAny>,
     varied: Vec<(String, Vec<Bound<'_, PyAny>>)>,
-) -> PyResult<(Vec<Column>, Notes)> {
+) -> PyResult<Swept> {
     let base = base.cast::<Problem>()?.get();
     let single = |name: &String| {
         let expected = || {
@@ -46,7 +50,7 @@ pub(crate) fn sweep(
     let count = columns.first().map_or(1, |column| column.1.len());
     let numbers = Numbers::Double(accuracy.or(base.accuracy));
     let (start, stop) = (base.problem.clone(), Arc::new(AtomicBool::new(false)));
-    let (count_of_columns, seen) = (quantities.len(), stop.clone());
+    let (names, seen): (Vec<_>, _) = (quantities.iter().map(|quantity| quantity.name()).collect(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
             let set = |builder, (name, values): &(String, Vec<Setting>)| values[k].clone().apply(builder, name);
@@ -68,5 +72,6 @@ pub(crate) fn sweep(
             notes.push((k, texts.join("; ")));
         }
     }
-    Ok(((0..count_of_columns).map(column).collect(), notes))
+    let columns = (0..names.len()).map(column).collect();
+    Ok(Swept(names, columns, notes))
 }
