@@ -13,8 +13,9 @@ Examples
 array([ 0. , -0.5])
 """
 
+from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
 from ._compare import Comparison, compare
-from ._history import Centre, Derivatives, Energy, Field, GroundEnd, History, TopEnd
+from ._history import History
 from ._problem import Problem, __version__, scenes
 from ._solve import reference, solve, write_reference
 from ._sweep import Sweep, sweep

@@ -1,4 +1,4 @@
-"""Types of numbers and arrays, and conversions between them."""
+"""Types of numbers and arrays, conversions between them, and a base of frozen classes."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def test_a_float32_is_its_shortest_decimal():
             assert np.ravel(history.strain(times)).tolist() == [history.strain(0.1)]
         assert history.field(tenth, tenth) == history.field(0.1, 0.1)
     found = dalembert.sweep(rod(), "bounce_time", length=np.float32([0.1, 0.3]))["bounce_time"]
-    assert found.tolist() == [0.2, 0.6]
+    assert found.tolist() == pytest.approx([0.2, 0.6], rel=1e-15)
     assert dalembert.reference(rod(), np.float32([0.1]), "t", exact=True)["t"][0] == Fraction(1, 10)
 
 
@@ -87,7 +87,7 @@ def test_what_a_history_hands_out_does_not_change_it(numbers):
             lambda array: array.__setitem__(0, array[1]),
             lambda array: array[name].__setitem__(0, np.ma.masked),
             lambda array: array.data[name].__setitem__(0, 7),
-            lambda array: array.mask[name].__setitem__(0, True),
+            lambda array: setattr(array, "mask", True),
         ):
             with pytest.raises(ValueError, match="read-only"):
                 write(getattr(history, table))
@@ -463,11 +463,12 @@ def test_sweep_over_profiles():
     slopes = np.stack([np.zeros((3, 2)), np.stack([np.ones(3), -depths], axis=1)], axis=1)
     found = dalembert.sweep(rod, "bounce_time", displacement=slopes, gravity=gravities)["bounce_time"]
     assert found.shape == (2, 3)
-    by_hand = [[rod.replace(displacement=slope, gravity=g).solve().contacts["release"][0] for slope in slopes]
+    bounce = lambda **values: rod.replace(**values).solve().contacts["release"].filled(np.nan)[0]
+    by_hand = [[bounce(displacement=slope, gravity=g) for slope in slopes]
                for g, in gravities]
     # Without gravity the wave from the free top is back after L/c; with it one rod stays on the ground.
     assert found[0].tolist() == [1, 1, 1] and found.count() == 5
-    assert np.ma.allclose(found, np.ma.array(by_hand, dtype=float), rtol=1e-9, atol=0)
+    assert np.allclose(found.filled(np.nan), by_hand, rtol=1e-9, atol=0, equal_nan=True)
     # Profiles of their own numbers of points, and what holds the upper end.
     profiles = [[(0, 0), (1, "-0.4")], [(0, 0), (0.5, 0), (1, "-0.4")]]
     each = dalembert.sweep(rod, "bounce_time", velocity=[(0, -1), (1, -1)], displacement=profiles)["bounce_time"]
