@@ -171,9 +171,11 @@ def write_reference(
 
     Examples
     --------
-    >>> write_reference("golden.csv", "paper-strong", [0.5, 2], ["t", "strain"])
-    >>> [line.rstrip() for line in open("golden.csv")][-4:]
-    ['t,strain', '0.5,-3.5', '2,-5', '2,0']
+    >>> import pathlib, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "golden.csv")
+    >>> write_reference(file, "paper-strong", [0.5, 2], ["t", "strain"])
+    >>> file.read_text().splitlines()[-4:]
+    ['t,strain', '0.5,-3.5', '2.0,-5.0', '2.0,0.0']
     """
     options = {"points": x, "columns": names, "side": side, "digits": digits, "accuracy": accuracy}
     listed = {

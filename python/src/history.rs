@@ -312,6 +312,14 @@ impl History {
         let quantities = named(quantities, Needs::Time)?;
         let (times, side) = (Given::new("time", times)?, side.map(side_of).transpose()?);
         self.ask(py, move |history| {
+            if let (Solution::Double(typed), Given::Doubles(times)) = (history.typed(), &times) {
+                // A million doubles take a fifth less time than as values.
+                let lift = |motion: &dyn Motion<_>| Ok(times.iter().map(|time| motion.end().double(*time)).collect());
+                let columns = typed.ask_columns(&quantities, side, lift)?.into_iter().map(|column: Vec<Estimate<f64>>| {
+                    Column::Doubles(column.iter().map(|number| *number.value()).collect())
+                });
+                return Ok(quantities.iter().map(|quantity| quantity.name()).zip(columns).collect());
+            }
             let columns = history.sample(&quantities, &times.places(), side)?;
             Ok(Column::all(&quantities, &columns, history.end().is_double()))
         })

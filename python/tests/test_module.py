@@ -141,12 +141,12 @@ def test_sides_are_words():
 
 def test_units_and_meanings():
     pytest.importorskip("pandas"), pytest.importorskip("xarray")
-    steel = dalembert.solve("steel-bar")
+    steel = dalembert.solve("doyen-ern-piperno")
     attrs = steel.to_frame().attrs
     assert (attrs["units"]["peak_force"], attrs["units"]["e_P"], attrs["units"]["impact"]) == ("N", "", "s")
     assert attrs["meanings"]["release"] == "time at which a contact ends" and attrs["title"] == steel.problem.title
     assert dalembert.reference("paper-strong", [1]).attrs["units"]["force"] == "per ρS"
-    data = steel.to_xarray([0, 0.1], [0, 1e-5])
+    data = steel.to_xarray([0, 10], [0, 0.5])
     assert data.u.attrs == {"units": "m", "long_name": "displacement, upwards"}
     assert (data.v.units, data.strain.units, data.t.units, data.x.units) == ("m/s", "", "s", "m")
     for table in ("events", "contacts", "flights", "stress_history"):
