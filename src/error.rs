@@ -119,8 +119,11 @@ pub enum Error {
         /// The most that is given.
         most: u32,
     },
-    /// Digits, proved or not, need GMP and MPFR.
-    #[error("found a build without arbitrary precision, expected one with the feature `mp` for digits")]
+    /// Digits, proved or not, and answers that doubles do not settle need GMP and MPFR.
+    #[error(
+        "found a build without arbitrary precision, expected one with the feature `mp` for digits, and for answers that \
+         doubles do not settle"
+    )]
     NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(

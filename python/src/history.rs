@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use dalembert::quantity::{Needs, SLICE, Slice};
 use dalembert::solve::{Derivatives, Solution, Target, TypedHistory, Visitor};
-use dalembert::{Derivative, Error, Parameter, Problem, Quantity, Side, Units, Value};
+use dalembert::engine::Motion;
+use dalembert::{Derivative, Error, Estimate, Parameter, Quantity, Side, Units, Value};
 use dalembert_plot::Drawing;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
@@ -134,25 +135,25 @@ impl Visitor for NaturalScales {
     }
 }
 
-/// The sheet of pictures, as SVG.
-struct Sheet<'a>(&'a Problem, &'a Units);
+/// The sheet of pictures, as SVG, in these units.
+struct Sheet(Units);
 
-impl Visitor for Sheet<'_> {
+impl Visitor for Sheet {
     type Output = Result<String, Error>;
 
     fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        Ok(Drawing::default().draw(history, self.0, self.1.clone())?.svg)
+        Ok(Drawing::default().draw(history, self.0)?.svg)
     }
 }
 
 /// The first and the last time of the sheet.
-struct Span<'a>(&'a Problem);
+struct Span;
 
-impl Visitor for Span<'_> {
+impl Visitor for Span {
     type Output = Result<[f64; 2], Error>;
 
     fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        Drawing::default().drawn_span(history, self.0)
+        Drawing::default().drawn_span(history)
     }
 }
 
@@ -226,12 +227,12 @@ impl History {
 
     /// Returns the sheet of pictures of the scene, as SVG.
     fn sheet(&self, py: Python<'_>) -> PyResult<String> {
-        self.ask(py, |history| history.visit(Sheet(history.problem(), history.units())))
+        self.ask(py, |history| history.visit(Sheet(history.units().clone())))
     }
 
     /// Returns the first and the last time of that sheet.
     fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
-        self.ask(py, |history| history.visit(Span(history.problem())))
+        self.ask(py, |history| history.visit(Span))
     }
 
     /// Returns the kind of each event, and the bound of the error of its time.

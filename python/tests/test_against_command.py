@@ -128,7 +128,7 @@ def test_values_at_times(command, scene, side):
     history = lambda: dalembert.solve(scene, to=times[-1])
     x = [0, history().scales["length"] / 2]
     ours = {
-        "stress": [history().strain(times, side)],
+        "strain": [history().strain(times, side)],
         "end": history().ground_end(times, side),
         "top": history().top_end(times, side),
         "centre": history().centre(times),
@@ -138,11 +138,14 @@ def test_values_at_times(command, scene, side):
     for quantity, columns in ours.items():
         points = ("--points", ",".join(map(str, x))) if quantity == "field" else ()
         asked = ("--quantity", quantity, "--times", listed, "--side", side, *points)
-        run = command("sample", scene, *asked, "--format", "json")
-        rows = json.loads(run.stdout)["rows"]
-        for column, name in zip(columns, rows[0]["values"]):  # with a material there are stresses too
-            for value, row in zip(column.ravel(), rows, strict=True):
-                same(value, row["values"][name], row["uncertainty"][name])
+        run = command("sample", scene, *asked, "--uncertainty", "--format", "json")
+        found = json.loads(run.stdout)
+        # Each column has its bounds after it, with the keys first; with a material there are stresses too.
+        names = [column["name"] for column in found["columns"]]
+        first = names.index("x_uncertainty" if quantity == "field" else "side") + 1
+        for j, column in enumerate(columns):
+            for value, row in zip(column.ravel(), found["rows"], strict=True):
+                same(value, *row[first + 2 * j : first + 2 * j + 2])
 
 
 @pytest.mark.parametrize("scene", ["doyen-ern-piperno", "figure-4-r02"])

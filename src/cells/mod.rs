@@ -41,6 +41,9 @@ mod signs;
 mod start;
 mod strips;
 mod uncertainty;
+#[cfg(test)]
+#[path = "tests/wide.rs"]
+mod wide;
 
 pub use contact_then_cells::ContactThenCells;
 pub(crate) use effort::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};

@@ -33,17 +33,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn bounce(&self) -> Bounce<N> {
-        self.search(&Search { contact: self, route: None, kernels: None })
+        self.search(&Search { contact: self, kernels: None })
     }
 
     /// The same for one of many speeds of one damping, which share its `kernels`.
     pub fn bounce_sharing(&self, kernels: &Kernels<N>) -> Bounce<N> {
-        self.search(&Search { contact: self, route: None, kernels: Some(kernels) })
-    }
-
-    /// The same with `e^{−rt} H_r` and `e^{−rt} G_r/t₁` from another route, after τ round trips of which k have passed.
-    pub fn bounce_by(&self, route: &dyn Fn(&N, i64) -> [N; 2]) -> Bounce<N> {
-        self.search(&Search { contact: self, route: Some(route), kernels: None })
+        self.search(&Search { contact: self, kernels: Some(kernels) })
     }
 
     fn search(&self, search: &Search<'_, N>) -> Bounce<N> {
@@ -63,7 +58,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             Bounce::At { time: trips.exact.clone() * &self.round_trip, trips, kind: BounceKind::Jump }
         };
         // By far the most frequent answer.
-        if search.force(&mu.one(), 1).negative() == Ok(true) {
+        if self.force(&mu.one(), 1).negative() == Ok(true) {
             return jump(1);
         }
         let first = match self.lowest_mode(search) {
@@ -71,7 +66,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             Err(answer) => return *answer,
         };
         for k in first..=MOST_CELLS {
-            let after = search.force(&mu.int(k), k);
+            let after = self.force(&mu.int(k), k);
             if after.negative() == Ok(true) {
                 return jump(k);
             }

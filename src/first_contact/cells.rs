@@ -10,14 +10,9 @@ use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
-/// The shares of the force after τ round trips, of which k have passed, by a route of its own.
-type Route<'a, N> = &'a dyn Fn(&N, i64) -> [N; 2];
-
-/// The force on the ground, where it comes from, and what is searched for in it.
+/// A search for the first root of the force on the ground.
 pub(super) struct Search<'a, N> {
     pub(super) contact: &'a FirstContact<N>,
-    /// The rays where there is none.
-    pub(super) route: Option<Route<'a, N>>,
     pub(super) kernels: Option<&'a Kernels<N>>,
 }
 
@@ -146,21 +141,10 @@ impl<N: BoundedSpecial> FirstContact<N> {
 }
 
 impl<N: BoundedSpecial> Search<'_, N> {
-    /// What presses on the ground, see [`FirstContact::force`].
-    pub(super) fn force(&self, trips: &N, k: i64) -> N {
-        self.contact.weighted(&self.shares(trips, k)) / self.contact.total_speed()
-    }
-
-    fn shares(&self, trips: &N, k: i64) -> Shares<N> {
-        let Some(route) = self.route else { return self.contact.ground(trips, k) };
-        let [impact, weight] = route(trips, k);
-        Shares { impact, weight }
-    }
-
     /// The force at the n + 1 Chebyshev points of a cell, from its end to its beginning.
     fn at_nodes(&self, k: i64, n: usize) -> Vec<N> {
         let place = |j: usize| self.contact.inside(k, (std::f64::consts::PI * j as f64 / n as f64).cos());
-        let find = || (0..=n).map(|j| self.shares(&place(j), k)).collect();
+        let find = || (0..=n).map(|j| self.contact.ground(&place(j), k)).collect();
         let shares: Rc<[_]> = match self.kernels {
             Some(kernels) => known(&kernels.cells, (k, n), find),
             None => find(),
@@ -224,8 +208,9 @@ impl<N: BoundedSpecial> Search<'_, N> {
     pub(super) fn cell(&self, k: i64) -> Result<Option<Bracket<N>>, Doubt> {
         let Interpolant { scale, sum, error } = self.interpolant(k)?;
         let at = |x: f64| self.contact.inside(k, x);
-        let sign =
-            |x: f64| self.force(&at(x), k).sign().ok().filter(|order| order.is_ne()).map(std::cmp::Ordering::is_gt);
+        let sign = |x: f64| {
+            self.contact.force(&at(x), k).sign().ok().filter(|order| order.is_ne()).map(std::cmp::Ordering::is_gt)
+        };
         match first_root(&sum, error, sign) {
             FirstRoot::None => Ok(None),
             FirstRoot::Unclear(x) => Err(Doubt::NearZero(at(x).near().0)),
@@ -240,7 +225,7 @@ impl<N: BoundedSpecial> Search<'_, N> {
     /// there has no sign. In the bracket it falls at least as fast as `slope`: the root is no farther than `|f|/slope`.
     pub(super) fn refine(&self, bracket: Bracket<N>) -> Bounce<N> {
         let Bracket { cell: k, from: mut a, to: mut b, slope } = bracket;
-        let force = |x: &N| self.force(x, k);
+        let force = |x: &N| self.contact.force(x, k);
         let (mut fa, found) = (force(&a).middle(), force(&b));
         let mut fb = found.middle();
         let mut best = (b.clone(), found);

@@ -99,7 +99,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `4(n+1)²e`, as in the search for the first root; their second derivatives, by Markov's inequality and the same
     /// series with k⁴ for k², by `4(n+1)⁴e`.
     fn excess(&self, k: i64, to: f64, known: &N) -> Excess<N> {
-        let search = Search { contact: self, route: None, kernels: None };
+        let search = Search { contact: self, kernels: None };
         let Ok(Interpolant { scale, sum, error }) = search.interpolant(k) else {
             return Excess::AtMost(known.one());
         };

@@ -178,6 +178,7 @@ impl<S> Energy<S> {
         Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
 
+    /// Returns the three numbers, in the order of the fields.
     pub fn numbers(&self) -> [&S; 3] {
         [&self.total, &self.translational, &self.vibrational]
     }

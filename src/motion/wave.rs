@@ -22,6 +22,7 @@ impl<S> Field<S> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
 
+    /// Returns displacement, velocity and strain.
     pub fn numbers(&self) -> [&S; 3] {
         [&self.displacement, &self.velocity, &self.strain]
     }
@@ -176,11 +177,13 @@ impl<S: Scalar> Waves<S> {
         self.pieces[begun.max(1) - 1].at(s)
     }
 
+    /// Returns all numbers of both waves.
     pub fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
         [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect()
     }
 
+    /// Returns the same waves in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
         let piece = |piece: WavePiece<S>| WavePiece {
             from: f(piece.from),

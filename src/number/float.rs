@@ -2,12 +2,11 @@
 
 use std::cmp::Ordering;
 
+use rug::Float;
 use rug::float::{Constant, Round};
-use rug::ops::Pow;
-use rug::{Float, Integer, Rational};
 
 use super::fraction::spelled_as;
-use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar};
+use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar, decimal};
 
 impl Scalar for Float {
     /// Bits of the significand.
@@ -113,50 +112,6 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
     }
 }
 
-/// A decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.
-///
-/// Zero is `0`. Plain notation where the exponent is small (`0.00123`, `31.0000`), otherwise `1.23e-45`.
-///
-/// **Accuracy**: correctly rounded.
-///
-/// ```
-/// use rug::Rational;
-/// assert_eq!(dalembert::number::decimal(&Rational::from((2, 3)), 5), "0.66667");
-/// assert_eq!(dalembert::number::decimal(&Rational::from(31), 5), "31.000");
-/// ```
-pub fn decimal(x: &Rational, digits: u32) -> String {
-    let digits = digits.max(1) as usize;
-    if x.cmp0().is_eq() {
-        return "0".into();
-    }
-    // Scale to an integer of `digits` digits; the first guess at the exponent can be one off.
-    let mut exponent = Float::with_val(64, x).abs().log10().floor_int().unwrap_or(0);
-    let (mantissa, exponent) = loop {
-        let scaled = scale(x, digits as i64 - 1 - exponent);
-        let text = scaled.abs().round().numer().to_string();
-        match text.len() {
-            n if n == digits => break (text, exponent),
-            n if n > digits => exponent += 1,
-            _ => exponent -= 1,
-        }
-    };
-    let sign = if x.cmp0().is_lt() { "-" } else { "" };
-    let point = exponent + 1;
-    if (-5..=digits.max(21) as i64).contains(&point) {
-        let body = if point <= 0 {
-            format!("0.{}{mantissa}", "0".repeat(point.unsigned_abs() as usize))
-        } else if point as usize >= digits {
-            format!("{mantissa}{}", "0".repeat(point as usize - digits))
-        } else {
-            format!("{}.{}", &mantissa[..point as usize], &mantissa[point as usize..])
-        };
-        return format!("{sign}{body}");
-    }
-    let (head, tail) = mantissa.split_at(1);
-    let dot = if tail.is_empty() { "" } else { "." };
-    format!("{sign}{head}{dot}{tail}e{exponent}")
-}
-
 /// `value` in so many bits, rounded down.
 pub(crate) fn down<T>(bits: u32, value: T) -> Float
 where
@@ -171,10 +126,4 @@ where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
 {
     Float::with_val_round(bits, value, Round::Up).0
-}
-
-/// `x · 10^power`.
-fn scale(x: &Rational, power: i64) -> Rational {
-    let factor = Integer::from(10).pow(u32::try_from(power.unsigned_abs()).unwrap_or(u32::MAX));
-    if power < 0 { Rational::from(x / factor) } else { Rational::from(x * factor) }
 }

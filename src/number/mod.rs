@@ -1,8 +1,9 @@
-//! Numbers: what they can do, in five systems; exact text in and rounded text out.
+//! Numbers: what they can do, in six systems; exact text in and rounded text out.
 //!
 //! | type | system | what it promises |
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
+//! | [`Wide`] | two to six machine words | each operation correctly rounded; elementary functions within 0.51 ulp |
 //! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
 //! | [`Rational`] (`rug::Rational`, without the feature `mp` `dashu_ratio::RBig`) | fractions | exact; square roots only where they are rational |
 //! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
@@ -35,6 +36,7 @@ macro_rules! by_value {
 #[cfg(not(feature = "mp"))]
 mod absent;
 mod bounded;
+mod decimal;
 mod double;
 mod dual;
 mod estimate;
@@ -53,15 +55,15 @@ mod rational;
 mod scalar;
 mod text;
 mod value;
+mod wide;
 
 #[cfg(not(feature = "mp"))]
 pub use absent::{Float, Interval};
 pub use bounded::{Answer, Bounded};
+pub use decimal::decimal;
 pub(crate) use double::shortest;
 pub(crate) use dual::Dual;
 pub use estimate::Estimate;
-#[cfg(feature = "mp")]
-pub use float::decimal;
 #[cfg(feature = "mp")]
 pub(crate) use float::{down, up};
 pub(crate) use fraction::spelled_as;
@@ -76,3 +78,5 @@ pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, shown_bound};
 pub use value::{Bound, IntoValue, Value};
+pub use wide::Wide;
+pub(crate) use wide::guarded;

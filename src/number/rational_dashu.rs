@@ -39,3 +39,14 @@ pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
     let (root, rest) = UBig::try_from(n.clone()).ok()?.sqrt_rem();
     rest.is_zero().then(|| root.into())
 }
+
+pub(super) fn limbs(n: &Integer) -> Vec<u64> {
+    let bytes = n.clone().into_parts().1.to_le_bytes();
+    let limb = |bytes: &[u8]| bytes.iter().rev().fold(0, |limb, byte| limb << 8 | u64::from(*byte));
+    bytes.chunks(8).map(limb).collect()
+}
+
+pub(super) fn from_limbs(limbs: &[u64]) -> Integer {
+    let bytes: Vec<u8> = limbs.iter().flat_map(|limb| limb.to_le_bytes()).collect();
+    UBig::from_le_bytes(&bytes).into()
+}

@@ -6,6 +6,7 @@ use rug::Float;
 pub(super) use rug::Integer;
 pub use rug::Rational;
 use rug::float::Round;
+use rug::integer::Order;
 use rug::ops::DivRounding;
 
 pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
@@ -39,4 +40,14 @@ pub(super) fn half(x: Rational) -> Rational {
 /// `√n` of a perfect square; `None` for any other integer.
 pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
     n.is_perfect_square().then(|| n.clone().sqrt())
+}
+
+/// The limbs of the magnitude, the least significant first; none of zero.
+pub(super) fn limbs(n: &Integer) -> Vec<u64> {
+    n.to_digits(Order::Lsf)
+}
+
+/// The integer of these limbs, the least significant first.
+pub(super) fn from_limbs(limbs: &[u64]) -> Integer {
+    Integer::from_digits(limbs, Order::Lsf)
 }

@@ -17,6 +17,11 @@ pub fn bits_for_digits(digits: u32) -> u32 {
     u32::try_from(bits).unwrap_or(u32::MAX)
 }
 
+/// Digits that tell numbers of so many bits apart.
+pub(super) const fn digits_for_bits(bits: u32) -> u32 {
+    (bits as u64 * 301_029_996 / 1_000_000_000) as u32 + 2
+}
+
 /// A number that carries its bound, as it is printed: at most so many significant digits, and none beyond the bound;
 /// `0` where no digit is known.
 ///

@@ -1,4 +1,5 @@
-//! The answer, in the numbers that were asked for and without their type.
+//! The answer in `Value`s, whatever its number system.
+#![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
 use super::ladder::Target;
@@ -8,11 +9,12 @@ use super::question::{Numbers, Observer, Question, unobserved};
 use super::solution::{ExactnessEnd, Solution, Visitor};
 use super::typed::TypedHistory;
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Scales, Side, StressPiece, straight};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, straight};
 use crate::number::{IntoValue, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
-    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Undefined, UnitSystem, Units, flights,
+    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
+    flights,
 };
 use crate::reason::Warning;
 
@@ -62,14 +64,18 @@ pub type Rows = Vec<Vec<Result<Value, Undefined>>>;
 /// All lists of a history, settled together.
 #[derive(Debug)]
 pub struct Listing {
-    /// A row for each impact and release, of [`Listing::EVENTS`].
+    /// Kind of each event.
+    pub kinds: Vec<EventKind>,
+    /// A row for each impact and release, of [`Table::Events`].
     pub events: Rows,
-    /// A row for each contact, of [`Listing::CONTACTS`].
+    /// A row for each contact, of [`Table::Contacts`].
     pub contacts: Rows,
-    /// A row for each flight, of [`Listing::FLIGHTS`].
+    /// A row for each flight, of [`Table::Flights`].
     pub flights: Rows,
     /// The stress at the ground; empty where it was not asked for.
     pub stress: Vec<StressPiece<Value>>,
+    /// A row for each piece of it, of [`Table::Stress`].
+    pub pieces: Rows,
     /// Whether a piece of the stress was curved, before it was replaced by straight ones.
     pub is_curved: bool,
 }
@@ -81,30 +87,6 @@ pub enum StressForm {
     Straight(f64),
     /// Pieces with the coefficients of their Chebyshev series.
     Series,
-}
-
-impl Listing {
-    /// Quantities of an event.
-    pub const EVENTS: [Quantity; 4] =
-        [Quantity::EventTime, Quantity::EventVelocity, Quantity::EventCentre, Quantity::EventCentreVelocity];
-    /// Quantities of a contact.
-    pub const CONTACTS: [Quantity; 13] = [
-        Quantity::Impact,
-        Quantity::Release,
-        Quantity::ContactImpulse,
-        Quantity::PeakStrain,
-        Quantity::PeakStress,
-        Quantity::PeakForce,
-        Quantity::MomentumRestitution,
-        Quantity::EnergyRestitution,
-        Quantity::TranslationalShare,
-        Quantity::EnergyKept,
-        Quantity::EnergyAfter,
-        Quantity::TranslationalAfter,
-        Quantity::VibrationalAfter,
-    ];
-    /// Quantities of a flight.
-    pub const FLIGHTS: [Quantity; 4] = [Quantity::Takeoff, Quantity::Landing, Quantity::TopTime, Quantity::Top];
 }
 
 impl History {
@@ -258,8 +240,8 @@ impl History {
         typed!(self, history => {
                         let field = history.ask(
                 |motion| {
-                    let precision = motion.end().precision();
-                    motion.field(&Scalar::spelling(&point, &precision), &Scalar::spelling(&time, &precision), Side::Right)
+                    let lift = |x: &Number| Scalar::spelling(x, &motion.end().precision());
+                    motion.field(&lift(&point), &lift(&time), Side::Right)
                 },
                 |field| field.numbers().to_vec(),
             )?;
@@ -321,6 +303,27 @@ impl History {
         })
     }
 
+    /// Returns the values of `quantities` along the rod, column by column: each is one of [`SLICE`] or
+    /// [`Quantity::PointStress`]. The grid is that of [`History::sample_field`].
+    pub fn sample_along(
+        &self,
+        quantities: &[Quantity],
+        slice: Slice,
+        points: &Places<'_>,
+        times: &Places<'_>,
+        side: Option<Side>,
+    ) -> Result<Vec<Vec<Value>>, Error> {
+        typed!(self, history => {
+            let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
+            let scales = history.carried_scales();
+            let column = |quantity: &Quantity| {
+                let place = SLICE.iter().position(|known| known == quantity).unwrap_or(SLICE.len() - 1);
+                columns[place].iter().map(|x| self.quantity(*quantity, x.clone(), &scales)).collect()
+            };
+            Ok(quantities.iter().map(column).collect())
+        })
+    }
+
     /// Returns `u`, `v`, `strain` at each point at the time beside it, column by column.
     pub fn sample_pairs(&self, points: &Places<'_>, times: &Places<'_>, side: Side) -> Result<[Vec<Value>; 3], Error> {
         typed!(self, history => {
@@ -356,8 +359,8 @@ impl History {
     /// ground is listed, as it can cost more than all the rest.
     pub fn listing(&self, stress: Option<StressForm>, ratios: bool) -> Result<Listing, Error> {
         typed!(self, history => {
-            let lists: [&[Quantity]; 3] = [&Listing::EVENTS, &Listing::CONTACTS, &Listing::FLIGHTS];
-            let (_, rows, curve) = history.ask(
+            let lists = [Table::Events, Table::Contacts, Table::Flights].map(Table::quantities);
+            let (_, rows, curve, kinds) = history.ask(
                 |motion| {
                     let rows = [
                         quantity::rows(motion, lists[0])?,
@@ -365,9 +368,10 @@ impl History {
                         quantity::rows(motion, lists[2])?,
                     ];
                     let curve = if stress.is_some() { motion.stress_pieces() } else { Vec::new() };
-                    Ok((motion.end(), rows, curve))
+                    let kinds: Vec<EventKind> = motion.events().iter().map(|event| event.kind).collect();
+                    Ok((motion.end(), rows, curve, kinds))
                 },
-                |(end, rows, curve)| {
+                |(end, rows, curve, _)| {
                     let settled = |quantity: &Quantity| ratios || quantity.measure().is_some();
                     let listed = rows.iter().zip(lists).flat_map(|(rows, quantities)| {
                         rows.iter().flat_map(move |row| row.iter().zip(quantities))
@@ -384,7 +388,13 @@ impl History {
                 Some(StressForm::Straight(part)) => straight(&curve, part),
                 _ => curve,
             };
+            let piece = |StressPiece { start, end, strain_start, strain_end, .. }: &StressPiece<_>| {
+                [start, end, strain_start, strain_end, strain_start, strain_end].map(|x: &_| Ok(Clone::clone(x))).into()
+            };
+            let pieces = curve.iter().map(piece).collect();
             Ok(Listing {
+                kinds,
+                pieces: self.rows(Table::Stress.quantities(), pieces, &scales),
                 events: self.rows(lists[0], events, &scales),
                 contacts: self.rows(lists[1], contacts, &scales),
                 flights: self.rows(lists[2], flights, &scales),

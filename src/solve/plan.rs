@@ -50,9 +50,6 @@ pub struct Plan {
     pub climb: Climb,
     /// What cells compute at most; `None` where there are none.
     pub cells: Option<CellLimits>,
-    /// Modes that are summed where the rays of a late first contact cancel in doubles and no longer numbers are built
-    /// in.
-    pub modes: Option<u32>,
     /// Bits of `h′` at the first bounce, on which the flight and all that follows hangs; `None` for those of the run.
     pub rate_bits: Option<u32>,
 }
@@ -198,9 +195,6 @@ const CELLS: CellLimits = CellLimits {
     most_digits: MOST_DIGITS,
     marched_trips: MARCHED_TRIPS,
 };
-/// With so many modes the stress is known to some 10⁻¹¹ of the lowest mode at `τR² ≈ 300`, which is `R → π` and 30
-/// round trips.
-const MODES: u32 = 4096;
 /// The most bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
@@ -251,7 +245,7 @@ impl Plan {
         (keep_from, settles_events): (Option<f64>, bool),
     ) -> Self {
         let (long, doubles) = (cfg!(feature = "mp"), matches!(numbers, Numbers::Double(_)));
-        let (closed, then_cells) = (engine == Engine::ClosedForm, engine == Engine::ClosedFormThenCells);
+        let then_cells = engine == Engine::ClosedFormThenCells;
         let marched = then_cells || engine == Engine::Cells;
         let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
         let (rung, foreseen_loss) = match numbers {
@@ -299,7 +293,6 @@ impl Plan {
             climb,
             goal,
             cells: marched.then_some(cells),
-            modes: ((closed || then_cells) && doubles && !long).then_some(MODES),
             rate_bits: (then_cells && doubles && long).then_some(FEWEST_BITS),
             engine,
             numbers,
@@ -450,7 +443,6 @@ impl Plan {
                  that is known better than its closed form"
             ));
         }
-        limits.extend(self.modes.map(|modes| format!("{modes} modes where the rays of a late first contact cancel")));
         limits.extend(self.rate_bits.map(|bits| format!("h′ at the first bounce in {bits} bits")));
         limits
     }

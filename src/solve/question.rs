@@ -117,6 +117,7 @@ pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::motion::unobserved));
 
+/// Returns an observer that lets every run go on.
 pub fn unobserved() -> Observer {
     UNOBSERVED.clone()
 }

@@ -1,7 +1,7 @@
 //! What a change of one value of a problem makes of the times of its events.
 
 use crate::number::Scalar;
-use crate::problem::{Parameter, Problem};
+use crate::problem::{Parameter, Problem, Run};
 use crate::quantity::Quantity;
 
 /// How a relative change of one value of a problem grows from event to event.
@@ -30,10 +30,14 @@ impl Sensitivity {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::Speed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
         let value = by.value_in::<f64>(problem, &()).ok()?;
-        let history = problem.to_builder().impacts(MEASURED).build().ok()?.doubles().ok()?;
+        let (contacts, until) = match &problem.run {
+            Run::Impacts(contacts) => ((*contacts).min(MEASURED), f64::INFINITY),
+            Run::Time(time) => (MEASURED, time.to_f64()),
+        };
+        let history = problem.to_builder().impacts(contacts).build().ok()?.doubles().ok()?;
         let derivatives = history.derivatives(by, &[Quantity::EventTime]).ok()?;
         let mut found = Vec::new();
-        for (event, row) in history.events().iter().zip(&derivatives) {
+        for (event, row) in history.events().iter().zip(&derivatives).filter(|(event, _)| event.t <= until) {
             let sides = row[0].as_ref().map(|derivative| derivative.sides());
             let slopes = sides.into_iter().flatten().flatten().map(|slope| slope.value().abs());
             let most = slopes.fold(0.0, f64::max) * value.abs() / event.t;

@@ -109,7 +109,7 @@ impl Plan {
     /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
     /// let plan = Plan::of(&problem, &Question::run(Numbers::default()))?;
     /// let observe = Arc::new(|_, _| ControlFlow::Continue(()));
-    /// let Solution::Double(motion) = plan.solve(&problem, observe)? else { unreachable!() };
+    /// let Solution::Double(motion) = plan.solve_typed(&problem, observe)? else { unreachable!() };
     /// assert!((motion.contacts()[0].release.unwrap() - 2.0 / 3.0).abs() < 1e-15);
     /// # Ok::<(), dalembert::Error>(())
     /// ```

@@ -4,7 +4,7 @@ use std::sync::{Mutex, OnceLock};
 
 use super::ladder::{Attempt, Ladder, Query, Target, settled};
 use super::plan::{Plan, Rung};
-use super::question::{Numbers, Observer, Question, unobserved};
+use super::question::{Numbers, Observer, Question};
 use crate::error::Error;
 use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
@@ -56,6 +56,9 @@ pub struct TypedHistory<S: Target> {
 }
 
 impl<S: Target> TypedHistory<S> {
+    /// Solves `problem` by `plan`; see [`Observer`] for what `observe` receives.
+    ///
+    /// **Errors**: those of [`Plan::solve`](crate::solve::Plan::solve).
     pub fn solve(problem: &Problem, plan: &Plan, observe: Observer) -> Result<Self, Error> {
         let ladder = Ladder { problem, plan, observe: &observe };
         let ask_events = plan.settles_events;
@@ -209,6 +212,7 @@ impl<S: Target> TypedHistory<S> {
         Units::of(&self.problem, UnitSystem::default())
     }
 
+    /// Returns the problem.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }

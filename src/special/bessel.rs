@@ -1,8 +1,8 @@
 //! The functions that a number system offers, and those of doubles.
 
 use super::gauss::gauss_legendre;
-use super::phi;
 use super::ray::{Ray, RaySums, RoundedSums};
+use super::{bits, phi};
 use crate::number::{Analytic, Rounded};
 
 /// A number system with the special functions of the first contact.
@@ -122,6 +122,26 @@ pub(super) fn by_ratios<S: Rounded>(z: &S, n: u32, (start, roundings): (S, f64))
     let ratios = Ray::at_source(z, &z.one()).ratios(i64::from(n));
     let m = f64::from(n);
     (ratios.into_iter().fold(start, |value, ratio| value * &ratio), roundings + 8.0 * m + 2.0 * z.to_f64() * m.ln_1p())
+}
+
+/// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
+///
+/// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
+/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
+/// precision.
+pub(super) fn expansion<S: Rounded>(z: &S, n: i64) -> S {
+    let mut term = z.one();
+    let mut sum = z.one();
+    let enough = z.roundoff();
+    let last = (2.0 * bits(z)) as i64 + 128;
+    for k in 1..=last {
+        term = -(term * &z.int(4 * n * n - (2 * k - 1) * (2 * k - 1))) / (z.int(8 * k) * z);
+        sum = sum + &term;
+        if term.magnitude() * &z.int(16 * (k + 1)) < enough {
+            break;
+        }
+    }
+    sum / (z.pi() * z * &z.int(2)).sqrt()
 }
 
 /// `1/m²`, m = 1 … 13.

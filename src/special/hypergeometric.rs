@@ -4,8 +4,7 @@ use rug::float::Round;
 use rug::ops::Pow;
 use rug::{Float, Integer};
 
-use super::bits;
-use crate::number::{Analytic, Scalar};
+use super::bessel::expansion;
 
 /// What is computed beyond the precision asked for.
 const GUARD_BITS: u32 = 16;
@@ -103,26 +102,6 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
     }
     let one = Float::with_val(p, 1);
     with_power(&one, &y, 0, &damped).map(|value| Spare { small: value.small + 1.0, ..value })
-}
-
-/// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
-///
-/// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
-/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
-/// precision.
-pub(super) fn expansion(z: &Float, n: i64) -> Float {
-    let mut term = z.one();
-    let mut sum = z.one();
-    let enough = z.roundoff();
-    let last = (2.0 * bits(z)) as i64 + 128;
-    for k in 1..=last {
-        term = -(term * &z.int(4 * n * n - (2 * k - 1) * (2 * k - 1))) / (z.int(8 * k) * z);
-        sum += &term;
-        if term.magnitude() * &z.int(16 * (k + 1)) < enough {
-            break;
-        }
-    }
-    sum / (z.pi() * z * &z.int(2)).sqrt()
 }
 
 /// `mantissa · 2^{−shift}`, a number y ≥ 0 rounded down; short numbers stay short.

@@ -12,6 +12,7 @@ mod hypergeometric;
 mod long;
 mod phi;
 mod ray;
+mod wide;
 
 pub use bessel::{RoundedSpecial, Special, i0_scaled, i1_scaled};
 pub use estimated::BoundedSpecial;

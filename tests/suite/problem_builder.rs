@@ -33,7 +33,6 @@ fn a_number_is_given_as_integer_text_number_or_double() {
     ] {
         assert_eq!(length(value), Ok(n(text)), "{text}");
     }
-    #[cfg(feature = "mp")]
     {
         assert_eq!(length(rug::Rational::from((2, 6)).into()), Ok(n("1/3")));
         assert_eq!(length(rug::Integer::from(7).into()), Ok(n("7")));

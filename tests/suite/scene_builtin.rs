@@ -114,7 +114,6 @@ fn getfem_starts_compressed_under_a_fixed_top() {
 
 /// The solution that GetFEM's demonstration compares itself with, `uExact`, in three phases of length 1: fractions at
 /// 5000 points of the x–t plane.
-#[cfg(feature = "mp")]
 #[test]
 fn getfem_is_its_own_exact_solution() {
     use rug::Rational;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::special::hypergeometric::expansion;
+use crate::special::bessel::expansion;
 
 /// `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)`, term by term: once a term is half of the one before, the rest is below the
 /// last one.

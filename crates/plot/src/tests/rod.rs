@@ -3,10 +3,10 @@ use super::*;
 /// 154 − 125 y is the place of a height y: the rod is one high, and the ground 46 above the lower edge.
 #[test]
 fn the_rod_and_the_bars_are_to_scale() {
-    let pose = Pose { width: 100.0, height: 200.0, letters: 13.0, enlarged: None, greatest: 1.0 };
-    let sizes = Sizes { strain: 0.6, rise: 0.0, energy: [0.0, 2.0] };
-    let mut found = Found { strains: vec![0.0; PARTS + 1], end: 0.2, centre: 0.2, energy: [1.0, 0.5] };
-    let svg = pose.svg(&found, &sizes, 1.0, false);
+    let picture = RodPicture { width: 100.0, height: 200.0, letters: 13.0, enlarged: None, color_limit: 1.0 };
+    let extremes = RunExtremes { strain: 0.6, rise: 0.0, energy: [0.0, 2.0] };
+    let mut state = State { strains: vec![0.0; PARTS + 1], end: 0.2, centre: 0.2, energy: [1.0, 0.5] };
+    let svg = picture.svg(&state, &extremes, 1.0, false);
     for part in [
         "<path fill=\"#f7f7f7\" d=\"M4 4H22V129H4z\"/>",
         "x=\"4\" y=\"4\" width=\"18\" height=\"125\" fill=\"none\"",
@@ -17,9 +17,9 @@ fn the_rod_and_the_bars_are_to_scale() {
         assert!(svg.contains(part), "{part} in {svg}");
     }
     // The lower half is compressed by a half: the rod is a quarter shorter, and stands on the ground.
-    found.strains[..=PARTS / 2].fill(-0.5);
-    found.end = 0.0;
-    let svg = pose.svg(&found, &sizes, 1.0, true);
+    state.strains[..=PARTS / 2].fill(-0.5);
+    state.end = 0.0;
+    let svg = picture.svg(&state, &extremes, 1.0, true);
     assert!(svg.contains(&format!("<path fill=\"{}\"", diverging(-0.5))), "{svg}");
     let height = svg.split("height=\"").nth(3).and_then(|rest| rest.split('"').next()).unwrap();
     // One part has the mean of both strains.
