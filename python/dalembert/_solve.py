@@ -195,4 +195,5 @@ def write_reference(
             cwd=pathlib.Path(__file__).parents[1],
         )  # fmt: skip
     if run.returncode:
-        raise ValueError(run.stderr.removeprefix("error: ").strip())
+        text = run.stderr.removeprefix("error: ").split("\n\nFor more information")[0]
+        raise ValueError(text.replace(os.path.join(folder, "times"), "t").strip())
