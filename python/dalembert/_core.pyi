@@ -6,9 +6,14 @@ import numpy as np
 
 Array = np.ndarray[Any, np.dtype[Any]]
 
+class Given(TypedDict):
+    name: str
+    path: str
+    number: str | None
+    points: list[list[str]]
+
 class ProblemFacts(TypedDict):
-    numbers: list[tuple[str, str]]
-    profiles: list[tuple[str, list[list[str]]]]
+    given: list[Given]
     has_fixed_top: bool
     title: str | None
     units: str
@@ -50,7 +55,7 @@ class Report(TypedDict):
 
 def main(arguments: list[str]) -> int: ...
 def scenes() -> list[list[str]]: ...
-def unknown_value(name: str) -> str | None: ...
+def unknown_parameter(name: str) -> str | None: ...
 def sweep(
     base: Problem, quantities: Any, time: Any, accuracy: Any, varied: list[tuple[str, list[Any]]]
 ) -> tuple[list[str], list[tuple[Array, Array]], list[tuple[int, str]]]: ...

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ._problem import Problem
 
 Slice = Literal["points", "averages", "p1"]
-Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"]
+Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap"]
 TableName = Literal["events", "contacts", "flights", "stress_history"]
 _TABLES = get_args(TableName)
 
@@ -269,7 +269,7 @@ class History(Frozen):
 
         Parameters
         ----------
-        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "speed", "gap"} or str
+        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap"} or str
             The value; of a start that is not uniform ``"displacement"`` and ``"velocity"`` as a whole, or at a point:
             ``"velocity[0]"``.
         table : {"events", "contacts", "flights", "stress_history"}, optional
@@ -282,7 +282,7 @@ class History(Frozen):
 
         Examples
         --------
-        >>> found = solve("doyen-ern-piperno", exact=True).derivatives("speed")
+        >>> found = solve("doyen-ern-piperno", exact=True).derivatives("impact_speed")
         >>> found.left["t"][2], found.right["t"][2]
         (Fraction(3, 5), Fraction(3, 25))
         """

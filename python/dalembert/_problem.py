@@ -18,15 +18,6 @@ __version__: str = _version("dalembert")
 
 Scene = Union[str, "os.PathLike[str]", "Problem"]
 
-#: The keys of a scene file by table, each with the name of its value here where that is another one.
-_KEYS = {
-    "rod": {name: name for name in ("length", "wave_speed", "modulus", "density", "area", "damping", "top")},
-    "impact": {"speed": "impact_speed", "gap": "gap", "drop_height": "drop_height"},
-    "gravity": {"acceleration": "gravity"},
-    "start": {"displacement": "displacement", "velocity": "velocity"},
-    "run": {"time": "time", "impacts": "impacts", "accuracy": "accuracy"},
-}
-
 _SCENES = {name: (summary, text) for name, summary, text in _core.scenes()}
 
 
@@ -53,6 +44,12 @@ def _number(text: str) -> int | float | Fraction:
     if exact.denominator == 1:
         return exact.numerator
     return float(exact) if Fraction(repr(float(exact))) == exact else exact
+
+
+def _value(given: _core.Given) -> Any:
+    if given["number"] is None:
+        return tuple((_number(x), _number(v)) for x, v in given["points"])
+    return _number(given["number"])
 
 
 class Problem(Frozen):
@@ -156,15 +153,14 @@ class Problem(Frozen):
         """Fill in values by name or the text of a scene, and values that replace others, in order."""
         core = _core.Problem(*made)
         facts = core.facts()
-        values: dict[str, Any] = {name: _number(text) for name, text in facts["numbers"]}
-        values |= {name: tuple((_number(x), _number(v)) for x, v in points) for name, points in facts["profiles"]}
+        values: dict[str, Any] = {given["name"]: _value(given) for given in facts["given"]}
         values |= {"top": "fixed"} if facts["has_fixed_top"] else {}
         shown = {name: facts[name] for name in ("wave_speed", "round_trip", "damping_ratio", "speed_ratio", "title")}
         self.__dict__.update({"_compiled": core, "_made": made, "_values": values} | shown | values)
         return self
 
     def _refusal(self, name: str) -> str:
-        if unknown := _core.unknown_value(name):
+        if unknown := _core.unknown_parameter(name):
             return unknown if not hasattr(self, name) else f"found an assignment to {name}, which follows from others"
         return f"found an assignment to {name}, expected replace({name}=…): a Problem does not change"
 
@@ -229,17 +225,15 @@ class Problem(Frozen):
         if len(self._made) == 1 and isinstance(self._made[0], str):
             return self._made[0]
         facts = self._compiled.facts()
-        values = {name: _toml(text) for name, text in facts["numbers"]}
-        values |= {name: f"[{', '.join(f'[{_toml(x)}, {_toml(v)}]' for x, v in points)}]"
-                   for name, points in facts["profiles"]}
-        values |= {"top": '"fixed"'} if facts["has_fixed_top"] else {}
-        values |= {} if facts["accuracy"] is None else {"accuracy": repr(facts["accuracy"])}
+        lines = [(given["path"], _toml(given)) for given in facts["given"]]
+        lines += [("rod.top", '"fixed"')] if facts["has_fixed_top"] else []
+        lines += [] if facts["accuracy"] is None else [("run.accuracy", repr(facts["accuracy"]))]
         head = {"title": self.title, "units": facts["units"] if facts["units"] != "SI" else None}
-        blocks = [[f"{key} = {json.dumps(word, ensure_ascii=False)}" for key, word in head.items() if word]]
-        for table, keys in _KEYS.items():
-            lines = [f"{key} = {values[name]}" for key, name in keys.items() if name in values]
-            blocks.append([f"[{table}]", *lines] if lines else [])
-        return "\n".join("".join(f"{line}\n" for line in block) for block in blocks if block)
+        blocks = {"": [f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in head.items() if word]}
+        for path, value in lines:
+            table, key = path.split(".")
+            blocks.setdefault(table, [f"[{table}]\n"]).append(f"{key} = {value}\n")
+        return "\n".join("".join(block) for block in blocks.values() if block)
 
     def __repr__(self) -> str:
         return f"Problem({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
@@ -286,7 +280,13 @@ class Problem(Frozen):
         return History(self._compiled.solve(*question), self, question)
 
 
-def _toml(number: str) -> str:
+def _toml(given: _core.Given) -> str:
+    if given["number"] is None:
+        return f"[{', '.join(f'[{_quoted(x)}, {_quoted(v)}]' for x, v in given['points'])}]"
+    return _quoted(given["number"])
+
+
+def _quoted(number: str) -> str:
     # A TOML integer has at most 64 bits, and a fraction is a text.
     return f'"{number}"' if "/" in number or len(number) > 15 else number
 

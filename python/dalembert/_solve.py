@@ -177,7 +177,7 @@ def write_reference(
     >>> file.read_text().splitlines()[-4:]
     ['t,strain', '0.5,-3.5', '2.0,-5.0', '2.0,0.0']
     """
-    options = {"points": x, "columns": names, "side": side, "digits": digits, "accuracy": accuracy}
+    options = {"points": x, "quantity": names, "side": side, "digits": digits, "accuracy": accuracy}
     listed = {
         f"--{name}": ",".join(map(str, objects(value).ravel().tolist()))
         for name, value in options.items() if value is not None

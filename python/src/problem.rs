@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dalembert::problem::{Builder, Written};
 use dalembert::quantity::UnitSystem;
 use dalembert::solve::{CERTIFIED_DIGITS, MAX_DIGITS};
-use dalembert::{Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top};
+use dalembert::{Numbers, Parameter, Parameters, Plan, Question, Scene, Top, UnknownName};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -14,15 +14,20 @@ use super::argument::{one_of, refuse, typed, written};
 use super::history::History;
 use super::{observer, run};
 
-/// The points of a profile as they are written.
-type Points = Vec<[String; 2]>;
+/// A parameter of a problem as it is written: a number, or the points of a profile.
+#[derive(IntoPyObject)]
+struct Given {
+    name: &'static str,
+    /// Path in a scene file.
+    path: &'static str,
+    number: Option<String>,
+    points: Vec<[String; 2]>,
+}
 
 /// The values of a problem and some that follow from them.
 #[derive(IntoPyObject)]
 struct Facts {
-    /// Numbers by the names of the constructor, as they are written; an absent one is left out.
-    numbers: Vec<(&'static str, String)>,
-    profiles: Vec<(&'static str, Points)>,
+    given: Vec<Given>,
     has_fixed_top: bool,
     title: Option<String>,
     units: &'static str,
@@ -71,40 +76,23 @@ impl Problem {
     }
 
     fn facts(&self) -> PyResult<Facts> {
-        let dalembert::Problem { rod, gravity, start, run } = &self.problem;
-        let mut numbers = vec![("length", Some(&rod.length))];
-        match &rod.material {
-            Material::WaveSpeed(speed) => numbers.push(("wave_speed", Some(speed))),
-            Material::Elastic { modulus, density, area } => {
-                numbers.extend([("modulus", Some(modulus)), ("density", Some(density)), ("area", area.as_ref())]);
-            }
-        }
-        numbers.extend([("damping", rod.damping.as_ref()), ("gravity", gravity.as_ref())]);
-        let mut profiles = vec![];
-        match start {
-            Start::Uniform(Speed::Given(speed)) => numbers.push(("impact_speed", Some(speed))),
-            Start::Uniform(Speed::DropHeight(height)) => numbers.push(("drop_height", Some(height))),
-            Start::Above { gap, speed } => numbers.extend([("impact_speed", Some(speed)), ("gap", Some(gap))]),
-            Start::Profile(profile) => {
-                profiles = vec![("displacement", &profile.displacement), ("velocity", &profile.velocity)];
-                profiles.retain(|(_, points)| !points.is_empty());
-            }
-        }
-        let text = |(name, number): (_, Option<&Number>)| Some((name, number?.to_string()));
-        let mut numbers: Vec<(&'static str, String)> = numbers.into_iter().filter_map(text).collect();
-        numbers.push(match run {
-            Run::Impacts(impacts) => ("impacts", impacts.to_string()),
-            Run::Time(time) => ("time", time.to_string()),
+        let problem = &self.problem;
+        let given = Parameter::ALL.iter().map(|parameter| Given {
+            name: parameter.name(),
+            path: parameter.path(),
+            number: parameter.given(problem).map(|number| number.to_string()),
+            points: parameter
+                .list(problem)
+                .into_iter()
+                .flatten()
+                .map(|(x, v)| [x.to_string(), v.to_string()])
+                .collect(),
         });
-        let points = |(name, points): (_, &Vec<(Number, Number)>)| {
-            (name, points.iter().map(|(x, value)| [x.to_string(), value.to_string()]).collect())
-        };
-        let parameters = Parameters::<f64>::of(&self.problem, &()).map_err(refuse)?;
-        let groups = self.problem.dimensionless();
+        let parameters = Parameters::<f64>::of(problem, &()).map_err(refuse)?;
+        let groups = problem.dimensionless();
         Ok(Facts {
-            numbers,
-            profiles: profiles.into_iter().map(points).collect(),
-            has_fixed_top: rod.top == Top::Fixed,
+            given: given.filter(|given| given.number.is_some() || !given.points.is_empty()).collect(),
+            has_fixed_top: problem.rod.top == Top::Fixed,
             title: self.title.clone(),
             units: UnitSystem::ALL.iter().find(|(_, system)| *system == self.units).map_or("", |(word, _)| word),
             accuracy: self.accuracy,
@@ -157,7 +145,7 @@ impl Problem {
 /// A value of a problem, as a builder takes it.
 #[derive(Clone)]
 pub(crate) enum Setting {
-    Number(Written),
+    Number(Parameter, Written),
     Displacement(Vec<(Written, Written)>),
     Velocity(Vec<(Written, Written)>),
     Top(Top),
@@ -166,20 +154,21 @@ pub(crate) enum Setting {
 impl Setting {
     /// Reads the value of this name.
     pub(crate) fn new(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(match name {
-            "displacement" => Setting::Displacement(points(name, value)?),
-            "velocity" => Setting::Velocity(points(name, value)?),
-            "top" => Setting::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            _ => match unknown_value(name) {
-                Some(unknown) => return Err(PyTypeError::new_err(unknown)),
-                None => Setting::Number(written(name, value)?),
-            },
+        let parameter = name.parse().map_err(|error: UnknownName| PyTypeError::new_err(error.to_string()))?;
+        Ok(match parameter {
+            Parameter::Displacement(None) => Setting::Displacement(points(name, value)?),
+            Parameter::Velocity(None) => Setting::Velocity(points(name, value)?),
+            Parameter::Top => Setting::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
+            Parameter::Displacement(Some(_)) | Parameter::Velocity(Some(_)) => {
+                return Err(PyTypeError::new_err(format!("found {name}, expected all points of {}", parameter.name())));
+            }
+            _ => Setting::Number(parameter, written(name, value)?),
         })
     }
 
-    pub(crate) fn apply(self, builder: Builder, name: &str) -> Builder {
+    pub(crate) fn apply(self, builder: Builder) -> Builder {
         match self {
-            Setting::Number(number) => builder.named(name, number),
+            Setting::Number(parameter, number) => builder.set(parameter, number),
             Setting::Displacement(points) => builder.displacement(points),
             Setting::Velocity(points) => builder.velocity(points),
             Setting::Top(top) => builder.top(top),
@@ -187,24 +176,16 @@ impl Setting {
     }
 }
 
-/// Returns the message for a name that no value of a problem has; `None` for a name that one has.
+/// Returns the message for a name that no parameter has; `None` for a name that one has.
 #[pyfunction]
-pub(crate) fn unknown_value(name: &str) -> Option<String> {
-    let known: Vec<&str> = Builder::numbers().chain(["displacement", "velocity", "top"]).collect();
-    let expected = format!("one of {}{}", known.join(", "), did_you_mean(name, &known));
-    (!known.contains(&name)).then(|| format!("found the unknown value `{name}`, expected {expected}"))
-}
-
-/// Returns ` (did you mean …?)` where a known name is close to `name`.
-pub(crate) fn did_you_mean(name: &str, known: &[&str]) -> String {
-    dalembert::nearest(name, known.iter().copied()).map_or_else(String::new, |near| format!(" (did you mean {near}?)"))
+pub(crate) fn unknown_parameter(name: &str) -> Option<String> {
+    name.parse::<Parameter>().err().map(|error| error.to_string())
 }
 
 /// Returns the problem of a builder with all of `values` set.
 fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
     for (name, value) in values {
-        let name: String = name.extract()?;
-        builder = Setting::new(&name, &value)?.apply(builder, &name);
+        builder = Setting::new(&name.extract::<String>()?, &value)?.apply(builder);
     }
     builder.build().map_err(refuse)
 }

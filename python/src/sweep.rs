@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::argument::{names, number, refuse, typed};
-use super::problem::{Problem, Setting, did_you_mean};
+use super::problem::{Problem, Setting};
 use super::run;
 
 /// Values and bounds of one quantity, point by point.
@@ -33,27 +33,28 @@ pub(crate) fn sweep(
 ) -> PyResult<Swept> {
     let base = base.cast::<Problem>()?.get();
     let single = |name: &String| {
-        let expected = || {
+        Quantity::single(name).ok_or_else(|| {
             let known: Vec<&str> = Quantity::singles().map(Quantity::name).collect();
-            format!("one of {}{}", known.join(", "), did_you_mean(name, &known))
-        };
-        Quantity::single(name).ok_or_else(|| refuse(format!("found quantity `{name}`, expected {}", expected())))
+            let meant = dalembert::nearest(name, known.iter().copied());
+            let meant = meant.map_or_else(String::new, |meant| format!(" (did you mean {meant}?)"));
+            refuse(format!("found the quantity `{name}`, expected one of {}{meant}", known.join(", ")))
+        })
     };
     let quantities = names("quantities", quantities)?.iter().map(single).collect::<PyResult<Vec<_>>>()?;
     let time = time.map(|time| number("time", time)).transpose()?;
     let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
-    let mut columns: Vec<(String, Vec<Setting>)> = Vec::new();
+    let mut columns: Vec<Vec<Setting>> = Vec::new();
     for (name, values) in varied {
         let values = values.iter().map(|value| Setting::new(&name, value)).collect::<PyResult<_>>()?;
-        columns.push((name, values));
+        columns.push(values);
     }
-    let count = columns.first().map_or(1, |column| column.1.len());
+    let count = columns.first().map_or(1, Vec::len);
     let numbers = Numbers::Double(accuracy.or(base.accuracy));
     let (start, stop) = (base.problem.clone(), Arc::new(AtomicBool::new(false)));
     let (names, seen): (Vec<_>, _) = (quantities.iter().map(|quantity| quantity.name()).collect(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
-            let set = |builder, (name, values): &(String, Vec<Setting>)| values[k].clone().apply(builder, name);
+            let set = |builder, values: &Vec<Setting>| values[k].clone().apply(builder);
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

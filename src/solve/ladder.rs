@@ -1,6 +1,7 @@
 //! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
 //! settles it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::derivative::{Asked, Derivatives};
@@ -145,13 +146,14 @@ impl Ladder<'_> {
         let farthest = known.iter().find(|attempt| attempt.farthest).map(|attempt| attempt.rung);
         let mut known = known.into_iter().map(|attempt| (attempt.rung, Some(attempt.engine)));
         let (mut rung, mut engine) = known.next().unwrap_or((self.plan.rung, None));
+        let mut plan = Cow::Borrowed(self.plan);
         let mut reserve = None;
         let mut kept: Option<(Attempt<S>, usize, bool)> = None;
         let mut doubts: Vec<f64> = Vec::new();
         loop {
             let answer = match engine.take() {
                 Some(engine) => Ok(engine),
-                None => S::run(self.problem, self.plan, rung, self.observe),
+                None => S::run(self.problem, &plan, rung, self.observe),
             }
             .and_then(|engine| {
                 let (answer, sizes) = query(&*engine)?;
@@ -208,6 +210,11 @@ impl Ladder<'_> {
             let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
             if let Some(next) = next {
+                if let (Rung::Double, Lacks::Bits(missing)) = (rung, lacks)
+                    && missing.is_finite()
+                {
+                    plan = Cow::Owned(self.plan.lacking(missing));
+                }
                 (rung, engine) = known.next().unwrap_or((next, None));
                 continue;
             }

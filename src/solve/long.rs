@@ -6,6 +6,7 @@ use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::differences;
+use super::in_floats::in_floats;
 use super::ladder::{Engined, Target, needs_bits};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
 use super::planned::{self, March};
@@ -15,8 +16,31 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar, Wide};
 use crate::problem::{Parameters, Problem};
+use crate::special::RoundedSpecial;
+
+/// Evaluates an expression in the numbers for so many bits: those on the stack, which are several times as fast, up to
+/// 384 bits, and MPFR's beyond. In the expression the first name is their type, the second their precision.
+macro_rules! in_numbers {
+    ($bits:expr, |$s:ident, $precision:ident| $body:expr) => {
+        in_numbers!($bits, |$s, $precision| $body, $body)
+    };
+    ($bits:expr, |$s:ident, $precision:ident| $stack:expr, $any:expr) => {
+        match $bits {
+            ..=128 => in_numbers!(@ Wide<2>, &(), $s, $precision, $stack),
+            129..=192 => in_numbers!(@ Wide<3>, &(), $s, $precision, $stack),
+            193..=256 => in_numbers!(@ Wide<4>, &(), $s, $precision, $stack),
+            257..=384 => in_numbers!(@ Wide<6>, &(), $s, $precision, $stack),
+            385.. => in_numbers!(@ Float, &$bits, $s, $precision, $any),
+        }
+    };
+    (@ $type:ty, $with:expr, $s:ident, $precision:ident, $body:expr) => {{
+        type $s = $type;
+        let $precision = $with;
+        $body
+    }};
+}
 
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
@@ -24,7 +48,11 @@ impl Target for Float {
             Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
             rung => {
                 let bits = rung.bits();
-                let run = estimates(problem, plan, bits, observe)?;
+                let run: Engined<Float> = in_numbers!(
+                    bits,
+                    |S, precision| in_floats(estimates::<S>(problem, plan, (bits, precision), observe)?),
+                    estimates::<S>(problem, plan, (bits, precision), observe)?
+                );
                 // Of an undamped rod an event may be at the very time.
                 if plan.engine == Engine::Lattice {
                     return Ok(run);
@@ -71,21 +99,34 @@ pub(super) fn in_doubles(
 
 /// An attempt in so many bits, read in doubles, which says where it does not tell a time from an event or a ray.
 pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
-    Ok(Arc::new(Converted::new(estimates(problem, plan, rung.bits(), observe)?)))
+    let bits = rung.bits();
+    Ok(in_numbers!(bits, |S, precision| {
+        Arc::new(Converted::new(estimates::<S>(problem, plan, (bits, precision), observe)?))
+    }))
 }
 
-fn estimates(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Float>, Error> {
+fn estimates<S: RoundedSpecial>(
+    problem: &Problem,
+    plan: &Plan,
+    (bits, precision): (u32, &S::Precision),
+    observe: &Observer,
+) -> Result<Engined<S>, Error> {
     let problem = &*plan.reaching(problem);
-    let task = plan.task::<Float>(problem, &bits, Rung::Bits(bits), observe);
-    planned::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, march))
+    let task = plan.task::<S>(problem, precision, Rung::Bits(bits), observe);
+    planned::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, bits, march))
 }
 
 /// A damped run: with what is proved of it, where that reaches its end, as `march` finds it else. In digits the proof
 /// comes first; for an answer in doubles it is made where the bounds of `march` leave events open.
-fn marched(plan: &Plan, task: &Task<'_, Float>, march: March<'_, Float>) -> Result<Engined<Float>, Error> {
+fn marched<S: RoundedSpecial>(
+    plan: &Plan,
+    task: &Task<'_, S>,
+    bits: u32,
+    march: March<'_, S>,
+) -> Result<Engined<S>, Error> {
     let run = if matches!(plan.numbers, Numbers::Digits(_)) { None } else { Some(march()?) };
-    if *task.precision <= MOST_PROVED && run.as_ref().is_none_or(|run| needs_bits(&**run)) {
-        match prove(task) {
+    if bits <= MOST_PROVED && run.as_ref().is_none_or(|run| needs_bits(&**run)) {
+        match prove(plan, task, bits) {
             Ok(run) if !matches!(run.ending(), Ending::Unproved { .. }) => return Ok(Arc::new(run)),
             Ok(_) | Err(Error::NotDecided { .. }) => {}
             Err(error) => return Err(error),
@@ -94,9 +135,8 @@ fn marched(plan: &Plan, task: &Task<'_, Float>, march: March<'_, Float>) -> Resu
     run.map_or_else(march, Ok)
 }
 
-fn prove(task: &Task<'_, Float>) -> Result<Damped<Float>, Error> {
-    let digits = f64::from(*task.precision) * std::f64::consts::LOG10_2;
-    let effort = Effort { digits, until_lost: false, ..task.effort };
+fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Result<Damped<S>, Error> {
+    let effort = Effort { digits: plan.proved_digits(bits), until_lost: false, ..task.effort };
     Damped::march(&Task { effort, ..*task }, 1, true)
 }
 
@@ -104,13 +144,16 @@ fn prove(task: &Task<'_, Float>) -> Result<Damped<Float>, Error> {
 /// hangs on it.
 pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
     let Bounce::At { time, trips, .. } = bounce else { return None };
-    let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(problem, &bits).ok()?);
-    let time = match trips.lattice() {
-        Some(k) => contact.round_trip() * &contact.round_trip().int(k),
-        None => Estimate::exact(Float::with_val(bits, time.value())),
-    };
-    let (_, rate) = contact.centre(&time);
-    Some(Reads::read(rate))
+    in_numbers!(bits, |S, precision| {
+        let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision).ok()?);
+        let trip = contact.round_trip();
+        let time = match trips.lattice() {
+            Some(k) => trip.int(k) * &trip,
+            None => Estimate::exact(trip.value().double(*time.value())),
+        };
+        let (_, rate) = contact.centre(&time);
+        Some(Reads::read(rate))
+    })
 }
 
 /// Enclosures with exact roots inside, of an undamped rod.
@@ -159,10 +202,12 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
     if bits > MOST_PROVED {
         return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
     }
-    let run = prove(&plan.task(problem, &bits, Rung::Bits(bits), observe))?;
-    if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
-        return Err(Error::NotDecided { what: "what happens at the ground", bits });
-    }
-    let rod = Parameters::of(problem, &IntervalPrecision::bits(bits))?;
-    Ok(Arc::new(Converted::new(Arc::new(run) as Engined<Float>).of_rod(&rod)))
+    in_numbers!(bits, |S, precision| {
+        let run = prove::<S>(plan, &plan.task(problem, precision, Rung::Bits(bits), observe), bits)?;
+        if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
+            return Err(Error::NotDecided { what: "what happens at the ground", bits });
+        }
+        let rod = Parameters::of(problem, &IntervalPrecision::bits(bits))?;
+        Ok(Arc::new(Converted::new(Arc::new(run) as Engined<S>).of_rod(&rod)))
+    })
 }

@@ -8,6 +8,8 @@ mod differences;
 mod engines;
 mod foresee;
 mod history;
+#[cfg(feature = "mp")]
+mod in_floats;
 mod interpolated;
 mod ladder;
 #[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]

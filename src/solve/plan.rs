@@ -52,6 +52,13 @@ pub struct Plan {
     pub cells: Option<CellLimits>,
     /// Bits of `h′` at the first bounce, on which the flight and all that follows hangs; `None` for those of the run.
     pub rate_bits: Option<u32>,
+    /// Bits that the proof of a damped march is foreseen to cost.
+    #[serde(skip)]
+    proof_bits: u32,
+    /// Bits that the series of a damped march need in the first numbers that follow doubles, where these say it;
+    /// otherwise series go as far as the numbers.
+    #[serde(skip)]
+    series_bits: Option<f64>,
 }
 
 /// How far an answer has to be known.
@@ -186,6 +193,14 @@ const MOST_EXACT: u32 = 1000;
 const EXACT_ROOT: u32 = 4;
 /// The fewest bits of a number with an error bound that follows doubles.
 const FEWEST_BITS: u32 = 128;
+/// Bits of the numbers that are computed on the stack.
+const SIZES: [u32; 4] = [128, 192, 256, 384];
+/// Bits by which such numbers may be shorter than planned; guard bits are several times as many.
+const SHORTER: u32 = 8;
+/// Bits of the series of a damped march beyond those that its answer is foreseen to need.
+const SERIES_GUARD_BITS: f64 = 6.0;
+/// Bits beyond those of its digits that [`Effort::digits`] carries.
+const EFFORT_BITS: f64 = 20.0;
 /// Cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits. The cost of more
 /// digits grows with their cube.
 const CELLS: CellLimits = CellLimits {
@@ -201,6 +216,11 @@ const MOST_BITS: u32 = 1 << 22;
 const MOST_ENCLOSED: u32 = 1 << 13;
 /// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
+
+/// The bits of the shortest numbers on the stack that have so many, or so many where there are none.
+fn size(bits: u32) -> u32 {
+    SIZES.into_iter().find(|size| bits <= size + SHORTER).unwrap_or(bits)
+}
 
 impl Plan {
     /// The plan for `question` of `problem`.
@@ -248,18 +268,22 @@ impl Plan {
         let then_cells = engine == Engine::ClosedFormThenCells;
         let marched = then_cells || engine == Engine::Cells;
         let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
+        let proof_bits = if marched {
+            foresee::proof_bits(problem, |trip| match &reach {
+                Reach::Contacts(contacts) => f64::from(*contacts),
+                Reach::FirstContact => 1.0,
+                Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
+            })
+        } else {
+            0
+        };
         let (rung, foreseen_loss) = match numbers {
             Numbers::Double(_) => (Rung::Double, 0.0),
             Numbers::Exact | Numbers::ExactThenDigits(_) => (Rung::Fractions, 0.0),
             Numbers::Certified(digits) => {
                 let wanted = bits_for_digits(digits);
                 let bits = if marched && wanted < MOST_PROVED {
-                    let lost = foresee::proof_bits(problem, |trip| match &reach {
-                        Reach::Contacts(contacts) => f64::from(*contacts),
-                        Reach::FirstContact => 1.0,
-                        Reach::Time(time) => (time.to_f64() / (2.0 * trip)).ceil(),
-                    });
-                    (wanted + PROOF_GUARD_BITS + lost).min(MOST_PROVED)
+                    size(wanted + PROOF_GUARD_BITS + proof_bits).min(MOST_PROVED)
                 } else {
                     wanted + GUARD_BITS
                 };
@@ -273,13 +297,13 @@ impl Plan {
                 let lost = lost.min(f64::from(MOST_BITS));
                 // A tenth more than foreseen is cheaper than a second run.
                 let bits = bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8);
-                (Rung::Bits(bits), lost * std::f64::consts::LOG10_2)
+                (Rung::Bits(size(bits)), lost * std::f64::consts::LOG10_2)
             }
         };
         let goal = Goal::of(numbers);
         let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
         let climb = Climb {
-            bits: long.then_some((wanted + GUARD_BITS).max(FEWEST_BITS)),
+            bits: long.then_some(size(wanted + GUARD_BITS)),
             most_bits: MOST_BITS,
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
@@ -301,6 +325,8 @@ impl Plan {
             settles_events,
             rung,
             foreseen_loss,
+            proof_bits,
+            series_bits: None,
         }
     }
 
@@ -340,13 +366,14 @@ impl Plan {
                 if exact_roots.is_some_and(|most| next > f64::from(most)) {
                     Some(Rung::Enclosures(after))
                 } else {
-                    (next <= f64::from(most_bits)).then_some(Rung::Bits(next as u32))
+                    (next <= f64::from(most_bits)).then_some(Rung::Bits(size(next as u32)))
                 }
             }
             Rung::Confirmed(bits) => Some(Rung::Enclosures(bits)),
             Rung::Enclosures(bits) => {
                 let next = f64::from(bits) + missing.clamp(32.0, f64::from(bits));
-                (next <= f64::from(most_enclosed)).then_some(Rung::Enclosures(next as u32))
+                let fits = if self.cells.is_some() { size } else { |bits| bits };
+                (next <= f64::from(most_enclosed)).then_some(Rung::Enclosures(fits(next as u32)))
             }
         }
     }
@@ -464,11 +491,34 @@ impl Plan {
         let (digits, cells) = match rung {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
                 let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
-                (f64::from(bits) * std::f64::consts::LOG10_2 - 19.0, long_cells.map_or(u64::MAX, fewer))
+                let all = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
+                let needed = self.series_bits.filter(|_| Some(bits) == self.climb.bits);
+                let digits = needed.map_or(all, |needed| all.min(series_digits(needed)));
+                (digits, long_cells.map_or(u64::MAX, fewer))
             }
             _ => (double_digits, double_cells),
         };
         Effort { digits, cells, until_lost: self.climb.bits.is_some() }
+    }
+
+    /// The plan after a run in doubles that lacks so many bits.
+    ///
+    /// The bound of a march is about proportional to what its series leave out and to the roundings of its numbers: in
+    /// doubles to the roundings. Where it is not, the numbers after the next have all terms.
+    pub(crate) fn lacking(&self, missing: f64) -> Self {
+        let bits = f64::from(f64::MANTISSA_DIGITS) + missing.max(0.0);
+        Plan { series_bits: Some(bits), ..self.clone() }
+    }
+
+    /// The digits of the series of a proof in so many bits: in the first longer numbers those that the answer needs and
+    /// the proof is foreseen to cost, and all in later ones.
+    pub(super) fn proved_digits(&self, bits: u32) -> f64 {
+        let all = f64::from(bits) * std::f64::consts::LOG10_2;
+        let first = if self.rung == Rung::Double { self.climb.bits } else { Some(self.rung.bits()) };
+        let wanted = self.goal.digits * std::f64::consts::LOG2_10;
+        let spare = if matches!(self.numbers, Numbers::Digits(_)) { self.goal.spare } else { 0.0 };
+        let needed = wanted + spare * std::f64::consts::LOG2_10 + f64::from(self.proof_bits + PROOF_GUARD_BITS);
+        if Some(bits) == first { all.min(series_digits(needed)) } else { all }
     }
 
     /// A damped march in the numbers of `rung`.
@@ -501,6 +551,11 @@ impl Plan {
     pub(super) fn lattice_limits(&self, problem: &Problem) -> Limits {
         self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
     }
+}
+
+/// The digits for series that leave out less than `2^−bits`.
+fn series_digits(bits: f64) -> f64 {
+    (bits + SERIES_GUARD_BITS - EFFORT_BITS) * std::f64::consts::LOG10_2
 }
 
 impl Goal {

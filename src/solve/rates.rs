@@ -159,17 +159,17 @@ fn with_rates<S: Bounded>(
         wave_speed,
         damping: Dual::constant(given.damping),
         gravity: dual(given.gravity, Parameter::Gravity),
-        speed: dual(given.speed, Parameter::Speed),
+        speed: dual(given.speed, Parameter::ImpactSpeed),
     };
     let datum = |datum: Datum, number: &Number| {
         let number = S::from_number(number, &precision);
         let rate = match (datum, asked.by) {
             (Datum::Point, Parameter::Length) => number.clone() / value,
             (Datum::Displacement(_), Parameter::Gap) => number.one(),
-            (Datum::Displacement(_), Parameter::StartDisplacement(None)) => number.clone(),
-            (Datum::Velocity(_), Parameter::StartVelocity(None)) => number.clone(),
-            (Datum::Displacement(k), Parameter::StartDisplacement(Some(node)))
-            | (Datum::Velocity(k), Parameter::StartVelocity(Some(node))) => number.int(i64::from(k == node)),
+            (Datum::Displacement(_), Parameter::Displacement(None)) => number.clone(),
+            (Datum::Velocity(_), Parameter::Velocity(None)) => number.clone(),
+            (Datum::Displacement(k), Parameter::Displacement(Some(node)))
+            | (Datum::Velocity(k), Parameter::Velocity(Some(node))) => number.int(i64::from(k == node)),
             _ => number.zero(),
         };
         Dual::new(number, rate * &sign)

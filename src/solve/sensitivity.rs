@@ -28,7 +28,7 @@ impl Sensitivity {
     /// derivatives.
     pub fn of(problem: &Problem) -> Option<Self> {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
-        let by = [Parameter::Speed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
+        let by = [Parameter::ImpactSpeed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
         let value = by.value_in::<f64>(problem, &()).ok()?;
         let (contacts, until) = match &problem.run {
             Run::Impacts(contacts) => ((*contacts).min(MEASURED), f64::INFINITY),

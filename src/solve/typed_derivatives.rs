@@ -36,7 +36,7 @@ impl<S: Target> TypedHistory<S> {
     /// // Doyen, Ern and Piperno's rod lands for the second time as a wave arrives: a faster one lands after it, and
     /// // g ∂t₂/∂μ is 6 for slower rods and 6/5 for faster ones.
     /// let rod = Problem::builder().length(10).wave_speed(30).gravity(10).impact_speed(10).impacts(2).build()?;
-    /// let times = rod.exact()?.derivatives(Parameter::Speed, &[Quantity::EventTime])?;
+    /// let times = rod.exact()?.derivatives(Parameter::ImpactSpeed, &[Quantity::EventTime])?;
     /// let Some(Derivative::Sides { left: Ok(slower), right: Ok(faster) }) = &times[2][0] else { unreachable!() };
     /// assert_eq!((slower.to_string(), faster.to_string()), ("3/5".into(), "3/25".into()));
     /// # }

@@ -107,7 +107,7 @@ impl<'a> Model<'a> {
         let asked: Vec<f64> = times.iter().map(|time| time.clamp(0.0, *history.end())).collect();
         let mut all = history.columns(&whats, &asked, Some(Side::Right))?;
         let value = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
-        let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::Speed));
+        let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::ImpactSpeed));
         for (values, what) in all.iter_mut().zip(&whats) {
             for (value, time) in values.iter_mut().zip(&times).filter(|(_, time)| **time < 0.0) {
                 match what.measure() {
@@ -139,7 +139,7 @@ impl<'a> Model<'a> {
         let (extra, rod) = (own * share / 2.0, own * (1.0 + share / 2.0));
         let history = solved(&problem, self.times.last().copied().unwrap_or_default())?;
         let value = |parameter: Parameter| parameter.value(&problem).unwrap_or_default();
-        let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::Speed));
+        let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::ImpactSpeed));
         // The mass at the ground by itself: where it is stopped, and what of the time it lies there.
         let mut contacts = Vec::new();
         for contact in history.contacts() {

@@ -70,7 +70,7 @@ pub struct Options {
     /// Width of the mesh of each file, for the order of convergence; by default the step of its times
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub widths: Vec<Number>,
-    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, speed, gap
+    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, impact_speed, gap
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub fit: Vec<Parameter>,
     /// How far the data are to go; by default as far as the run of the scene

@@ -64,7 +64,7 @@ const ALL: [(&str, Hypothesis); 8] = [
     ("wave_speed", Hypothesis::Value(Parameter::WaveSpeed)),
     ("mass", Hypothesis::Value(Parameter::Density)),
     ("length", Hypothesis::Value(Parameter::Length)),
-    ("start_velocity", Hypothesis::Value(Parameter::Speed)),
+    ("start_velocity", Hypothesis::Value(Parameter::ImpactSpeed)),
     ("gravity", Hypothesis::Value(Parameter::Gravity)),
     ("end_mass", Hypothesis::EndMass),
     ("clock", Hypothesis::Clock),
@@ -254,7 +254,7 @@ impl Judge<'_> {
         let square = |errors: &[Vec<f64>]| self.over(&concerned, errors, errors);
         let base = square(&self.base);
         let (mut p, mut found, mut left) = (0.0, self.base.clone(), base);
-        if matches!(hypothesis, Hypothesis::Value(Parameter::Speed | Parameter::Gravity))
+        if matches!(hypothesis, Hypothesis::Value(Parameter::ImpactSpeed | Parameter::Gravity))
             && let Some(other) = errors(NOTHING)
             && square(&other) < left
         {

@@ -24,7 +24,7 @@ impl Judge<'_> {
                 format!("wave speed off by {off}, as by a modulus off by {modulus}")
             }
             Hypothesis::Value(Parameter::Density) => format!("mass off by {off}: check density and mass matrix"),
-            Hypothesis::Value(Parameter::Speed) => format!("velocity at the start off by {off}"),
+            Hypothesis::Value(Parameter::ImpactSpeed) => format!("velocity at the start off by {off}"),
             Hypothesis::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(NO_GRAVITY) => {
                 verdict.value = -1.0;
                 "no gravity: is the weight missing?".into()

@@ -11,7 +11,7 @@ use crate::draw::{
     without_subscripts,
 };
 use crate::field::{COLUMNS, FieldMap, FieldValues, MAX_RAYS, ROWS, Ray};
-use crate::picture::{FieldLabel, Picture};
+use crate::picture::Picture;
 use crate::scene_data::{Curve, Request, SMALLEST_JUMP, SceneData};
 
 /// Colour of the times on the ground.
@@ -70,7 +70,12 @@ impl Request {
     /// Returns the panel of a field with its rays.
     fn field(&self, scene: &SceneData, scenes: &[SceneData]) -> Panel {
         let (length, units) = (scene.rod.length, &scene.units);
-        let FieldLabel { measure, symbol, name } = self.field.label(units);
+        let measure = self.field.measure(units);
+        let (symbol, name) = match measure {
+            Measure::Stress => ("E v_x", "stress"),
+            Measure::Strain => ("v_x", "strain"),
+            _ => ("v_t", "velocity"),
+        };
         let coarse = if scene.coarse_columns().is_some() { ", too coarse for its waves" } else { "" };
         let y = Axis::new("x", units.name(Measure::Length), [-FLOOR * length, length]);
         let mut panel = Panel::new(format!("{name} along the rod{coarse}"), time_axis(scenes), y);

@@ -85,24 +85,13 @@ pub enum FieldQuantity {
     Strain,
 }
 
-/// Unit, symbol and name of a field.
-pub(crate) struct FieldLabel {
-    pub(crate) measure: Measure,
-    pub(crate) symbol: &'static str,
-    pub(crate) name: &'static str,
-}
-
 impl FieldQuantity {
-    /// Returns the label in these units. Without a modulus the stress is the strain.
-    pub(crate) fn label(self, units: &Units) -> FieldLabel {
+    /// Returns the unit of the field. Without a modulus the stress is the strain.
+    pub(crate) fn measure(self, units: &Units) -> Measure {
         match self {
-            FieldQuantity::Stress if units.has_material() => {
-                FieldLabel { measure: Measure::Stress, symbol: "E v_x", name: "stress" }
-            }
-            FieldQuantity::Stress | FieldQuantity::Strain => {
-                FieldLabel { measure: Measure::Strain, symbol: "v_x", name: "strain" }
-            }
-            FieldQuantity::Velocity => FieldLabel { measure: Measure::Velocity, symbol: "v_t", name: "velocity" },
+            FieldQuantity::Stress if units.has_material() => Measure::Stress,
+            FieldQuantity::Stress | FieldQuantity::Strain => Measure::Strain,
+            FieldQuantity::Velocity => Measure::Velocity,
         }
     }
 }

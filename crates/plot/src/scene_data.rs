@@ -80,18 +80,20 @@ const WORLD_LINES: usize = 5;
 const FADED: f64 = 1e-3;
 
 impl SceneData {
-    /// Returns the lines above the pictures of the scene: its title, its values, and the span if it was not asked for
-    /// and is not the whole history.
+    /// Returns the lines above the pictures of the scene: its title, its values, and what its span leaves out.
     pub fn heading(&self, title: Option<&str>, problem: &Problem, request: &Request) -> Vec<String> {
         let axis = time_axis(std::slice::from_ref(self));
         let values = self.units.parameters(problem, |time| axis.with_unit(time)).join(", ");
-        let [from, to] = self.span;
-        let cut = request.shows_span() && request.from.is_none() && request.to.is_none() && to != self.end;
-        let span = cut.then(|| {
-            let [from, to, end] = [from, to, self.end].map(|time| axis.with_unit(time));
-            format!("from t = {from} to {to} of {end}, {} of {} contacts", self.contacts.len(), self.all_contacts)
-        });
-        title.map(without_subscripts).into_iter().chain([values]).chain(span).collect()
+        title.map(without_subscripts).into_iter().chain([values]).chain(self.shown_part(request)).collect()
+    }
+
+    /// Returns the part of the history that the pictures show, if it is not the whole history and was not asked for.
+    pub fn shown_part(&self, request: &Request) -> Option<String> {
+        let axis = time_axis(std::slice::from_ref(self));
+        let [from, to, end] = [self.span[0], self.span[1], self.end].map(|time| axis.with_unit(time));
+        let cut = request.shows_span() && request.from.is_none() && request.to.is_none() && self.span[1] != self.end;
+        let (shown, all) = (self.contacts.len(), self.all_contacts);
+        cut.then(|| format!("from t = {from} to {to} of {end}, {shown} of {all} contacts"))
     }
 
     /// Returns the number of columns that the field has for each round trip, if they are too few to show its waves.
@@ -153,7 +155,7 @@ impl Request {
         if self.pictures.contains(&Picture::SpaceTime) && self.deformed {
             data.world_lines = world_lines(history, &extent, &rays)?;
         } else if self.pictures.contains(&Picture::SpaceTime) {
-            let factor = data.units.factor::<f64>(self.field.label(&data.units).measure, &()).unwrap_or(1.0);
+            let factor = data.units.factor::<f64>(self.field.measure(&data.units), &()).unwrap_or(1.0);
             data.field = Some(FieldMap::new(history, self.field, factor, &extent, rays)?);
         }
         Ok(data)

@@ -17,7 +17,7 @@ use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
 use dalembert::quantity::Units;
 use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
-use dalembert_plot::draw::Size;
+use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
 #[derive(Args, Debug)]
@@ -109,7 +109,10 @@ impl Plot {
             }
             _ => {
                 name_by_differences(&mut gathered);
-                Vec::new()
+                let part = |scene: &SceneData| {
+                    Some(format!("{}: {}", without_subscripts(&scene.name), scene.shown_part(&request)?))
+                };
+                gathered.iter().filter_map(part).collect()
             }
         };
         let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;

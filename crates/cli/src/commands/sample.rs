@@ -27,7 +27,7 @@ use dalembert::{Ending, Error, Scene, Side, Value};
     Examples:\n  dalembert sample paper-strong --quantity strain --times 0.3,1.2,2 --side left\n  \
     dalembert sample doyen-ern-piperno --quantity end,energy --times 0..16/3:9 --exact\n  \
     dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
-    dalembert sample figure-4-r02 --quantity strain --times 0.1,0.3 --derivatives speed,damping\n  \
+    dalembert sample figure-4-r02 --quantity strain --times 0.1,0.3 --derivatives impact_speed,damping\n  \
     dalembert sample rod.toml --quantity u_end,force --dt 0.001 --to 5 -o values.npz")]
 pub(crate) struct Sample {
     #[command(flatten)]

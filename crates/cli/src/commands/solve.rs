@@ -17,7 +17,7 @@ use dalembert::solve::{Question, StressForm};
 
 const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n  \
     dalembert solve rod.toml --digits 38 -o rod.json\n  \
-    dalembert solve doyen-ern-piperno --derivatives speed,gravity\n  \
+    dalembert solve doyen-ern-piperno --derivatives impact_speed,gravity\n  \
     dalembert scenes paper-weak | dalembert solve - --part stress";
 
 #[derive(Args, Debug)]
@@ -48,8 +48,8 @@ pub(crate) struct Solve {
     #[arg(long, value_enum)]
     part: Option<HistoryPart>,
     /// Derivatives of events and contacts by values of the scene: length, wave_speed, modulus, density, damping,
-    /// gravity, speed, gap, displacement or velocity of the start, velocity[0] of its first point; all others stay as
-    /// they are
+    /// gravity, impact_speed, gap, displacement or velocity of the start, velocity[0] of its first point, or paths such
+    /// as impact.speed; all others stay as they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
     /// The Chebyshev coefficients of curved pieces, with --part stress; otherwise straight lines within 1e-6 of the peak

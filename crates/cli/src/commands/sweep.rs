@@ -16,7 +16,6 @@ use crate::quantities::{NameParser, Scope, has_material};
 use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
 use crate::{source, terminal};
 use dalembert::number::Number;
-use dalembert::problem::Builder;
 use dalembert::quantity::Needs;
 use dalembert_verify::regimes::GridError;
 
@@ -71,11 +70,8 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
 fn axis(text: &str) -> Result<Axis, Failure> {
     let grammar = "--vary is PATH=V1,V2,…, PATH=A..B:N for N values from A to B, or PATH=A..B:N:log";
     text.parse().map_err(|error| match &error {
-        GridError::UnknownPath(path) => {
-            let near = source::nearest(path, Builder::NUMBERS.iter().map(|(_, path)| *path));
-            let help = near.map_or_else(|| grammar.into(), |near| format!("did you mean {near}?"));
-            Failure::from(error).help(help)
-        }
+        // The message names the nearest path.
+        GridError::UnknownPath(_) => Failure::from(error),
         _ => Failure::from(error).help(grammar),
     })
 }
@@ -101,7 +97,7 @@ impl Sweep {
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
-        let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
+        let vary = |axis: &Axis| json!({"path": axis.parameter.path(), "values": axis.values});
         // Everything that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),

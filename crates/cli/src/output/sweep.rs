@@ -31,7 +31,13 @@ fn shown(cell: &PointNumber) -> Cell {
 /// Returns a row for each point; a table has the notes below it, each once.
 pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
     let mut columns = vec![Column::new("point")];
-    columns.extend(sweep.grid.axes.iter().map(|axis| Column::new(axis.path).keyed(format!("at/{}", axis.path))));
+    columns.extend(
+        sweep
+            .grid
+            .axes
+            .iter()
+            .map(|axis| Column::new(axis.parameter.path()).keyed(format!("at/{}", axis.parameter.path()))),
+    );
     for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
         let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
         columns.extend([
@@ -66,7 +72,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         .enumerate()
         .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
-    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
+    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.parameter.path(), "values": axis.values}));
     let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
     Dataset {
         header: vec![

@@ -16,7 +16,7 @@ fn rod(values: [f64; 6], time: f64) -> Problem {
     rod.impact_speed(speed).gap(gap).time(time).build().unwrap()
 }
 
-const NAMES: [&str; 6] = ["length", "wave_speed", "damping", "gravity", "speed", "gap"];
+const NAMES: [&str; 6] = ["length", "wave_speed", "damping", "gravity", "impact_speed", "gap"];
 
 /// What of `columns` at `times` is `data`, fitted from `start`.
 fn fitted(start: &Problem, names: &[&str], times: &[f64], columns: &[Quantity], data: Vec<Vec<f64>>) -> Value {
@@ -147,7 +147,7 @@ fn noisy_data_give_honest_errors() {
             .iter()
             .map(|h| h + 1e-4 * ((0..12).map(|_| random.between(0.0, 1.0)).sum::<f64>() - 6.0))
             .collect();
-        let fit = fitted(&problem(1.02, 9.7), &["speed", "gravity"], &times, &columns, vec![noisy]);
+        let fit = fitted(&problem(1.02, 9.7), &["impact_speed", "gravity"], &times, &columns, vec![noisy]);
         for (value, truth) in fit["values"].as_array().unwrap().iter().zip([1.0, 9.81]) {
             let off = (value["value"].as_f64().unwrap() - truth).abs();
             count += 1;

@@ -106,7 +106,7 @@ fn the_strain_of_a_damped_rod() {
     let times = ["0.1", "0.5", "0.9"].map(number);
     let of = |by| history.derivatives_at(by, &[Quantity::Strain], &times, &[], Side::Right).unwrap();
     let (by_damping, by_speed, by_wave_speed) =
-        (of(Parameter::Damping), of(Parameter::Speed), of(Parameter::WaveSpeed));
+        (of(Parameter::Damping), of(Parameter::ImpactSpeed), of(Parameter::WaveSpeed));
     for (k, time) in times.iter().map(Number::to_f64).enumerate() {
         let (i0, i1, decay) = (bessel(0, r * time), bessel(1, r * time), (-r * time).exp());
         let by_hand = [
@@ -153,7 +153,7 @@ fn what_has_no_derivative_at_a_time_is_refused() {
     let history = uniform("1", "1", "1", "3", Run::Impacts(1)).exact().unwrap();
     let ask = |quantity, times: &[&str], points: &[&str]| {
         let [times, points] = [times, points].map(|list| list.iter().map(|x| number(x)).collect::<Vec<_>>());
-        history.derivatives_at(Parameter::Speed, &[quantity], &times, &points, Side::Right).map(|_| ())
+        history.derivatives_at(Parameter::ImpactSpeed, &[quantity], &times, &points, Side::Right).map(|_| ())
     };
     assert!(matches!(ask(Quantity::Strain, &["100"], &[]), Err(Error::TimeOutside { .. } | Error::BeyondEnd { .. })));
     assert!(matches!(ask(Quantity::Strain, &["-1"], &[]), Err(Error::TimeOutside { .. })));

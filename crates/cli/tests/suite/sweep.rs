@@ -126,7 +126,7 @@ fn a_killed_sweep_resumes_to_the_same_bytes() {
 #[test]
 fn what_is_no_sweep_is_said() {
     let said = |args: &[&str]| run(&[&[SCENE, "--quantity", "bounce_time"], args].concat()).unwrap_err();
-    assert!(said(&["--vary", "rod.dampin=1"]).contains("found the path `rod.dampin`, expected a number of a scene"));
+    assert!(said(&["--vary", "rod.dampin=1"]).contains("(did you mean rod.damping?)"));
     assert!(said(&["--vary", "rod.damping=1", "--vary", "rod.damping=2"]).contains("expected each value once"));
     assert!(said(&["--vary", "rod.damping=1 m"]).contains("found `1 m`, expected a number such as"));
     assert!(

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::axis::Axis;
 use super::clip;
 use super::color::{diverging, diverging_stops};
-use super::svg::{Anchor, Fill, Stroke, Svg, text_width};
+use super::svg::{Anchor, Stroke, Svg, text_width};
 
 /// One picture with its axes.
 #[derive(Clone, Debug)]
@@ -18,20 +18,11 @@ pub struct Panel {
     pub y: Axis,
     /// Legend between title and frame.
     pub legend: Vec<Key>,
-    /// Layers, the lowest one first.
-    pub(crate) layers: Vec<Layer>,
+    /// Layers, the lowest one first, each with the class of its group in the SVG.
+    pub(crate) layers: Vec<(&'static str, Shape)>,
 }
 
-/// Layer of a panel, in the coordinates of its axes.
-#[derive(Clone, Debug)]
-pub(crate) struct Layer {
-    /// Class of the layer's group in the SVG.
-    class: &'static str,
-    pub(crate) shape: Shape,
-    /// Whether the layer may extend beyond the frame.
-    unclipped: bool,
-}
-
+/// Contents of a layer, in the coordinates of the axes.
 #[derive(Clone, Debug)]
 pub(crate) enum Shape {
     Lines(Vec<Vec<DVec2>>, Stroke),
@@ -43,6 +34,8 @@ pub(crate) enum Shape {
     Region(Vec<Vec<DVec2>>, &'static str),
     Marks {
         points: Vec<DVec2>,
+        /// Whether points outside the frame are left out.
+        clipped: bool,
         mark: Mark,
         color: &'static str,
     },
@@ -160,7 +153,7 @@ impl Key {
                 svg.text(to(x, 0.0), Anchor::Start, least);
                 x += text_width(least) + 0.3;
                 let corners = [to(x, -0.8), to(x + COLOR_BAR, -0.8), to(x + COLOR_BAR, 0.05), to(x, 0.05)];
-                svg.polygon(&corners, &Fill::Gradient([corners[0], corners[1]], diverging_stops(-1.0, 1.0)));
+                svg.gradient_polygon(&corners, [corners[0], corners[1]], &diverging_stops(-1.0, 1.0));
                 svg.text(to(x + COLOR_BAR / 2.0, 0.0), Anchor::Middle, middle);
                 return svg.text(to(x + COLOR_BAR + 0.3, 0.0), Anchor::Start, greatest);
             }
@@ -202,7 +195,7 @@ impl Panel {
     }
 
     pub(crate) fn add(&mut self, class: &'static str, shape: Shape) {
-        self.layers.push(Layer { class, shape, unclipped: false });
+        self.layers.push((class, shape));
     }
 
     /// Adds lines, a layer over the others. Here as below `class` names its group in the SVG.
@@ -227,12 +220,12 @@ impl Panel {
 
     /// Adds marks at points inside the frame.
     pub fn marks(&mut self, class: &'static str, points: Vec<DVec2>, mark: Mark, color: &'static str) {
-        self.add(class, Shape::Marks { points, mark, color });
+        self.add(class, Shape::Marks { points, clipped: true, mark, color });
     }
 
     /// Adds marks at points that may lie outside the frame.
     pub fn marks_unclipped(&mut self, class: &'static str, points: Vec<DVec2>, mark: Mark, color: &'static str) {
-        self.layers.push(Layer { class, shape: Shape::Marks { points, mark, color }, unclipped: true });
+        self.add(class, Shape::Marks { points, clipped: false, mark, color });
     }
 
     /// Adds a text beside a point.
@@ -318,11 +311,11 @@ impl Panel {
         x_ticks.iter().for_each(|(x, _)| svg.line(&[DVec2::new(*x, from.y), DVec2::new(*x, to.y)], GRID));
         y_ticks.iter().for_each(|(y, _)| svg.line(&[DVec2::new(from.x, *y), DVec2::new(to.x, *y)], GRID));
         svg.close();
-        for layer in &self.layers {
+        for (class, shape) in &self.layers {
             // Neighbouring cells of a field show no seam.
-            let edges = if layer.class == "cells" { " shape-rendering=\"crispEdges\"" } else { "" };
-            svg.open(layer.class, edges);
-            draw_shape(svg, &layer.shape, &place, if layer.unclipped { EVERYWHERE } else { [from, to] });
+            let edges = if *class == "cells" { " shape-rendering=\"crispEdges\"" } else { "" };
+            svg.open(class, edges);
+            draw_shape(svg, shape, &place, [from, to]);
             svg.close();
         }
         svg.outline([from, to], FRAME);
@@ -372,7 +365,6 @@ impl Panel {
     }
 }
 
-const EVERYWHERE: [DVec2; 2] = [DVec2::NEG_INFINITY, DVec2::INFINITY];
 /// Overlap of neighbouring cells of a field in mm, so that no viewer shows a seam: less than the width of a ray.
 const OVERLAP: f64 = 0.04;
 
@@ -385,8 +377,7 @@ fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, fra
             stretches.for_each(|line| svg.line(&line, *stroke));
         }
         Shape::Areas(areas, color) => {
-            let fill = Fill::Flat((*color).into());
-            areas.iter().for_each(|area| svg.polygon(&clip::polygon(placed(area), frame), &fill));
+            areas.iter().for_each(|area| svg.polygon(&clip::polygon(placed(area), frame), color));
         }
         Shape::Field(pieces) => pieces.iter().for_each(|piece| draw_piece(svg, piece, place)),
         Shape::Rectangles(colors) => {
@@ -397,8 +388,8 @@ fn draw_shape(svg: &mut Svg, shape: &Shape, place: &impl Fn(DVec2) -> DVec2, fra
             }
         }
         Shape::Region(lines, color) => svg.region(&lines.iter().map(|line| placed(line)).collect::<Vec<_>>(), color),
-        Shape::Marks { points, mark, color } => {
-            let inside = |point: &DVec2| frame[0].cmple(*point).all() && point.cmple(frame[1]).all();
+        Shape::Marks { points, clipped, mark, color } => {
+            let inside = |point: &DVec2| !clipped || frame[0].cmple(*point).all() && point.cmple(frame[1]).all();
             placed(points).into_iter().filter(inside).for_each(|point| draw_mark(svg, point, *mark, color));
         }
         Shape::Note { at, anchor, text } => svg.text(place(*at), *anchor, text),
@@ -416,7 +407,7 @@ fn draw_piece(svg: &mut Svg, piece: &FieldPiece, place: &impl Fn(DVec2) -> DVec2
     let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let drawn = clip::grown(&corners, OVERLAP);
     if most - least < ONE_COLOR {
-        return svg.polygon(&drawn, &Fill::Flat(diverging(piece.value)));
+        return svg.polygon(&drawn, &diverging(piece.value));
     }
     // Slope in millimetres of the sheet.
     let origin = place(piece.at);
@@ -424,7 +415,7 @@ fn draw_piece(svg: &mut Svg, piece: &FieldPiece, place: &impl Fn(DVec2) -> DVec2
     let slope = DVec2::new(piece.slope.x / right.x, piece.slope.y / up.y);
     let along = slope / slope.length_squared();
     let end = |value: f64| origin + along * (value - piece.value);
-    svg.polygon(&drawn, &Fill::Gradient([end(least), end(most)], diverging_stops(least, most)));
+    svg.gradient_polygon(&drawn, [end(least), end(most)], &diverging_stops(least, most));
 }
 
 fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
@@ -433,18 +424,17 @@ fn draw_mark(svg: &mut Svg, at: DVec2, mark: Mark, color: &'static str) {
         let corner = |k: i32| DVec2::from_angle((f64::from(k) / f64::from(count) + turn) * std::f64::consts::TAU);
         (0..count).map(|k| at + corner(k) * radius(k)).collect()
     };
-    let fill = Fill::Flat(color.into());
     let thin = Stroke::new(color, 0.07 * svg.em);
     match mark {
         Mark::Dot => svg.circle(at, r, color, Stroke::new(color, 0.0)),
         Mark::Point => svg.circle(at, 0.4 * r, color, Stroke::new(color, 0.0)),
         Mark::Ring => svg.circle(at, 2.0 * r, "none", thin),
-        Mark::Square => svg.polygon(&ring(4, 0.125, &|_| 1.2 * r), &fill),
-        Mark::Diamond => svg.polygon(&ring(4, 0.0, &|_| 1.25 * r), &fill),
-        Mark::Triangle => svg.polygon(&ring(3, -0.25, &|_| 1.25 * r), &fill),
-        Mark::TriangleDown => svg.polygon(&ring(3, 0.25, &|_| 1.25 * r), &fill),
-        Mark::Pentagon => svg.polygon(&ring(5, -0.25, &|_| 1.15 * r), &fill),
-        Mark::Star => svg.polygon(&ring(10, -0.25, &|k| if k % 2 == 0 { 1.3 * r } else { 0.55 * r }), &fill),
+        Mark::Square => svg.polygon(&ring(4, 0.125, &|_| 1.2 * r), color),
+        Mark::Diamond => svg.polygon(&ring(4, 0.0, &|_| 1.25 * r), color),
+        Mark::Triangle => svg.polygon(&ring(3, -0.25, &|_| 1.25 * r), color),
+        Mark::TriangleDown => svg.polygon(&ring(3, 0.25, &|_| 1.25 * r), color),
+        Mark::Pentagon => svg.polygon(&ring(5, -0.25, &|_| 1.15 * r), color),
+        Mark::Star => svg.polygon(&ring(10, -0.25, &|k| if k % 2 == 0 { 1.3 * r } else { 0.55 * r }), color),
         Mark::Cross => {
             for way in [DVec2::ONE, DVec2::new(1.0, -1.0)] {
                 svg.line(&[at - way * 0.85 * r, at + way * 0.85 * r], Stroke { width: 0.12 * svg.em, ..thin });

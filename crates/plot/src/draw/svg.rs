@@ -41,14 +41,6 @@ pub enum Anchor {
     End,
 }
 
-/// Paint of an area.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Fill {
-    Flat(String),
-    /// Gradient between two points; each stop is a share of the way, in order, and a colour.
-    Gradient([DVec2; 2], Vec<(f64, String)>),
-}
-
 /// Document that is being written.
 #[derive(Debug)]
 pub(crate) struct Svg {
@@ -156,23 +148,20 @@ impl Svg {
     }
 
     /// Draws a polygon.
-    pub(super) fn polygon(&mut self, points: &[DVec2], fill: &Fill) {
-        let corners = places(points);
-        let paint = match fill {
-            Fill::Flat(color) => color.clone(),
-            Fill::Gradient([from, to], stops) => {
-                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
-                let mut gradient =
-                    format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
-                for (share, color) in stops {
-                    gradient += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
-                }
-                let id = fingerprint(&format!("{corners}{gradient}"));
-                self.text += &format!("<linearGradient id=\"fill{id:x}\" {gradient}</linearGradient>\n");
-                format!("url(#fill{id:x})")
-            }
-        };
-        self.text += &format!("<polygon points=\"{corners}\" fill=\"{paint}\"/>\n");
+    pub(super) fn polygon(&mut self, points: &[DVec2], fill: &str) {
+        self.text += &format!("<polygon points=\"{}\" fill=\"{fill}\"/>\n", places(points));
+    }
+
+    /// Draws a polygon with a gradient between two points. Each stop is a share of the way, in order, and a colour.
+    pub(super) fn gradient_polygon(&mut self, points: &[DVec2], [from, to]: [DVec2; 2], stops: &[(f64, String)]) {
+        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
+        let mut gradient = format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
+        for (share, color) in stops {
+            gradient += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
+        }
+        let id = fingerprint(&format!("{}{gradient}", places(points)));
+        self.text += &format!("<linearGradient id=\"fill{id:x}\" {gradient}</linearGradient>\n");
+        self.polygon(points, &format!("url(#fill{id:x})"));
     }
 
     /// Draws the points that an odd number of closed lines surrounds.

@@ -3,7 +3,7 @@ use crate::draw::{Shape, Size};
 use dalembert::problem::Problem;
 use dalembert::quantity::Units;
 
-/// Bars are as high as the coefficients are, and no text lies on the line at 1.
+/// Bars are as high as the coefficients, and no text is on the line at 1.
 #[test]
 fn a_single_bounce_is_bars_of_its_coefficients() {
     let pictures = vec![Picture::Restitution];
@@ -17,7 +17,7 @@ fn a_single_bounce_is_bars_of_its_coefficients() {
         let scenes = speeds.iter().map(|speed| gathered(*speed)).collect::<Vec<_>>();
         let sheet = request.sheet(&scenes, Vec::new()).unwrap();
         let panel = &sheet.panels[0];
-        let drawn = panel.layers.iter().filter_map(|layer| match &layer.shape {
+        let drawn = panel.layers.iter().filter_map(|(_, shape)| match shape {
             Shape::Areas(bars, _) => Some(bars),
             _ => None,
         });
@@ -27,9 +27,9 @@ fn a_single_bounce_is_bars_of_its_coefficients() {
                 bars += 1;
             }
         }
-        // A text stands above the line at 1 or well below it.
-        for layer in &panel.layers {
-            if let Shape::Note { at, .. } = &layer.shape {
+        // A text is above the line at 1 or well below it.
+        for (_, shape) in &panel.layers {
+            if let Shape::Note { at, .. } = shape {
                 assert!(at.y > 1.0 || at.y + 0.07 * (panel.y.to - panel.y.from) < 1.0, "{}", at.y);
                 texts += 1;
             }
@@ -37,4 +37,19 @@ fn a_single_bounce_is_bars_of_its_coefficients() {
         assert!(sheet.svg(Size::Slide).contains("(energy)"));
     }
     assert_eq!((bars, texts), (14, 4));
+}
+
+/// Dashed rays have a key, and a title says if bounces are left out.
+#[test]
+fn dashes_and_omissions_are_explained() {
+    let request = Request { pictures: vec![Picture::SpaceTime, Picture::Restitution], ..Request::default() };
+    let rod = Problem::builder().length("1/2").wave_speed(1).impact_speed(1).damping("13/5").build().unwrap();
+    let mut scene = request.gather("rod".into(), Units::default(), &rod.doubles().unwrap()).unwrap();
+    assert_eq!(scene.field.as_ref().unwrap().rays.iter().filter(|ray| !ray.jump).count(), 1);
+    scene.restitution.push([Some(0.5), None]);
+    scene.all_contacts = 500;
+    let sheet = request.sheet(&[scene], Vec::new()).unwrap();
+    let svg = sheet.svg(Size::Page);
+    assert!(svg.contains(">kink<"), "{svg}");
+    assert_eq!(sheet.panels[1].title, "restitution of the first 2 of 500 bounces");
 }

@@ -1,7 +1,6 @@
 //! The numbers of the figures.
 
 use rayon::prelude::*;
-use std::iter::once;
 
 use super::{Figure, FigureKind};
 use crate::error::VerifyError;
@@ -85,11 +84,9 @@ type Columns = (Vec<&'static str>, Vec<Row>);
 fn energies() -> Result<Columns, VerifyError> {
     let grid = grid("0", "0.01..8:800")?;
     let bounces = bounces(&grid, ENERGIES, ACCURACY)?;
-    let rows = speeds(&grid).into_iter().zip(bounces).map(|(speed, bounce)| {
-        let (time, energies) = bounce.unzip();
-        let energies = energies.unwrap_or_else(|| vec![None, None]);
+    let rows = speeds(&grid).into_iter().zip(bounces).map(|(speed, Bounce { time, values: energies })| {
         let whole = speed.clone() * &speed / speed.int(2);
-        let shares = energies.clone().into_iter().map(|energy| energy.map(|energy| energy / &whole));
+        let shares = energies.clone().map(|energy| energy.map(|energy| energy / &whole));
         [Some(speed), time].into_iter().chain(energies).chain(shares).collect()
     });
     Ok((vec!["speed", "bounce_time", "E_h", "E_z", "E_h_share", "E_z_share"], rows.collect()))
@@ -99,10 +96,8 @@ fn energies() -> Result<Columns, VerifyError> {
 fn restitutions() -> Result<Columns, VerifyError> {
     let grid = grid(&DAMPINGS.join(","), "0.0125..12.5:1000")?;
     let bounces = bounces(&grid, RESTITUTION, RESTITUTION_ACCURACY)?;
-    let rows = bounces.into_iter().enumerate().map(|(k, bounce)| {
-        let (time, restitution) = bounce.unzip();
-        [point(&grid, k), vec![time, restitution.and_then(|values| values[0].clone())]].concat()
-    });
+    let rows = bounces.into_iter().enumerate();
+    let rows = rows.map(|(k, Bounce { time, values: [squared] })| [point(&grid, k), vec![time, squared]].concat());
     Ok((vec!["damping", "speed", "bounce_time", "restitution_squared"], rows.collect()))
 }
 
@@ -112,10 +107,9 @@ fn shares(kind: FigureKind) -> Result<Columns, VerifyError> {
     let bounces = bounces(&grid, SHARES, ACCURACY)?;
     let limits = DAMPINGS.into_iter().map(Limits::new).collect::<Result<Vec<_>, _>>()?;
     let speeds_of_each = bounces.len() / limits.len();
-    let rows = bounces.into_iter().enumerate().map(|(k, bounce)| {
+    let rows = bounces.into_iter().enumerate().map(|(k, Bounce { values, .. })| {
         let Limits { translational, kept, decay, .. } = limits[k / speeds_of_each].clone();
-        let shares = bounce.map_or([None, None], |(_, shares)| [shares[0].clone(), shares[1].clone()]);
-        let ([value, limit], supposed) = match (kind, shares) {
+        let ([value, limit], supposed) = match (kind, values) {
             (FigureKind::TranslationalShare, [share, _]) => ([share, translational], Double::exact(1.0)),
             (FigureKind::EnergyKept, [_, share]) => ([share, kept], decay),
             (_, [_, share]) => ([share, kept].map(|kept| kept.map(|kept| kept / &decay)), Double::exact(1.0)),
@@ -147,11 +141,8 @@ fn tenth_bounces() -> Result<Columns, VerifyError> {
     let grid = grid("0", "0.005..10:2000")?;
     let tenth: Vec<_> = (0..grid.len()).into_par_iter().map(|index| tenth_restitution(&grid, index)).collect();
     let first = bounces(&grid, RESTITUTION, ACCURACY)?;
-    let rows = speeds(&grid)
-        .into_iter()
-        .zip(tenth)
-        .zip(first)
-        .map(|((speed, tenth), first)| vec![Some(speed), first.and_then(|(_, values)| values[0].clone()), tenth]);
+    let rows = speeds(&grid).into_iter().zip(first).zip(tenth);
+    let rows = rows.map(|((speed, Bounce { values: [first], .. }), tenth)| vec![Some(speed), first, tenth]);
     Ok((vec!["speed", "first_restitution_squared", "tenth_restitution_squared"], rows.collect()))
 }
 
@@ -160,25 +151,29 @@ fn point(grid: &Grid, index: usize) -> Row {
     grid.values(index).into_iter().map(|value| Some(Double::exact(value.to_f64()))).collect()
 }
 
-/// `t_b` and some values of a first contact; `None` for one without a bounce.
-type Bounce = Option<(Double, Row)>;
+/// The end of a first contact: `t_b` and some values; all `None` for a contact without a bounce.
+#[derive(Clone)]
+struct Bounce<const N: usize> {
+    time: Option<Double>,
+    values: [Option<Double>; N],
+}
 
 /// A function that computes values of a first contact from its impact and its bounce.
-type Values = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<Row, Error>;
+type Values<const N: usize> = fn(&dyn Motion<Double>, [&Double; 2]) -> Result<[Option<Double>; N], Error>;
 
 /// `e_E²`.
-const RESTITUTION: Values = |motion, [from, to]| Ok(vec![restitution(motion, (from, Some(to)))?.e_e2.ok()]);
+const RESTITUTION: Values<1> = |motion, [from, to]| Ok([restitution(motion, (from, Some(to)))?.e_e2.ok()]);
 
 /// `E_h(t_b)/E(t_b)` and `E(t_b)/E(0)`.
-const SHARES: Values = |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok).to_vec());
+const SHARES: Values<2> = |motion, [from, to]| Ok(energy_shares(motion, (from, Some(to)))?.map(Result::ok));
 
 /// `E_h(t_b)` and `E_z(t_b)`.
-const ENERGIES: Values =
-    |motion, [_, to]| motion.energy(to).map(|energy| vec![Some(energy.translational), Some(energy.vibrational)]);
+const ENERGIES: Values<2> =
+    |motion, [_, to]| motion.energy(to).map(|energy| [energy.translational, energy.vibrational].map(Some));
 
 /// Computes the first bounces of a grid over `impact.speed` and `rod.damping`, to `accuracy` of the numbers, or of 1 where
 /// they are less.
-fn bounces(grid: &Grid, values: Values, accuracy: f64) -> Result<Vec<Bounce>, VerifyError> {
+fn bounces<const N: usize>(grid: &Grid, values: Values<N>, accuracy: f64) -> Result<Vec<Bounce<N>>, VerifyError> {
     (0..grid.len()).into_par_iter().map(|index| bounce(&grid.problem(index)?, values, accuracy)).collect()
 }
 
@@ -189,19 +184,20 @@ fn grid(dampings: &str, speeds: &str) -> Result<Grid, VerifyError> {
     Ok(Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?)?)
 }
 
-fn bounce(problem: &Problem, values: Values, accuracy: f64) -> Result<Bounce, VerifyError> {
+fn bounce<const N: usize>(problem: &Problem, values: Values<N>, accuracy: f64) -> Result<Bounce<N>, VerifyError> {
     let plan = Plan::of(problem, &Question::bounce(Numbers::Double(Some(accuracy))))?;
     let query = |motion: &dyn Motion<Double>| {
-        let Some((from, Some(to))) = motion.contact_times(0) else { return Ok(None) };
+        let Some((from, Some(to))) = motion.contact_times(0) else {
+            return Ok((None, Bounce { time: None, values: [const { None }; N] }));
+        };
         let values = values(motion, [&from, &to])?;
         // The accuracy of the time is relative to itself, that of the others to 1.
         let relative_time = to.clone() / Double::exact(*to.value());
-        Ok(Some((relative_time, (to, values))))
+        Ok((Some(relative_time), Bounce { time: Some(to), values }))
     };
-    let bounce = plan.ask::<f64, _>(problem, query, |bounce| {
-        bounce.iter().flat_map(|(time, (_, values))| once(time).chain(values.iter().flatten())).collect()
-    })?;
-    Ok(bounce.map(|(_, bounce)| bounce))
+    let (_, bounce) = plan
+        .ask::<f64, _>(problem, query, |(time, bounce)| time.iter().chain(bounce.values.iter().flatten()).collect())?;
+    Ok(bounce)
 }
 
 /// The limits of Figures 4–7 for `μ → ∞`, with `t_b = t₁`.
@@ -221,11 +217,10 @@ impl Limits {
     /// Computes the limits for a damping: the motion is linear in `μ` and `g`, so the ratios are those of `g = 0`.
     pub fn new(damping: &str) -> Result<Self, VerifyError> {
         let rod = Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(1).build()?;
-        let shares = bounce(&rod, SHARES, 1e-13)?.map_or(Vec::new(), |(_, shares)| shares);
-        let share = |k: usize| shares.get(k).cloned().flatten();
+        let [translational, kept] = bounce(&rod, SHARES, 1e-13)?.values;
         let r = Double::from_number(&damping.parse()?, &());
         let decay = (-r.int(4) * &r).exp();
-        Ok(Limits { restitution: restitution_limit(&r), translational: share(0), kept: share(1), decay })
+        Ok(Limits { restitution: restitution_limit(&r), translational, kept, decay })
     }
 }
 
@@ -249,7 +244,7 @@ fn held_stress(damping: &str) -> Result<Vec<Row>, VerifyError> {
     let form = FirstContact::new(&Parameters::<Double>::of(&rod, &())?);
     let r = Double::from_number(&damping.parse()?, &());
     // The index of the figures prints 14 decimals.
-    let bounce_time = bounce(&rod, |_, _| Ok(Vec::new()), 1e-15)?.map(|(time, _)| time);
+    let bounce_time = bounce(&rod, |_, _| Ok([]), 1e-15)?.time;
     let row = |(k, side): (i32, Side)| {
         let time = Double::exact(f64::from(k) / f64::from(PER_TRIP));
         let value = (r.clone() * &time).exp() * form.strain(&time, side);

@@ -161,7 +161,7 @@ impl PrintedIntegrals {
     }
 
     /// Computes `P(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.43).
-    pub fn flight_momentum(&self, release: f64, t: f64) -> f64 {
+    pub(crate) fn flight_momentum(&self, release: f64, t: f64) -> f64 {
         let limit = self.g * self.l / (2.0 * self.r);
         (self.momentum(release) + limit) * (-2.0 * self.r * (t - release)).exp() - limit
     }
@@ -178,7 +178,7 @@ impl PrintedIntegrals {
     }
 
     /// Computes `h(t)` in the flight that begins at `release`, `r ≠ 0`. **Source**: (3.44).
-    pub fn flight_centre(&self, release: f64, t: f64) -> f64 {
+    pub(crate) fn flight_centre(&self, release: f64, t: f64) -> f64 {
         let PrintedIntegrals { l, r, g, .. } = *self;
         let (h0, h1, since) = (self.centre(release), self.momentum(release) / l, t - release);
         let lost = (-2.0 * r * since).exp();
@@ -186,7 +186,7 @@ impl PrintedIntegrals {
     }
 
     /// Computes `E(t)`. **Source**: (3.54): three integrals, one in the other.
-    pub fn energy(&self, t: f64) -> f64 {
+    pub(crate) fn energy(&self, t: f64) -> f64 {
         self.over_rod(t, |[v, v_t, v_x]| 0.5 * (v_t * v_t + self.c * self.c * v_x * v_x) + self.g * v)
     }
 

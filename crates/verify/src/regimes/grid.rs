@@ -1,7 +1,8 @@
 //! Grids of parameter values: the problem of each point.
 
+use dalembert::UnknownName;
 use dalembert::number::{List, Number, NumberError};
-use dalembert::problem::{Builder, Problem, ProblemError, Written};
+use dalembert::problem::{Parameter, Problem, ProblemError, Written};
 
 const MOST_POINTS: usize = 10_000_000;
 
@@ -12,9 +13,15 @@ pub enum GridError {
     /// A text without a path and values.
     #[error("found `{0}`, expected PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log")]
     NoAxis(String),
-    /// A path that is no number of a scene.
-    #[error("found the path `{0}`, expected a number of a scene: {paths}", paths = paths().collect::<Vec<_>>().join(", "))]
-    UnknownPath(String),
+    /// A name that is no parameter of a scene.
+    #[error(transparent)]
+    UnknownPath(UnknownName),
+    /// A parameter that is a list.
+    #[error(
+        "found the parameter `{0}`, expected a number of a scene: {paths}",
+        paths = paths().collect::<Vec<_>>().join(", ")
+    )]
+    NoNumber(Parameter),
     /// A text that spells no values.
     #[error("{0}")]
     Values(String),
@@ -34,14 +41,14 @@ pub enum GridError {
 
 /// Returns the paths of all numbers of a scene.
 fn paths() -> impl Iterator<Item = &'static str> {
-    Builder::NUMBERS.iter().map(|(_, path)| *path)
+    Parameter::numbers().map(Parameter::path)
 }
 
 /// One parameter that is varied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// The path in a scene file.
-    pub path: &'static str,
+    /// The parameter.
+    pub parameter: Parameter,
     /// The values, in order.
     pub values: Vec<Number>,
 }
@@ -52,9 +59,11 @@ impl std::str::FromStr for Axis {
     /// Reads `PATH=VALUES`, with the values as [`List::read`] reads them.
     fn from_str(text: &str) -> Result<Self, GridError> {
         let (path, list) = text.split_once('=').ok_or_else(|| GridError::NoAxis(text.into()))?;
-        let path = path.trim();
-        let path = paths().find(|known| *known == path).ok_or_else(|| GridError::UnknownPath(path.into()))?;
-        Ok(Axis { path, values: values(list)? })
+        let parameter: Parameter = path.trim().parse().map_err(GridError::UnknownPath)?;
+        if !parameter.is_number() {
+            return Err(GridError::NoNumber(parameter));
+        }
+        Ok(Axis { parameter, values: values(list)? })
     }
 }
 
@@ -97,8 +106,8 @@ impl Grid {
     /// ```
     pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, GridError> {
         for (k, axis) in axes.iter().enumerate() {
-            if axes[..k].iter().any(|other| other.path == axis.path) {
-                return Err(GridError::Twice(axis.path));
+            if axes[..k].iter().any(|other| other.parameter == axis.parameter) {
+                return Err(GridError::Twice(axis.parameter.path()));
             }
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
@@ -130,7 +139,9 @@ impl Grid {
     /// Returns the problem of a point.
     pub fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
         let values = self.axes.iter().zip(self.values(index));
-        values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()
+        values
+            .fold(self.problem.to_builder().from_scene(), |builder, (axis, value)| builder.set(axis.parameter, value))
+            .build()
     }
 }
 

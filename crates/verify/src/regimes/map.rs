@@ -11,7 +11,7 @@ use crate::paper::formulas::ThresholdRatio;
 use dalembert::Ending;
 use dalembert::engine::{Bounce, FirstContact, Kernels, Motion};
 use dalembert::number::{Estimate, Number, Scalar, short};
-use dalembert::problem::{Parameters, Problem, Speed, Start, Written};
+use dalembert::problem::{Parameter, Parameters, Problem, Speed, Start, Written};
 use dalembert::solve::{Engine, Numbers, Plan, Question, Rung};
 
 /// The end of a first contact.
@@ -66,8 +66,9 @@ impl Map {
     /// ```
     pub fn new(damping: &str, speed: &str, done: &(dyn Fn() + Sync)) -> Result<Self, GridError> {
         let rod = unit_rod();
-        let axis = |path, text| Ok::<_, GridError>(Axis { path, values: values(text)? });
-        let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
+        let axis = |parameter, text| Ok::<_, GridError>(Axis { parameter, values: values(text)? });
+        let grid =
+            Grid::new(rod.clone(), vec![axis(Parameter::ImpactSpeed, speed)?, axis(Parameter::Damping, damping)?])?;
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
             if values.len() < 2 || values[0] < least || !values.is_sorted_by(|a, b| a < b) {
