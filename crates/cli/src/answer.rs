@@ -7,7 +7,7 @@ use crate::terminal;
 use dalembert::number::{DOUBLE_DIGITS, Scalar as _};
 use dalembert::quantity::Measure;
 use dalembert::solve::{History, Plan, Question};
-use dalembert::{Effect, Scene};
+use dalembert::{Effect, Scene, Value};
 
 /// A history, with facts about its run.
 pub(crate) struct Answer {
@@ -43,9 +43,10 @@ pub(crate) fn solve(scene: &Scene, question: &Question) -> Result<Answer, Failur
     Ok(Answer { history, info, progress })
 }
 
-/// Returns the reason why the history ends, and prints it as a note if the end may be before what was requested.
-pub(crate) fn note_end(history: &History) -> String {
-    let (end, ending) = (history.end(), history.ending());
+/// Returns the reason why the history ends, at the time `end`, and prints it as a note if the end may be before what was
+/// requested.
+pub(crate) fn note_end(history: &History, end: &Value) -> String {
+    let ending = history.ending();
     if ending.is_open() {
         terminal::note(ending.at(&end.to_digits(DOUBLE_DIGITS)));
     }

@@ -11,7 +11,7 @@ use flate2::{Compression, write::GzEncoder};
 use wasm_bindgen_cli_support::Bindgen;
 
 /// Maximum size of the page.
-const MAX_BYTES: usize = 700_000;
+const MAX_BYTES: usize = 750_000;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

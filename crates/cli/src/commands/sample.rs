@@ -350,7 +350,7 @@ impl Rows<'_> {
         let place = |key: Quantity| self.quantities.iter().position(|quantity| *quantity == key);
         let text = |name: &str, key: Quantity, row: usize| match &columns[place(key)?][row] {
             Cell::Number(value) => Some(format!("{name} = {}", info.text(value))),
-            Cell::Undefined(_) | Cell::Empty => None,
+            Cell::Plain(_) | Cell::Numbers(_) => None,
         };
         let label = |row: usize| {
             let texts = [text("t", Quantity::Time, row), text("x", Quantity::Point, row)];

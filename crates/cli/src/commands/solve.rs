@@ -108,7 +108,7 @@ impl Solve {
         // A table on the screen has the warnings and the end below it.
         if !destinations.iter().all(Destination::is_printed_table) {
             info.print_warnings();
-            note_end(&history);
+            note_end(&history, &history.end());
         }
         write_all(&destinations, |format| match format {
             Format::Table if self.legend => Ok(format!("{}\n{LEGEND}", tables.table(&info)).into_bytes()),

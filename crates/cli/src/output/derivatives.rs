@@ -41,7 +41,7 @@ pub(crate) fn derivative_rows(
     by: Parameter,
     quantities: &[Quantity],
     rows: &Derivatives<Value>,
-) -> Vec<(rows::Column, Vec<rows::Cell>)> {
+) -> Vec<(rows::Column, Vec<Cell>)> {
     let mut columns = Vec::new();
     for (k, quantity) in quantities.iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
@@ -50,12 +50,12 @@ pub(crate) fn derivative_rows(
         let sides = [("", None), ("_left", Some(0)), ("_right", Some(1))];
         for (suffix, side) in sides.into_iter().take(if differ { 3 } else { 1 }) {
             let cell = |cell: Option<&Derivative<Value>>| match (cell, side) {
-                (Some(Derivative::One(value)), None) => rows::Cell::Number(value.clone()),
+                (Some(Derivative::One(value)), None) => Cell::Number(value.clone()),
                 (Some(cell @ Derivative::Sides { .. }), Some(side)) => match cell.sides()[side] {
-                    Ok(value) => rows::Cell::Number(value.clone()),
-                    Err(why) => rows::Cell::Undefined(why),
+                    Ok(value) => Cell::Number(value.clone()),
+                    Err(why) => why.name().into(),
                 },
-                (_, _) => rows::Cell::Empty,
+                (_, _) => Cell::number(None::<Value>),
             };
             let column = rows::Column {
                 name: format!("{quantity}_by_{by}{suffix}").into(),

@@ -6,8 +6,8 @@ use serde_json::{Value as Json, json};
 use super::rows::Column;
 use super::run_info::RunInfo;
 use crate::answer::note_end;
-use dalembert::Bound;
 use dalembert::solve::{History, Numbers};
+use dalembert::{Bound, Estimate};
 
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
@@ -72,8 +72,10 @@ struct ColumnJson<'a> {
 impl<'a> Header<'a> {
     /// Returns the header of an output of `history`; with `states_end` it states why the history ends.
     pub(crate) fn new(history: &History, info: RunInfo, scene: &'a str, subject: &'a str, states_end: bool) -> Self {
-        let ends = states_end.then(|| note_end(history));
-        Header { info, scene, numbers: history.plan().numbers, subject, until: history.end().to_f64(), ends }
+        // A double is stated with all its digits.
+        let end = history.end().as_double().map_or_else(|| history.end(), |end| Estimate::exact(*end.value()).into());
+        let ends = states_end.then(|| note_end(history, &end));
+        Header { info, scene, numbers: history.plan().numbers, subject, until: end.to_f64(), ends }
     }
 }
 

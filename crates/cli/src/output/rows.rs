@@ -8,6 +8,7 @@ use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
+use super::dataset::Cell;
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
 use super::table::{TextTable, table_digits};
@@ -15,7 +16,6 @@ use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
 use dalembert::number::{DOUBLE_DIGITS, Scalar, double_bound};
 use dalembert::quantity::{Quantity, Units};
-use dalembert::solve::NoDerivative;
 use dalembert::{Bound, Value};
 
 /// The kind of values in a column.
@@ -57,16 +57,6 @@ impl Column {
     pub(super) fn has_bound(&self) -> bool {
         self.kind == Kind::Number
     }
-}
-
-/// A value of a row.
-#[derive(Clone, Debug)]
-pub(crate) enum Cell {
-    Number(Value),
-    /// The reason why a derivative does not exist.
-    Undefined(NoDerivative),
-    /// No value.
-    Empty,
 }
 
 /// Options of the text of a file.
@@ -227,8 +217,7 @@ impl RowWriter {
             (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
             (Cell::Number(value), Kind::Side) => side_word(value).into(),
             (Cell::Number(value), Kind::Flag) => flag(value).into(),
-            (Cell::Undefined(why), _) => why.to_string(),
-            (Cell::Empty, _) => "–".into(),
+            (Cell::Plain(_) | Cell::Numbers(_), _) => cell.text(self.digits, "–"),
         }
     }
 
@@ -264,9 +253,8 @@ impl RowWriter {
             }
             (Cell::Number(value), Kind::Number) if is_json => add("", &serde_json::json!(value).to_string()),
             (Cell::Number(value), Kind::Number) => add("", &value.to_digits(shown_digits(self.digits))),
-            (Cell::Undefined(why), _) if is_json => add(quote, why.name()),
-            (Cell::Empty, _) if is_json => add("", "null"),
-            (Cell::Undefined(_) | Cell::Empty, _) => (),
+            (Cell::Plain(_) | Cell::Numbers(_), _) if is_json => add("", &cell.json().to_string()),
+            (Cell::Plain(_) | Cell::Numbers(_), _) => (),
         }
     }
 }
@@ -297,7 +285,7 @@ fn double(format: Format, digits: u32, kind: Kind, cell: &Cell) -> f64 {
     match (cell, kind) {
         (Cell::Number(value), Kind::Bound) => bound(format, digits, value).to_string().parse().unwrap_or(f64::NAN),
         (Cell::Number(value), _) => written_double(value),
-        (Cell::Undefined(_) | Cell::Empty, _) => f64::NAN,
+        (Cell::Plain(_) | Cell::Numbers(_), _) => f64::NAN,
     }
 }
 
