@@ -60,8 +60,8 @@ class Comparison:
 
     Notes
     -----
-    A comparison is pickled with its results and with the arrays or the paths that it was given. Only limits are computed
-    again where it is read, from these.
+    A comparison is pickled with its results and with the arrays or the paths that it was given. Where it is read, only
+    limits need these, for which the data are compared again.
     """
 
     report: dict[str, Any]

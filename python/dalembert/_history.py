@@ -205,8 +205,8 @@ class History(Frozen):
         """Contacts with the ground.
 
         A structured array of ``impact``, ``release``, ``duration``, ``impact_velocity``, ``release_velocity``,
-        ``impulse``, and the ``peak_strain``, which is the most compressive ``v_x(0,t)``; with a material ``peak_stress``
-        and ``peak_force`` as well, all in its units. Without one the impulse is per linear density. Then the
+        ``impulse``, and the ``peak_strain``, which is the most compressive ``v_x(0,t)``; with a material also
+        ``peak_stress`` and ``peak_force``, all in its units. Without one the impulse is per linear density. Then the
         coefficients ``e_P`` and ``e_E2`` with its factors ``translational_part`` (``E_h/E``) and ``energy_kept``
         (``E/E(0)``), and the energies at the release, ``E_total_after``, ``E_h_after``, ``E_z_after``.
 
@@ -318,7 +318,8 @@ class History(Frozen):
         return self._derivatives(self._compiled.derivatives_at(by, self._places(t), names, self._places(x), side))
 
     def _derivatives(self, sides: list[list[_core.Listed]]) -> Derivatives:
-        left, right, left_error, right_error = (self._structured(side, k) for k in ("values", "bounds") for side in sides)
+        left, right = (self._structured(side, "values") for side in sides)
+        left_error, right_error = (self._structured(side, "bounds") for side in sides)
         reasons = {
             (name, row, column["name"]): why
             for name, side in zip(("left", "right"), sides) for column in side for row, why in column["missing"]
@@ -388,7 +389,7 @@ class History(Frozen):
         Returns
         -------
         xarray.Dataset
-            ``u``, ``v`` and ``strain`` over ``t`` and ``x``; the ``attrs`` of each have its ``units`` and ``long_name``.
+            ``u``, ``v`` and ``strain`` over ``t`` and ``x``, each with its ``units`` and ``long_name`` in ``attrs``.
         """
         from xarray import Dataset
 

@@ -50,8 +50,8 @@ pub(crate) fn one_of<T: Copy>(name: &str, found: &Bound<'_, PyAny>, known: &[(&s
     })
 }
 
-/// Returns a number: exactly the one that an int, a `Fraction`, a `Decimal` or a text spells. A float of Python or NumPy,
-/// whatever its size, is the shortest decimal that spells it.
+/// Returns a number: exactly the one that an int, a `Fraction`, a `Decimal` or a text spells. A float of Python or
+/// NumPy, whatever its size, is the shortest decimal that spells it.
 pub(crate) fn written(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Written> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Written::from(text.to_str()?));

@@ -313,7 +313,8 @@ def test_the_command_of_the_wheel(command, tmp_path):
 
 def test_tables():
     history = dalembert.solve("getfem-dynamic-contact", to=12)
-    assert history.contacts["impact"].tolist() == [1, 4, 7, 10] and history.contacts["release"].tolist() == [2, 5, 8, 11]
+    contacts = history.contacts
+    assert contacts["impact"].tolist() == [1, 4, 7, 10] and contacts["release"].tolist() == [2, 5, 8, 11]
     assert history.flights["landing"][-1] is np.ma.masked and history.events.dtype.names[0] == "t"
     assert history.stress_history["strain_start"].tolist() == [0, -0.5, 0, -0.5, 0, -0.5, 0, -0.5, 0]
     assert not dalembert.Problem(length=1, wave_speed=1, displacement=[(0, 1), (1, 1)], time=1).solve().events.size
