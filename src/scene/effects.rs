@@ -102,6 +102,7 @@ impl Scene {
         self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
+    /// Returns whether the scene calls for `effect`, and the line that does.
     pub fn effect(&self, effect: Effect) -> EffectUse {
         let Problem { rod, start, gravity, run } = &self.problem;
         let shown = |key: &str, number: &Number| format!("{key} = {}", short(&number.to_string()));

@@ -371,6 +371,7 @@ impl Rod {
 }
 
 /// The rows as columns of data.
+#[allow(clippy::type_complexity, reason = "names and readers of a table")]
 pub(crate) fn columns(rows: &[Row]) -> Vec<(&'static str, Vec<f64>)> {
     let pick: [(&str, fn(&Row) -> f64); 9] = [
         ("t", |row| row.t),
