@@ -9,7 +9,7 @@ use crate::number::Scalar;
 ///
 /// **Source**: `T_k` differs from its chord by at most 2; `T₀` and `T₁` are linear. A piece is halved until
 /// `2 Σ_{k≥2} |c_k|` of its own coefficients is at most half of the tolerance. Each halving drops coefficients worth a
-/// 64th of the tolerance, and no piece is halved more than [`MOST_HALVINGS`] times.
+/// 64th of the tolerance, and the number of halvings of a piece is limited.
 ///
 /// **Accuracy**: the tolerance, plus the accuracy of the pieces.
 pub fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {

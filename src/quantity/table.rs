@@ -392,7 +392,7 @@ impl Quantity {
         }
     }
 
-    /// A number of [`Quantity::source`] in its unit.
+    /// Returns an answer of the motion in the unit of the quantity.
     pub fn in_unit<S: Scalar>(self, value: S, scales: &Scales<S>, units: &Units) -> S {
         match self.factor(scales, units) {
             Some(factor) => value * factor,
