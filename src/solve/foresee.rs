@@ -9,7 +9,7 @@ use crate::problem::{Parameters, Problem, Run};
 /// many; and with each impact for each time that flights double.
 const FIRST_PROOF: f64 = 28.0;
 const IMPACT: f64 = 2.2;
-const LONGER: f64 = 0.45;
+const LONGER: f64 = 0.55;
 const MOST_FORESEEN: f64 = 60.0;
 
 /// How many bits the proof of a damped march costs; `contacts` is about how many there are, by the round trip.

@@ -58,10 +58,10 @@ pub struct Plan {
     /// Bits that the proof of a damped march is foreseen to cost.
     #[serde(skip)]
     proof_bits: u32,
-    /// Bits that the series of a damped march need in the first numbers that follow doubles, where these say it;
-    /// otherwise series go as far as the numbers.
+    /// The bits of the numbers of the next run, and those that the series of a damped march need in them, where the run
+    /// before says it.
     #[serde(skip)]
-    series_bits: Option<f64>,
+    series: Option<(u32, f64)>,
 }
 
 /// How far an answer has to be known.
@@ -333,7 +333,7 @@ impl Plan {
             rung,
             foreseen_loss,
             proof_bits,
-            series_bits: None,
+            series: None,
         }
     }
 
@@ -500,8 +500,7 @@ impl Plan {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
                 let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
                 let all = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
-                let needed = self.series_bits.filter(|_| Some(bits) == self.climb.bits);
-                let digits = needed.map_or(all, |needed| all.min(series_digits(needed)));
+                let digits = self.needed(bits).map_or(all, |needed| all.min(series_digits(needed)));
                 (digits, long_cells.map_or(u64::MAX, fewer))
             }
             _ => (double_digits, double_cells),
@@ -509,13 +508,18 @@ impl Plan {
         Effort { digits, cells, until_lost: self.climb.bits.is_some() }
     }
 
-    /// Returns the plan after a run in doubles that lacks so many bits.
+    /// Returns the plan of the next run after one in `rung` that lacks so many bits.
     ///
-    /// The bound of a march is about proportional to what its series leave out and to the roundings of its numbers: in
-    /// doubles to the roundings. Where it is not, the numbers after the next have all terms.
-    pub(crate) fn lacking(&self, missing: f64) -> Self {
-        let bits = f64::from(f64::MANTISSA_DIGITS) + missing.max(0.0);
-        Plan { series_bits: Some(bits), ..self.clone() }
+    /// The bound of a march is about proportional to what its series leave out and to the roundings of its numbers. The
+    /// series of the next run leave out as much less as is missing, and not more than the roundings of the last one
+    /// were.
+    pub(crate) fn lacking(&self, rung: Rung, missing: f64) -> Self {
+        let needed = missing.is_finite().then(|| f64::from(rung.bits()) + missing.max(0.0));
+        let series = match self.next(rung, Lacks::Bits(missing)) {
+            Some(next) => needed.map(|needed| (next.bits(), needed)),
+            None => None,
+        };
+        Plan { series, ..self.clone() }
     }
 
     /// Returns the digits of the series of a proof in so many bits: in the first longer numbers those that the answer needs and
@@ -527,7 +531,15 @@ impl Plan {
         let wanted = self.goal.digits * std::f64::consts::LOG2_10;
         let spare = if matches!(self.numbers, Numbers::Digits(_)) { self.goal.spare } else { 0.0 };
         let needed = wanted + spare * std::f64::consts::LOG2_10 + f64::from(self.proof_bits + PROOF_GUARD_BITS);
-        if Some(bits) == first { all.min(series_digits(needed)) } else { all }
+        // What doubles lack is no measure of a proof.
+        let measured = self.needed(bits).filter(|_| Some(bits) != first);
+        let needed = measured.or((Some(bits) == first).then_some(needed));
+        needed.map_or(all, |needed| all.min(series_digits(needed)))
+    }
+
+    /// Returns the bits that series need in numbers of so many bits, where the run before says it.
+    fn needed(&self, bits: u32) -> Option<f64> {
+        self.series.filter(|(next, _)| *next == bits).map(|(_, needed)| needed)
     }
 
     /// A damped march in the numbers of `rung`.
