@@ -49,7 +49,6 @@ fn impacts(c: &mut Criterion) {
         group.bench_function(format!("r = {damping}, μ = {speed}"), |b| b.iter(|| planned(&problem, &plan)));
     }
     group.finish();
-    #[cfg(feature = "mp")]
     {
         let problem = rod("0.1", "3", Run::Impacts(2));
         let mut group = c.benchmark_group("50 digits");

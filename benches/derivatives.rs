@@ -70,7 +70,7 @@ fn main() {
             format!("{:.1}", time / plain)
         };
         let [speed, length, gravity, damping] =
-            [Parameter::Speed, Parameter::Length, Parameter::Gravity, Parameter::Damping].map(ratio);
+            [Parameter::ImpactSpeed, Parameter::Length, Parameter::Gravity, Parameter::Damping].map(ratio);
         let (ms, rung) = (plain * 1e3, history.rung());
         println!("{name:44} {ms:10.4} {speed:>9} {length:>9} {gravity:>9} {damping:>9}  {rung:?}");
     }

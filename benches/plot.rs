@@ -14,7 +14,7 @@ fn plot(criterion: &mut Criterion) {
         let rod = rod.impacts(10).build().unwrap();
         criterion.bench_function(&format!("ten {name} bounces, solved"), |b| b.iter(|| black_box(&rod).doubles()));
         criterion.bench_function(&format!("ten {name} bounces, solved and drawn"), |b| {
-            b.iter(|| Drawing::default().draw(&black_box(&rod).doubles().unwrap(), &rod, Units::default()).unwrap());
+            b.iter(|| Drawing::default().draw(&black_box(&rod).doubles().unwrap(), Units::default()).unwrap());
         });
     }
 }

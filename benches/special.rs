@@ -8,8 +8,6 @@
 #![allow(missing_docs)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-
-#[cfg(feature = "mp")]
 fn special(criterion: &mut Criterion) {
     use std::hint::black_box;
 
@@ -35,9 +33,6 @@ fn special(criterion: &mut Criterion) {
         group.finish();
     }
 }
-
-#[cfg(not(feature = "mp"))]
-fn special(_: &mut Criterion) {}
 
 criterion_group!(benches, special);
 criterion_main!(benches);

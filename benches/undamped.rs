@@ -35,7 +35,6 @@ fn first_contact(c: &mut Criterion) {
             dalembert_verify::paper::UndampedContact::new(&rod).unwrap().bounce_time()
         });
     });
-    #[cfg(feature = "mp")]
     group.bench_function("scene to events and contacts, fractions", |b| {
         let problem = problem("3", Run::Impacts(1));
         b.iter(|| {
@@ -71,7 +70,6 @@ fn all_pieces(c: &mut Criterion) {
         &(),
         &[("periodic", "3", ALL), ("tangential", "1", ALL), ("general", "3/2", ALL)],
     );
-    #[cfg(feature = "mp")]
     {
         pieces::<rug::Rational>(c, "fractions", &(), &[("periodic", "3", ALL)]);
         pieces::<Estimate<rug::Float>>(c, "256 bits", &256, &[("periodic", "3", ALL), ("general", "3/2", &[10, 100])]);

@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use dalembert::engine::Damped;
-use dalembert::number::{Analytic, Scalar, Wide};
+use dalembert::number::{Analytic, Wide};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Float, Number, Problem, Run};
 

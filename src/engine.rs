@@ -6,7 +6,6 @@ pub use crate::first_contact::{Bounce, BounceKind, ContactHistory, FirstContact,
 pub use crate::lattice::{
     GroundEvent, GroundMotion, Halt, Limits, Line, Piece, Scaled, Trace, Undamped, Units, Until, march,
 };
-pub use crate::modal::Modal;
 pub use crate::motion::{
     Course, Motion, Pair, Passing, RayRegister, Scales, Stretch, WavePiece, Waves, reflection, straight, unobserved,
 };

@@ -62,7 +62,6 @@ pub mod engine;
 mod error;
 mod first_contact;
 mod lattice;
-mod modal;
 mod motion;
 mod names;
 pub mod number;

@@ -2,8 +2,8 @@
 
 ``v_tt + 2r v_t - c² v_xx = -g`` on ``0 < x < L`` with unilateral contact at ``x = 0``.
 
-Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float stands for the shortest
-decimal that spells it: 0.1 is 1/10. All units are those of the input.
+Numbers are given as int, float, ``fractions.Fraction``, ``decimal.Decimal`` or str. A float of Python or NumPy stands
+for the shortest decimal that spells it: 0.1 and np.float32(0.1) are 1/10. All units are those of the input.
 
 Examples
 --------
@@ -13,15 +13,16 @@ Examples
 array([ 0. , -0.5])
 """
 
+from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
 from ._compare import Comparison, compare
-from ._history import Derivatives, Energy, Field, History, Motion
+from ._history import History
 from ._problem import Problem, __version__, scenes
-from ._solve import reference, solve
+from ._solve import reference, solve, write_reference
 from ._sweep import Sweep, sweep
 
 __all__ = [
-    "Comparison", "Derivatives", "Energy", "Field", "History", "Motion", "Problem", "Sweep", "compare", "reference",
-    "scenes", "solve", "sweep",
+    "Centre", "Comparison", "Derivatives", "Energy", "Field", "GroundEnd", "History", "Problem", "Sweep", "TopEnd",
+    "compare", "reference", "scenes", "solve", "sweep", "write_reference",
 ]
 
 for _name in __all__:

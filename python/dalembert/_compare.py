@@ -1,79 +1,102 @@
-"""Data of one's own against the exact history."""
+"""Comparisons of other data with the exact history."""
 
 from __future__ import annotations
 
 import json
 import os
+from numbers import Real
 from typing import Any, Literal, Mapping, Sequence
 
 import numpy as np
 
 from . import _core
-from ._numbers import Array, Maybe, Number, Numbers
+from ._numbers import Array, Maybe, Names, Number, Numbers
 from ._problem import Problem, Scene
-
 
 Limits = Mapping[str, "float | Mapping[str, float]"]
 
 
 def _bounds(limits: Limits) -> list[str]:
-    bounds = []
+    """Return the limits as texts, such as ``u.l2=0.1``."""
+    expected = 'a mapping such as {"u": {"l2": 0.1}}'
+    if not isinstance(limits, Mapping):
+        raise TypeError(f"found limits = {limits!r}, of type {type(limits).__name__}, expected {expected}")
+    bounds: list[tuple[str, Any]] = []
     for name, limit in limits.items():
-        if isinstance(limit, Mapping):
-            bounds += [f"{name}.{norm}={float(bound)!r}" for norm, bound in limit.items()]
-        else:
-            bounds.append(f"{name}={float(limit)!r}")
-    return bounds
+        norms = limit.items() if isinstance(limit, Mapping) else [("", limit)]
+        bounds += [(f"{name}.{norm}" if norm else name, bound) for norm, bound in norms]
+    for name, bound in bounds:
+        if not isinstance(bound, Real):
+            raise TypeError(f"found the limit {name} = {bound!r}, of type {type(bound).__name__}, expected a number")
+    return [f"{name}={float(bound)!r}" for name, bound in bounds]
 
 
 class Comparison:
-    """Data beside the exact history: what ``dalembert compare`` reports.
+    """Data beside the exact history, as ``dalembert compare`` reports them.
 
     Attributes
     ----------
     report : dict
-        Everything, as ``dalembert compare --format json`` gives it.
+        The whole report, as ``dalembert compare --format json`` gives it.
     files : list
-        With several sources, what follows for each of them.
+        One entry for each source, with the attributes from `norms` to `step`. With several sources these are there
+        only.
     orders : list of dict
-        With several sources, the orders of convergence.
+        Orders of convergence of several sources.
     norms : dict
         By quantity, as ``norms["u_end"]["l2"]["relative"]``.
     contacts : list of dict
         Each with "ours" and "theirs", or None.
     audit, hints : dict, list
-        What the data violate, and what may be wrong.
+        Laws that the data violate, and likely mistakes.
     t, x : ndarray
-        The times of the data and, for a field, the points.
+        Times of the data and, for a field, the points.
     ours, theirs, difference : dict of str to ndarray
-        The values of each quantity there.
+        Values of each quantity there.
     step : float
-        The median step of the data.
+        Median step of the data.
     warnings : list of str
-        What a user should know of the history.
+        Warnings that come with the history.
+
+    Notes
+    -----
+    A comparison is pickled with its results and with the arrays or the paths that it was given. Where it is read, only
+    limits need these, for which the data are compared again.
     """
 
     report: dict[str, Any]
     orders: list[dict[str, Any]]
     warnings: list[str]
 
-    def __init__(self, core: _core.Comparison) -> None:
-        self._core = core
-        report, self._table, self.warnings, columns = core.report()
-        self.report = json.loads(report)
+    def __init__(
+        self, inputs: tuple[Problem, list[_core.Data], dict[str, Any]], results: _core.Report | None = None
+    ) -> None:
+        self._inputs, self._compiled = inputs, None if results else _compiled(inputs)
+        self._results = results or _compiled(inputs, self._compiled).report()
+        self._table, self.warnings = self._results["table"], self._results["warnings"]
+        self.report = json.loads(self._results["json"])
         self.orders = self.report.get("orders", [])
-        self.files = [_Compared(*source) for source in zip(self.report.get("files", [self.report]), columns)]
+        reports = self.report.get("files", [self.report])
+        self.files = [_ComparedFile(*source) for source in zip(reports, self._results["samples"])]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Comparison, (self._inputs, self._results)
+
+    def _failures(self, above: Limits, below: Limits) -> list[str]:
+        texts = _bounds(above), _bounds(below)
+        self._compiled = _compiled(self._inputs, self._compiled)
+        return self._compiled.failures(*texts)
 
     def fails_above(self, limits: Limits) -> list[str]:
-        """Say which norms are above limits.
+        """Return a line for each norm above its limit.
 
         Parameters
         ----------
         limits : mapping
-            For each quantity, limits of ``l1``, ``l2``, ``linf``, ``linf_off_jumps``, relative to ours, or absolute
+            Limits for each quantity of ``l1``, ``l2``, ``linf``, ``linf_off_jumps``, relative to ours, or absolute
             where ours is zero; or a limit of ``energy``, ``impulse`` (relative), ``momentum``, ``penetration``,
-            ``tension``, ``missed`` or ``invented``. With several sources all of them have to keep within. Data that
-            end before the run of the scene, or before ``to``, fail whatever is limited.
+            ``tension``, ``missed`` or ``invented``. With several sources the limits hold for each. Data that end before
+            the run of the scene, or before ``to``, fail any limit.
 
         Returns
         -------
@@ -83,7 +106,7 @@ class Comparison:
         Raises
         ------
         ValueError
-            For a quantity that the data do not have, or a norm of another name.
+            For a quantity that the data do not have, or an unknown norm.
 
         Examples
         --------
@@ -91,10 +114,10 @@ class Comparison:
         >>> c.fails_above({"u": {"l2": 0.3, "linf": 0.1}})
         ['dict: expected u.linf ≤ 1e-1, found 2.500e-1']
         """
-        return self._core.failures(_bounds(limits), [])
+        return self._failures(limits, {})
 
     def assert_above(self, limits: Limits) -> None:
-        """Require that nothing is below its limit, such as ``{"coverage": 0.99, "order.u": 0.9}``.
+        """Require that no number is below its limit, such as ``{"coverage": 0.99, "order.u": 0.9}``.
 
         Parameters
         ----------
@@ -106,7 +129,7 @@ class Comparison:
         AssertionError
             With a line for each that is below.
         """
-        if failures := self._core.failures([], _bounds(limits)):
+        if failures := self._failures({}, limits):
             raise AssertionError("\n".join(failures))
 
     def assert_below(self, limits: Limits) -> None:
@@ -131,7 +154,7 @@ class Comparison:
             raise AssertionError("\n".join(failures))
 
     def table(self) -> str:
-        """Give the text that the command prints.
+        """Return the text that the command prints.
 
         Returns
         -------
@@ -148,14 +171,21 @@ class Comparison:
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or len(self.files) > 1:
-            raise AttributeError(f"found {name}, expected it of one of files")
+            raise AttributeError(f"found the attribute {name} of several sources, expected it of one of files")
         return getattr(self.files[0], name)
 
 
-class _Compared:
+def _compiled(
+    inputs: tuple[Problem, list[_core.Data], dict[str, Any]], compiled: _core.Comparison | None = None
+) -> _core.Comparison:
+    problem, sources, options = inputs
+    return compiled or _core.Comparison(problem._compiled, sources, options)
+
+
+class _ComparedFile:
     """One source of a :class:`Comparison`."""
 
-    def __init__(self, report: dict[str, Any], columns: list[tuple[str, Array]]) -> None:
+    def __init__(self, report: dict[str, Any], columns: Sequence[tuple[str, Array]]) -> None:
         arrays = dict(columns)
         self.file, self.step, self.window, self.outside = (report[k] for k in ("file", "step", "window", "outside"))
         self.contacts, self.audit, self.hints = report["contacts"], report["audit"], report["hints"]
@@ -176,9 +206,9 @@ def compare(
     map: str | None = None, dt: Maybe = None, t0: Maybe = None, shift: Maybe = None,
     compression: Literal["+", "-", None] = None, u_origin: Literal["ground", "start"] = "ground",
     axis: Literal["up", "down"] = "up", energy_scale: Number = 1,
-    window: Maybe = None, widths: Sequence[Number] = (), to: Maybe = None, fit: Sequence[str] = (),
+    window: Maybe = None, widths: Sequence[Number] = (), to: Maybe = None, fit: Names = (),
 ) -> Comparison:
-    """Hold data against the exact history of a scene, as ``dalembert compare`` does.
+    """Compare data with the exact history of a scene, as ``dalembert compare`` does.
 
     Parameters
     ----------
@@ -192,30 +222,30 @@ def compare(
         Values of a `quantity` at the times, or of several by name. With `x`, values of shape ``(len(t), len(x))`` are
         those of a field.
     quantity : str, optional
-        What single values are, by the names of :meth:`History.columns`; ``u`` and ``v`` for short.
+        Name of single values, as in :meth:`History.columns`; ``u`` and ``v`` for short.
     x : array_like, optional
         Points along the rod.
     map : str, optional
-        Which column is which, as ``"t=0,u=1"``.
+        Column of each quantity, as ``"t=0,u=1"``.
     dt, t0 : number, optional
         Step and first time of data without a column of times.
     shift : number, optional
-        By how much the data are late.
+        Number added to the times of the data.
     compression : {"+", "-"}, optional
-        The sign that compression has in the data.
+        Sign of compression in the data.
     u_origin : {"ground", "start"}, optional
-        From where displacements are counted.
+        Place of the lower end where displacements are zero.
     axis : {"up", "down"}, optional
-        Where the data's axis points.
+        Direction of the data's axis.
     energy_scale : number, optional
-        By what energies of the data are multiplied.
+        Factor of the energies of the data.
     window : number, optional
-        How close to a jump a sample is left out of ``linf_off_jumps``, in round trips.
+        Distance from a jump, in round trips, within which ``linf_off_jumps`` leaves out samples.
     widths : sequence of number, optional
-        The mesh widths of several sources, for the orders of convergence.
+        Mesh widths of several sources, for the orders of convergence.
     to : number, optional
-        How far the data are to go; by default as far as the run of the scene.
-    fit : sequence of str, optional
+        Expected last time of the data; by default that of the scene.
+    fit : str or sequence of str, optional
         Values of the scene to fit to the data: ``"length"``, ``"damping"`` and others of the command.
 
     Returns
@@ -239,8 +269,9 @@ def compare(
     >>> c.difference["u_end"].tolist(), c.norms["u_end"]["linf"]["time"]
     ([0.0, 0.0, 0.0, 0.0, 0.25], 4.0)
     """
-    given = {name: value for name, value in locals().items() if value is not None}
-    given = {name: given[name] for name in given if name not in ("scene", "data", "values", "quantity", "x")}
+    options = {name: value for name, value in locals().items() if value is not None}
+    for name in ("scene", "data", "values", "quantity", "x"):
+        options.pop(name, None)
     if values is not None:
         if not hasattr(values, "keys"):
             if quantity is None:
@@ -253,19 +284,19 @@ def compare(
             data, values = ({name: np.ravel(array) for name, array in part.items()} for part in (data, values))
         data = data | values
     sources = data if isinstance(data, list) else [data]
-    return Comparison(_core.Comparison(Problem.from_scene(scene)._core, [_source(one) for one in sources], given))
+    return Comparison((Problem.from_scene(scene), [_source(source) for source in sources], options))
 
 
-def _source(data: Any) -> tuple[str, list[str], list[Array] | None]:
-    """A path; or what it is called, the names of columns where they have some, and the columns."""
+def _source(data: Any) -> _core.Data:
+    """Return a path as it is, and columns under the name of their file or type."""
     called = type(data).__name__
     if isinstance(data, (str, os.PathLike)):
         called = os.fspath(data)
         if not (os.path.isfile(called) and _is_numpy(called)):
-            return called, [], None
+            return {"name": called, "columns": [], "arrays": None}
         try:
             data = np.load(called)
-        except Exception as error:  # of the many that a broken file raises
+        except Exception as error:  # A broken file raises one of many types.
             raise ValueError(f"{called}: cannot be read: {error}") from None
     names = getattr(getattr(data, "dtype", None), "names", None) or (data.keys() if hasattr(data, "keys") else None)
     if names is None:
@@ -273,7 +304,8 @@ def _source(data: Any) -> tuple[str, list[str], list[Array] | None]:
         names, columns = [], list(array.T) if array.ndim == 2 else [array]
     else:
         columns = [data[name] for name in names]
-    return called, [str(name) for name in names], [_doubles(column) for column in columns]
+    arrays = [_doubles(column) for column in columns]
+    return {"name": called, "columns": [str(name) for name in names], "arrays": arrays}
 
 
 def _is_numpy(path: str) -> bool:
@@ -282,7 +314,7 @@ def _is_numpy(path: str) -> bool:
 
 
 def _doubles(column: Any) -> Array:
-    """The column as doubles, or as it is where it has others."""
+    """Return the column as doubles, or as it is if it has none."""
     array, sides = np.asarray(column), {"left": -1, "both": 0, "right": 1}
     try:
         if array.dtype.kind in "OU":

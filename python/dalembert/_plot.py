@@ -1,4 +1,4 @@
-"""Pictures by matplotlib, in the colours of ``dalembert plot``."""
+"""Pictures with matplotlib, in the colours of ``dalembert plot``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 LINES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 CONTACT = "#c6c6c6"
 SAMPLES = 2000
-# Beyond these powers of ten an axis says the power beside it: stiff rods are in contact for microseconds.
+#: Powers of ten outside of which an axis has its power beside it: contacts of stiff rods take microseconds.
 POWERS = (-3, 4)
 
 
@@ -32,8 +32,8 @@ def draw(
 
         ax = pyplot.subplots()[1]
     if start is None and end is None and quantities == "xt":
-        # The waves in a stiff rod would not be seen beside a flight of hundreds of round trips.
-        start, last = history._core.span()
+        # A flight of hundreds of round trips would hide the waves in a stiff rod.
+        start, last = history._compiled.span()
     else:
         start, last = start or 0.0, min(_float(history.end), np.inf if end is None else end)
     times = np.linspace(start, last, SAMPLES)
@@ -52,25 +52,24 @@ def draw(
         ax.set(xlabel="t", ylabel="x")
         ax.ticklabel_format(scilimits=POWERS)
         return ax
-    names = [quantities] if isinstance(quantities, str) else list(quantities)
-    for contact in history.contacts:
-        until = last if contact["release"] is None else min(_float(contact["release"]), last)
-        begin = max(_float(contact["impact"]), start)
-        if begin < (last if np.isnan(until) else until):
-            ax.axvspan(begin, last if np.isnan(until) else until, color=CONTACT, alpha=0.5, linewidth=0)
-    # Both limits of a jump, so that it is drawn upright.
-    columns = history.columns(["t", *names], _lifted(history, times))
-    axis = [_float(value) for value in columns["t"]]
-    for k, name in enumerate(names):
-        ax.plot(axis, [_float(value) for value in columns[name]], color=LINES[k % len(LINES)], label=name)
+    for impact, release in history.contacts[["impact", "release"]].tolist():
+        begin, until = max(_float(impact), start), last if release is None else min(_float(release), last)
+        if begin < until:
+            ax.axvspan(begin, until, color=CONTACT, alpha=0.5, linewidth=0)
+    names = [quantities] if isinstance(quantities, str) else quantities
+    # A jump is drawn upright through both of its limits.
+    columns = history.columns(_with_events(history, times), ["t", *names])
+    axis = [_float(value) for value in columns.pop("t")]
+    for k, (name, values) in enumerate(columns.items()):
+        ax.plot(axis, [_float(value) for value in values], color=LINES[k % len(LINES)], label=name)
     ax.set(xlabel="t", xlim=(start, last))
     ax.ticklabel_format(scilimits=POWERS)
     ax.legend()
     return ax
 
 
-def _lifted(history: Any, times: np.ndarray[Any, Any]) -> Any:
-    """Times to draw at: equal steps, and every event between them."""
+def _with_events(history: Any, times: np.ndarray[Any, Any]) -> Any:
+    """Return the times and every event between them."""
     events = [_float(value) for value in history.events["t"]]
     inside = [value for value in events if times[0] <= value <= times[-1]]
     return np.unique(np.concatenate([times, inside]))

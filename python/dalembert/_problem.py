@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 from fractions import Fraction
 from importlib.metadata import version as _version
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _core
-from ._numbers import Maybe, Number, Points
+from ._numbers import Frozen, Maybe, Number, Points
 
 if TYPE_CHECKING:
     from ._history import History
@@ -26,7 +27,7 @@ def scenes() -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        The summary of each scene by its name, which :func:`solve` takes.
+        Summary of each scene by its name, which :func:`solve` takes.
 
     Examples
     --------
@@ -36,8 +37,8 @@ def scenes() -> dict[str, str]:
     return {name: summary for name, (summary, _) in _SCENES.items()}
 
 
-def _spelt(text: str) -> int | float | Fraction:
-    """The number of a text: int or float where that spells it exactly, in the way :class:`Problem` reads it."""
+def _number(text: str) -> int | float | Fraction:
+    """Return the number of a text: an int or a float where that spells it exactly, as :class:`Problem` reads it."""
     whole, _, below = text.partition("/")
     exact = Fraction(whole) / Fraction(below or 1)
     if exact.denominator == 1:
@@ -45,7 +46,13 @@ def _spelt(text: str) -> int | float | Fraction:
     return float(exact) if Fraction(repr(float(exact))) == exact else exact
 
 
-class Problem:
+def _value(given: _core.Given) -> Any:
+    if given["number"] is None:
+        return tuple((_number(x), _number(v)) for x, v in given["points"])
+    return _number(given["number"])
+
+
+class Problem(Frozen):
     """A rod, the ground and the start, in exact numbers, checked.
 
     Parameters
@@ -65,15 +72,15 @@ class Problem:
     impact_speed : number, optional
         ``μ``, at the touch or, with a `gap`, at ``t = 0``.
     gap : number, optional
-        How far the rod starts above the ground.
+        Height of the start above the ground.
     drop_height : number, optional
-        How far it has fallen from rest, undamped, when it touches at ``t = 0``.
+        Height of an undamped fall from rest that ends at ``t = 0``, at the touch.
     displacement, velocity : points, optional
         In place of an impact: pairs ``(x, value)`` from ``x = 0`` to ``x = length``, linear between them.
     time : number, optional
-        How far the motion is followed.
+        Last time of the motion.
     impacts : int, optional
-        Through how many contacts, and the flight after the last; one without a `time`.
+        Number of contacts, each with the flight after it; one without a `time`.
 
     Attributes
     ----------
@@ -94,7 +101,8 @@ class Problem:
     Notes
     -----
     The parameters are attributes by their names: int or float where that spells the number, a Fraction elsewhere, and
-    None where it is absent. Problems with the same physics are equal.
+    None where it is absent. They cannot be assigned: :meth:`replace` returns another problem. Problems with the same
+    physics are equal. A ``np.float32`` stands for the shortest decimal that spells it, as a float does: ``0.1``.
 
     Examples
     --------
@@ -107,6 +115,9 @@ class Problem:
     Fraction(-11, 3)
     """
 
+    _compiled: _core.Problem
+    _made: tuple[Any, ...]
+    _values: dict[str, Any]
     wave_speed: int | float | Fraction
     round_trip: float
     damping_ratio: float
@@ -139,16 +150,19 @@ class Problem:
         self._make({name: value for name, value in locals().items() if name != "self" and value is not None})
 
     def _make(self, *made: Any) -> Problem:
-        """From values by name or the text of a scene, and values that replace others, in order."""
-        self._core, self._made = _core.Problem(*made), made
-        numbers, profiles = self._core.values()
-        speed, self.round_trip, self.damping_ratio, self.speed_ratio = self._core.parameters()
-        fixed, self.title = self._core.about()
-        values: dict[str, Any] = {name: _spelt(text) for name, text in numbers}
-        values |= {name: tuple((_spelt(x), _spelt(v)) for x, v in points) for name, points in profiles}
-        self._values = values | ({"top": "fixed"} if fixed else {})
-        self.__dict__.update({"wave_speed": speed} | self._values)
+        """Fill in values by name or the text of a scene, and values that replace others, in order."""
+        core = _core.Problem(*made)
+        facts = core.facts()
+        values: dict[str, Any] = {given["name"]: _value(given) for given in facts["given"]}
+        values |= {"top": "fixed"} if facts["has_fixed_top"] else {}
+        shown = {name: facts[name] for name in ("wave_speed", "round_trip", "damping_ratio", "speed_ratio", "title")}
+        self.__dict__.update({"_compiled": core, "_made": made, "_values": values} | shown | values)
         return self
+
+    def _refusal(self, name: str) -> str:
+        if unknown := _core.unknown_parameter(name):
+            return unknown if not hasattr(self, name) else f"found an assignment to {name}, which follows from others"
+        return f"found an assignment to {name}, expected replace({name}=…): a Problem does not change"
 
     @classmethod
     def from_scene(cls, scene: Scene) -> Problem:
@@ -157,17 +171,17 @@ class Problem:
         Parameters
         ----------
         scene : str, path or Problem
-            The name of a built-in scene, a scene file, a scene as TOML text, or a problem, which is its own.
+            The name of a built-in scene, a scene file, a scene as TOML text, or a problem.
 
         Returns
         -------
         Problem
-            What the scene says.
+            The problem of the scene.
         """
         return scene if isinstance(scene, Problem) else _problem(_text(scene))
 
     def replace(self, **values: Any) -> Problem:
-        """Take other values in place of some.
+        """Return a problem with other values in place of some.
 
         Parameters
         ----------
@@ -185,6 +199,41 @@ class Problem:
         0.2
         """
         return _problem(*self._made, values)
+
+    def to_toml(self) -> str:
+        """Return a scene file with this problem, for the command and for :meth:`from_scene`.
+
+        Returns
+        -------
+        str
+            TOML text: that of the scene that it was read from, if no value has been replaced.
+
+        Examples
+        --------
+        >>> print(Problem(length=1, wave_speed=1, impact_speed="10/3").to_toml())
+        [rod]
+        length = 1
+        wave_speed = 1
+        <BLANKLINE>
+        [impact]
+        speed = "10/3"
+        <BLANKLINE>
+        [run]
+        impacts = 1
+        <BLANKLINE>
+        """
+        if len(self._made) == 1 and isinstance(self._made[0], str):
+            return self._made[0]
+        facts = self._compiled.facts()
+        lines = [(given["path"], _toml(given)) for given in facts["given"]]
+        lines += [("rod.top", '"fixed"')] if facts["has_fixed_top"] else []
+        lines += [] if facts["accuracy"] is None else [("run.accuracy", repr(facts["accuracy"]))]
+        head = {"title": self.title, "units": facts["units"] if facts["units"] != "SI" else None}
+        blocks = {"": [f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in head.items() if word]}
+        for path, value in lines:
+            table, key = path.split(".")
+            blocks.setdefault(table, [f"[{table}]\n"]).append(f"{key} = {value}\n")
+        return "\n".join("".join(block) for block in blocks.values() if block)
 
     def __repr__(self) -> str:
         return f"Problem({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
@@ -207,7 +256,7 @@ class Problem:
         accuracy: float | None = None,
         first_contact: bool = False,
     ) -> History:
-        """Solve it.
+        """Solve the problem.
 
         Parameters
         ----------
@@ -218,7 +267,7 @@ class Problem:
         accuracy : float, optional
             As in :func:`solve`.
         first_contact : bool, optional
-            Whether to end at the bounce, which takes less time.
+            As in :func:`solve`.
 
         Returns
         -------
@@ -227,8 +276,19 @@ class Problem:
         """
         from ._history import History
 
-        asked = (digits, exact, certified, accuracy, first_contact)
-        return History(self._core.solve(*asked), self, asked)
+        question = (digits, exact, certified, accuracy, first_contact)
+        return History(self._compiled.solve(*question), self, question)
+
+
+def _toml(given: _core.Given) -> str:
+    if given["number"] is None:
+        return f"[{', '.join(f'[{_quoted(x)}, {_quoted(v)}]' for x, v in given['points'])}]"
+    return _quoted(given["number"])
+
+
+def _quoted(number: str) -> str:
+    # A TOML integer has at most 64 bits, and a fraction is a text.
+    return f'"{number}"' if "/" in number or len(number) > 15 else number
 
 
 def _problem(*made: Any) -> Problem:
@@ -236,6 +296,7 @@ def _problem(*made: Any) -> Problem:
 
 
 def _text(scene: str | os.PathLike[str]) -> str:
+    """Return the text of the scene of this name or file; a TOML text is its own."""
     if isinstance(scene, str):
         if "\n" in scene or "=" in scene:
             return scene

@@ -1,14 +1,17 @@
-"""From a scene to its motion."""
+"""Solutions of scenes, and their values at times."""
 
 from __future__ import annotations
 
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
 from fractions import Fraction
-from typing import Any, Sequence
-
-import numpy as np
+from typing import Any
 
 from ._history import History
-from ._numbers import Maybe, Numbers, Side
+from ._numbers import Maybe, Names, Numbers, Side, objects
 from ._problem import Problem, Scene
 
 
@@ -30,17 +33,17 @@ def solve(
     scene : str, path or Problem
         The name of a built-in scene, a scene file, a scene as TOML text, or a problem.
     to : number, optional
-        Follow it up to this time, in place of what the scene says.
+        Last time, in place of that of the scene.
     impacts : int, optional
-        Follow it through so many contacts, in place of what the scene says.
+        Number of contacts, in place of that of the scene.
     digits : int, optional
-        All numbers are ``Decimal`` of so many digits, rounded once.
+        Number of digits: all numbers are ``Decimal``, rounded once.
     exact : bool, optional
-        All numbers are ``Fraction``, as far as they reach; with `digits` it goes on in digits where they end.
+        Whether all numbers are ``Fraction``, as far as they reach; with `digits`, in digits from there on.
     certified : bool, optional
-        All numbers are pairs ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value.
+        Whether all numbers are pairs ``(lo, hi)`` of ``Decimal`` that are proved to enclose the value.
     accuracy : float, optional
-        Without any of these all numbers are doubles with a bound of 1e-9 of the greatest number of an answer, or this.
+        Bound of the error of doubles, relative to the greatest number of an answer; by default 1e-9.
     first_contact : bool, optional
         Whether to end at the bounce, which takes less time.
 
@@ -52,7 +55,7 @@ def solve(
     Raises
     ------
     ValueError
-        For a scene that is none, with the text of the command.
+        For an invalid scene, with the text of the command.
 
     Examples
     --------
@@ -68,8 +71,8 @@ def solve(
 
 def reference(
     scene: Scene,
-    times: Numbers,
-    columns: Sequence[str] = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
+    t: Numbers,
+    names: Names = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
     side: Side | None = None,
     *,
     digits: int | None = None,
@@ -77,16 +80,16 @@ def reference(
     certified: bool = False,
     accuracy: float | None = None,
 ) -> Any:
-    """Give columns of a scene at times.
+    """Return quantities of a scene at times.
 
     Parameters
     ----------
     scene : str, path or Problem
         As :func:`solve` takes it.
-    times : number or array_like
-        The times; the motion is followed up to the last.
-    columns : sequence of str, optional
-        Names of :meth:`History.columns`.
+    t : number or array_like
+        Times; the motion is followed up to the last.
+    names : str or sequence of str, optional
+        As in :meth:`History.columns`.
     side : {"left", "right"}, optional
         Which limit at a jump; without it a time has two rows where they differ.
     digits : int, optional
@@ -99,23 +102,98 @@ def reference(
     Returns
     -------
     pandas.DataFrame or dict of str to ndarray
-        A DataFrame where pandas is installed.
+        A DataFrame where pandas is installed, with the ``units`` and ``meanings`` of its columns in its ``attrs``.
+
+    See Also
+    --------
+    write_reference : The same as a golden file.
 
     Examples
     --------
     >>> list(reference("paper-strong", [0.5, 2], ["t", "strain"])["strain"])
     [-3.5, -5.0, 0.0]
     """
-    # By way of text: 0.7 is 7/10 here too, where Fraction(0.7) is a little less, and the last time would be beyond it.
-    given = np.asarray(times)
-    given = given.astype(float if given.dtype.kind == "f" else object)
-    last = max(Fraction(str(time)) for time in given.ravel().tolist())
+    # As texts: 0.7 is 7/10, and Fraction(0.7) is a little less, so that the last time would be beyond it.
+    last = max((Fraction(str(time)) for time in objects(t).ravel().tolist()), default=Fraction(0))
     history = solve(
         scene, to=last if last > 0 else None, digits=digits, exact=exact, certified=certified, accuracy=accuracy
     )
-    table = history.columns(columns, times, side)
+    columns = history.columns(t, names, side)
     try:
         from pandas import DataFrame
     except ImportError:
-        return table
-    return DataFrame(table)
+        return columns
+    frame = DataFrame(columns)
+    frame.attrs = history._attributes("time")
+    return frame
+
+
+def write_reference(
+    path: str | os.PathLike[str],
+    scene: Scene,
+    t: Numbers | None = None,
+    names: Names | None = None,
+    side: Side | None = None,
+    *,
+    x: Numbers | None = None,
+    digits: int | None = None,
+    exact: bool = False,
+    certified: bool = False,
+    accuracy: float | None = None,
+) -> None:
+    """Write a golden file of a scene: the text of ``dalembert reference``, with its header.
+
+    Parameters
+    ----------
+    path : str or path
+        The file; its ending says the format: ``.csv``, ``.json`` or ``.npz``.
+    scene : str, path or Problem
+        As :func:`solve` takes it.
+    t : number or array_like, optional
+        Times; by default the start, every impact and release, and the end.
+    names : str or sequence of str, optional
+        As in :meth:`History.columns`; by default all.
+    side : {"left", "right"}, optional
+        Which limit at a jump; without it a time has two rows where they differ.
+    x : number or array_like, optional
+        Points along the rod: the file has the field there in place of the columns.
+    digits : int, optional
+        As in :func:`solve`.
+    exact, certified : bool, optional
+        As in :func:`solve`.
+    accuracy : float, optional
+        As in :func:`solve`.
+
+    Raises
+    ------
+    ValueError
+        With the text of the command.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "golden.csv")
+    >>> write_reference(file, "paper-strong", [0.5, 2], ["t", "strain"])
+    >>> file.read_text().splitlines()[-4:]
+    ['t,strain', '0.5,-3.5', '2.0,-5.0', '2.0,0.0']
+    """
+    options = {"points": x, "quantity": names, "side": side, "digits": digits, "accuracy": accuracy}
+    listed = {
+        f"--{name}": ",".join(map(str, objects(value).ravel().tolist()))
+        for name, value in options.items() if value is not None
+    }  # fmt: skip
+    flags = [flag for flag, is_set in (("--exact", exact), ("--certified", certified)) if is_set]
+    with tempfile.TemporaryDirectory() as folder:
+        if t is not None:
+            listed["--times-from"] = os.path.join(folder, "times")
+            times = "".join(f"{time}\n" for time in objects(t).ravel().tolist())
+            pathlib.Path(listed["--times-from"]).write_text(times, encoding="utf-8")
+        arguments = [f"{option}={value}" for option, value in listed.items()] + flags
+        run = subprocess.run(
+            [sys.executable, "-m", "dalembert", "reference", "-", "-o", os.path.abspath(path), *arguments],
+            input=Problem.from_scene(scene).to_toml(), capture_output=True, encoding="utf-8",
+            cwd=pathlib.Path(__file__).parents[1],
+        )  # fmt: skip
+    if run.returncode:
+        text = run.stderr.removeprefix("error: ").split("\n\nFor more information")[0]
+        raise ValueError(text.replace(os.path.join(folder, "times"), "t").strip())

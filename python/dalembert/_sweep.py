@@ -1,15 +1,15 @@
-"""The same numbers of many problems."""
+"""Sweeps: the same numbers of many problems."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._numbers import Maybe
+from ._numbers import MaskedArray, Maybe, Names, objects
 from ._problem import Problem, Scene
 
 
@@ -19,19 +19,19 @@ class Sweep:
 
     Parameters
     ----------
-    values : dict of str to ndarray
-        Each quantity; NaN where there is none.
-    errors : dict of str to ndarray
-        How far each value may be off.
+    values : dict of str to MaskedArray
+        The values of each quantity; a number that there is not is masked.
+    errors : dict of str to MaskedArray
+        The bounds of their errors.
     notes : dict of tuple of int to str
-        Why a point has no number, or what one should know of it, by its index.
+        Reasons for masked numbers, and warnings, by the index of the point.
     """
 
-    values: dict[str, NDArray[np.float64]]
-    errors: dict[str, NDArray[np.float64]]
+    values: dict[str, MaskedArray]
+    errors: dict[str, MaskedArray]
     notes: dict[tuple[int, ...], str]
 
-    def __getitem__(self, quantity: str) -> NDArray[np.float64]:
+    def __getitem__(self, quantity: str) -> MaskedArray:
         return self.values[quantity]
 
     def __repr__(self) -> str:
@@ -43,9 +43,9 @@ _PROFILES = ("displacement", "velocity")
 
 
 def _points(name: str, values: Any) -> NDArray[np.object_]:
-    """One list of points in each place of an array, whose last two axes are the points."""
+    """Return an array of lists of points, from one whose last two axes are the points."""
     try:
-        found = np.asarray(values, dtype=object)
+        found = objects(values)
     except ValueError:  # Profiles with different numbers of points.
         found = np.empty(len(values), dtype=object)
         found[:] = values
@@ -62,7 +62,7 @@ def _points(name: str, values: Any) -> NDArray[np.object_]:
 
 def sweep(
     scene: Scene,
-    quantities: str | Sequence[str],
+    quantities: Names,
     *,
     time: Maybe = None,
     accuracy: float | None = None,
@@ -73,11 +73,11 @@ def sweep(
     Parameters
     ----------
     scene : str, path or Problem
-        What all of them have in common, as :func:`solve` takes it.
+        The values that the problems share, as :func:`solve` takes it.
     quantities : str or sequence of str
-        Names as the command ``dalembert sweep`` knows them: ``bounce_time``, ``e_P``, ``e_E2``, columns, ...
+        Names of the command ``dalembert sweep``: ``bounce_time``, ``e_P``, ``e_E2``, quantities over time, ...
     time : number, optional
-        When quantities over time are taken; without it at the end of the first contact.
+        Time of quantities over time; by default the end of the first contact.
     accuracy : float, optional
         As in :func:`solve`.
     **varied : array_like
@@ -92,26 +92,24 @@ def sweep(
     Raises
     ------
     ValueError
-        For a quantity that is none.
+        For an unknown quantity.
     TypeError
-        For a value that a problem does not have.
+        For an unknown value of a problem.
 
     Examples
     --------
     >>> found = sweep("paper-strong", ["bounce_time", "e_P"], impact_speed=[1, 2, 4], damping=[[0], ["0.1"]])
     >>> found["bounce_time"].shape
     (2, 3)
-    >>> found["bounce_time"][0, 1:]
-    array([2., 2.])
+    >>> found["bounce_time"][0, 1:].tolist()
+    [2.0, 2.0]
     """
-    names = [quantities] if isinstance(quantities, str) else list(quantities)
-    # As in solve: a float stands for the shortest decimal that spells it, and all else for what it says.
-    given = {name: _points(name, values) if name in _PROFILES else np.asarray(values, dtype=object)
-             for name, values in varied.items()}
+    # As in solve, a float stands for the shortest decimal that spells it.
+    given = {name: _points(name, values) if name in _PROFILES else objects(values) for name, values in varied.items()}
     shape = np.broadcast_shapes(*(values.shape for values in given.values()))
     columns = [(name, np.broadcast_to(values, shape).ravel().tolist()) for name, values in given.items()]
-    found, said = _core.sweep(Problem.from_scene(scene)._core, names, time, accuracy, columns)
-    values = {name: value.reshape(shape) for name, (value, _) in zip(names, found)}
-    errors = {name: bound.reshape(shape) for name, (_, bound) in zip(names, found)}
-    notes = {tuple(int(i) for i in np.unravel_index(k, shape)) if shape else (): note for k, note in said}
+    names, found, texts = _core.sweep(Problem.from_scene(scene)._compiled, quantities, time, accuracy, columns)
+    values, errors = ({name: np.ma.masked_invalid(column[k].reshape(shape)) for name, column in zip(names, found)}
+                      for k in (0, 1))
+    notes = {tuple(int(i) for i in np.unravel_index(k, shape)) if shape else (): note for k, note in texts}
     return Sweep(values, errors, notes)

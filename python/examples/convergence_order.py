@@ -1,5 +1,5 @@
-"""The order at which a scheme converges: its contact stress against the exact one, in the mean over the bounce, for
-meshes twice as fine each.
+"""The order of convergence of a scheme: the mean error of its contact stress over a bounce, on meshes each twice as
+fine as the last.
 
     python convergence_order.py
 """

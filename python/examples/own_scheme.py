@@ -1,4 +1,4 @@
-"""One's own scheme against the exact motion: the contact stress over a bounce, in numbers and, with the name of a
+"""A numerical scheme against the exact motion: the contact stress over a bounce, in numbers and, with the name of a
 file, as a picture.
 
     python own_scheme.py [stress.png]

@@ -1,5 +1,5 @@
-"""The coefficient of restitution over the impact speed, for several dampings: the curves of the paper's Figure 4, to
-the left of its dots too. Where the rod has no energy left to come back to h = 0, e_E is not defined: nan.
+"""The coefficient of restitution over the impact speed, for several dampings: the curves of the paper's Figure 4, which
+begin left of its dots. A rod without enough energy to come back to h = 0 has no e_E: nan.
 
     python restitution_over_speed.py [restitution.png]
 """
@@ -14,7 +14,7 @@ speeds = np.geomspace(0.05, 12.5, 120)
 dampings = [0, 0.1, 0.2, 0.3]
 rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
 found = dalembert.sweep(rod, "e_E2", impact_speed=speeds, damping=np.reshape(dampings, (4, 1)))
-curves = dict(zip(dampings, np.sqrt(found["e_E2"])))
+curves = dict(zip(dampings, np.sqrt(found["e_E2"].filled(np.nan))))
 
 print("    μ  " + "".join(f"   r = {damping}" for damping in curves))
 for k in range(0, len(speeds), 17):

@@ -1,5 +1,5 @@
-"""A contact scheme as a textbook has it, to be held against the exact motion: linear elements with lumped masses,
-central differences, and a ground that holds the end back with as much force as it takes."""
+"""A textbook scheme for contact, to compare with the exact motion: linear elements with lumped masses, central
+differences, and a ground whose force stops the end."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ Doubles = np.ndarray[Any, np.dtype[Any]]
 def leapfrog(
     length: float, c: float, g: float, mu: float, cells: int, end: float, courant: float = 0.8
 ) -> tuple[Doubles, Doubles]:
-    """The contact stress ``v_x(0,t)`` at every step of the scheme, with its times."""
+    """Return the times of the steps of the scheme, and the contact stress ``v_x(0,t)`` then."""
     dx = length / cells
     dt = courant * dx / c
     mass = np.full(cells + 1, dx)

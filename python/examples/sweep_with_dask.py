@@ -1,4 +1,4 @@
-"""A sweep over many machines: Dask maps blocks of points over its workers. Each point is solved by itself, so the
+"""A sweep over many machines: Dask maps blocks of points over its workers. Each point is solved by itself, so that the
 answer is the same, byte for byte, for any number of workers and blocks.
 
     python sweep_with_dask.py [address of a scheduler]
@@ -15,12 +15,12 @@ Doubles = np.ndarray[Any, np.dtype[Any]]
 
 
 def bounce(points: Doubles) -> Doubles:
-    """Bounce time and e_E² of each point (μ, r); nan where there is none."""
+    """Return bounce time and e_E² of each point (μ, r); nan where there is none."""
     rod = dalembert.Problem(length=1, wave_speed=1, gravity=1, impact_speed=1)
     answers = np.empty((len(points), 2))
     for answer, (speed, damping) in zip(answers, points):
-        history = rod.replace(impact_speed=speed, damping=damping).solve(first_contact=True)
-        answer[:] = history.contacts["release"][0], history.contacts["e_E2"][0]
+        contacts = rod.replace(impact_speed=speed, damping=damping).solve(first_contact=True).contacts
+        answer[:] = [contacts[name].filled(np.nan)[0] for name in ("release", "e_E2")]
     return answers
 
 

@@ -1,4 +1,4 @@
-//! Data of a user's against the exact history.
+//! Comparisons of other data with the exact history.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,16 +10,32 @@ use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::number::number;
+use super::argument::{names, number, one_of, refuse, typed, wrong_type};
 use super::problem::Problem;
-use super::{observer, one_of, refuse, run};
+use super::{observer, run};
 
-/// A path, or a name with the names of columns and these.
-type Data<'py> = (String, Vec<String>, Option<Vec<Bound<'py, PyUntypedArray>>>);
+/// Data: a path, or arrays under a name.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Data<'py> {
+    name: String,
+    columns: Vec<String>,
+    arrays: Option<Vec<Bound<'py, PyUntypedArray>>>,
+}
 
 type Samples<'py> = Vec<(String, Bound<'py, PyArray1<f64>>)>;
 
-/// The column as doubles, or what makes it none.
+/// The results of a comparison.
+#[derive(IntoPyObject)]
+struct Report<'py> {
+    json: String,
+    table: String,
+    warnings: Vec<String>,
+    /// The samples of each source by name: times, points, and for each quantity ours and theirs.
+    samples: Vec<Samples<'py>>,
+}
+
+/// Returns the column as doubles, or the reason why it has none.
 fn column(array: Bound<'_, PyUntypedArray>) -> Result<Vec<f64>, DataErrorKind> {
     match array.cast::<PyArray1<f64>>() {
         Ok(values) => Ok(values.readonly().as_array().to_vec()),
@@ -28,7 +44,7 @@ fn column(array: Bound<'_, PyUntypedArray>) -> Result<Vec<f64>, DataErrorKind> {
     }
 }
 
-/// What `dalembert compare` reports.
+/// A comparison, as `dalembert compare` reports it.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct Comparison {
     compared: Compared,
@@ -42,10 +58,10 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
         let name: String = key.extract()?;
         let number = |value: &Bound<'_, PyAny>| number(&name, value);
         match name.as_str() {
-            "map" => options.map = Some(value.extract()?),
+            "map" => options.map = Some(typed(&name, &value, "a text such as \"t=0,u=1\"")?),
             "to" => options.to = Some(number(&value)?),
             "fit" => {
-                let names: Vec<String> = value.extract()?;
+                let names = names(&name, &value)?;
                 options.fit = names.iter().map(|name| name.parse()).collect::<Result<_, _>>().map_err(refuse)?;
             }
             "dt" => options.dt = Some(number(&value)?),
@@ -53,7 +69,10 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
             "shift" => options.shift = Some(number(&value)?),
             "energy_scale" => options.energy_scale = Some(number(&value)?),
             "window" => options.window = Some(number(&value)?),
-            "widths" => options.widths = value.try_iter()?.map(|width| number(&width?)).collect::<PyResult<_>>()?,
+            "widths" => {
+                let widths = value.try_iter().map_err(|_| wrong_type(&name, &value, "a sequence of numbers"))?;
+                options.widths = widths.map(|width| number(&width?)).collect::<PyResult<_>>()?;
+            }
             "compression" => {
                 let known = [("+", Compression::Positive), ("-", Compression::Negative)];
                 options.compression = Some(one_of(&name, &value, &known)?);
@@ -72,9 +91,11 @@ impl Comparison {
     #[new]
     fn new(py: Python<'_>, problem: &Problem, data: Vec<Data<'_>>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options(given)?;
-        let source = |(name, names, columns): Data<'_>| match columns {
-            Some(columns) => Ok(Source::arrays(&name, names, columns.into_iter().map(column).collect())),
-            None => Source::open(Path::new(&name)).map_err(refuse),
+        let source = |data: Data<'_>| match data.arrays {
+            Some(arrays) => {
+                Ok(Source::from_columns(&data.name, data.columns, arrays.into_iter().map(column).collect()))
+            }
+            None => Source::open(Path::new(&data.name)).map_err(refuse),
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
         let (rod, accuracy) = (problem.problem.clone(), problem.accuracy);
@@ -86,21 +107,22 @@ impl Comparison {
         Ok(Comparison { compared, title: problem.title.clone(), units })
     }
 
-    /// As JSON and as a table; warnings; and for each source every sample by name: times, points, and for each
-    /// quantity ours and theirs.
-    fn report<'py>(&self, py: Python<'py>) -> (String, String, Vec<String>, Vec<Samples<'py>>) {
-        let (of, title) = (&self.compared, self.title.as_deref());
+    fn report<'py>(&self, py: Python<'py>) -> Report<'py> {
+        let (compared, title) = (&self.compared, self.title.as_deref());
         let array = |(name, values)| (name, PyArray1::from_slice(py, values));
-        let samples = of.files.iter().map(|file| file.columns().map(array).collect()).collect();
-        let warnings = of.warnings.iter().map(ToString::to_string).collect();
-        (of.json(title, &self.units).to_string(), of.table(title, &self.units), warnings, samples)
+        Report {
+            json: compared.json(title, &self.units).to_string(),
+            table: compared.table(title, &self.units),
+            warnings: compared.warnings.iter().map(ToString::to_string).collect(),
+            samples: compared.files.iter().map(|file| file.columns().map(array).collect()).collect(),
+        }
     }
 
-    /// What fails of limits such as `u.l2=0.1`, above which, or below which, something may not be; a line each.
+    /// Returns a line for each number above or below its limit; limits are texts such as `u.l2=0.1`.
     fn failures(&self, above: Vec<String>, below: Vec<String>) -> PyResult<Vec<String>> {
         let parsed = |limits: &[String]| limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>();
         let mut limits = parsed(&above).map_err(refuse)?;
-        limits.extend(parsed(&below).map_err(refuse)?.into_iter().map(Limit::turned));
+        limits.extend(parsed(&below).map_err(refuse)?.into_iter().map(Limit::into_minimum));
         let outcomes = self.compared.outcomes(&limits).map_err(refuse)?;
         Ok(outcomes.iter().filter(|outcome| outcome.failure.is_some()).map(ToString::to_string).collect())
     }

@@ -1,22 +1,22 @@
-//! Answers: histories, read in columns.
+//! Histories: their tables, columns and fields as arrays.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use dalembert::engine::Motion;
-use dalembert::number::{Answer, Scalar, show};
-use dalembert::quantity::{Needs, Slice, Table, slices};
-use dalembert::solve::Derivatives;
-use dalembert::{Derivative, Error, Number, Parameter, Problem, Quantity, Side, Solution, Units};
+use dalembert::number::Scalar;
+use dalembert::quantity::{Needs, SLICE, Slice};
+use dalembert::solve::{Derivatives, Solution, Target, TypedHistory, Visitor};
+use dalembert::{Derivative, Error, Estimate, Parameter, Quantity, Side, Units, Value};
 use dalembert_plot::Drawing;
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
-use super::number::number;
-use super::{one_of, refuse, run};
+use super::argument::{Given, names, one_of, refuse, typed};
+use super::run;
 
-/// A number as Python gets it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
+/// A number as Python receives it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
 #[derive(IntoPyObject)]
 enum Cell {
     Double(f64),
@@ -24,276 +24,329 @@ enum Cell {
     Ends([String; 2]),
 }
 
-fn cell<N: Scalar>(x: &N, digits: u32) -> Cell {
-    match (x.as_double(), x.ends(digits)) {
-        (Some(value), _) => Cell::Double(value),
-        (None, Some(ends)) => Cell::Ends(ends),
-        (None, None) if digits == 0 => Cell::Text(x.text()),
-        (None, None) => Cell::Text(show(x, digits)),
+impl From<&Value> for Cell {
+    fn from(value: &Value) -> Self {
+        match (value.is_double(), value.ends()) {
+            (true, _) => Cell::Double(value.to_f64()),
+            (false, Some(ends)) => Cell::Ends(ends),
+            (false, None) => Cell::Text(value.to_string()),
+        }
     }
 }
 
-/// Numbers of one quantity; what is absent is NaN among doubles.
-enum Found {
+/// Numbers of one quantity; an absent number is NaN among doubles.
+enum Column {
     Doubles(Vec<f64>),
     Cells(Vec<Option<Cell>>),
 }
 
-impl Found {
-    fn of<'a, N: Scalar>(values: impl Iterator<Item = Option<&'a N>>, of: &N, digits: u32) -> Self {
-        match of.as_double() {
-            Some(_) => Found::Doubles(values.map(|x| x.and_then(Scalar::as_double).unwrap_or(f64::NAN)).collect()),
-            None => Found::Cells(values.map(|x| x.map(|x| cell(x, digits))).collect()),
+impl Column {
+    /// Collects values, which are doubles or not.
+    fn new<'a>(values: impl Iterator<Item = Option<&'a Value>>, is_double: bool) -> Self {
+        if is_double {
+            Column::Doubles(values.map(|value| value.map_or(f64::NAN, Value::to_f64)).collect())
+        } else {
+            Column::Cells(values.map(|value| value.map(Cell::from)).collect())
         }
     }
 
-    fn all<N: Scalar>(columns: &[Vec<N>], of: &N, digits: u32) -> Vec<Self> {
-        columns.iter().map(|column| Found::of(column.iter().map(Some), of, digits)).collect()
+    /// Collects the columns of an answer with their names. Sides are doubles in every number system.
+    fn all<'a>(
+        quantities: impl IntoIterator<Item = &'a Quantity>,
+        columns: &[Vec<Value>],
+        is_double: bool,
+    ) -> Vec<(&'static str, Self)> {
+        let column = |(quantity, values): (&Quantity, &Vec<Value>)| {
+            let is_double = is_double || *quantity == Quantity::Side;
+            (quantity.name(), Column::new(values.iter().map(Some), is_double))
+        };
+        quantities.into_iter().zip(columns).map(column).collect()
     }
 }
 
-impl<'py> IntoPyObject<'py> for Found {
+impl<'py> IntoPyObject<'py> for Column {
     type Target = PyAny;
     type Output = Bound<'py, PyAny>;
     type Error = PyErr;
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
         match self {
-            Found::Doubles(column) => Ok(PyArray1::from_vec(py, column).into_any()),
-            Found::Cells(column) => column.into_bound_py_any(py),
+            Column::Doubles(column) => Ok(PyArray1::from_vec(py, column).into_any()),
+            Column::Cells(column) => column.into_bound_py_any(py),
         }
     }
 }
 
-/// Times or points.
-enum Places {
-    Doubles(Vec<f64>),
-    Numbers(Vec<Number>),
+/// A column some of whose numbers may be absent.
+#[derive(IntoPyObject)]
+struct Listed {
+    name: &'static str,
+    values: Column,
+    /// Bound of the error of each number.
+    bounds: Column,
+    /// Rows without a number, and the reason.
+    missing: Vec<(usize, String)>,
 }
 
-/// Times or points as Python gives them: an array, which is for histories in doubles, or numbers of any type.
-fn places(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Places> {
-    if let Ok(list) = given.extract::<PyReadonlyArray1<'_, f64>>() {
-        return Ok(Places::Doubles(list.as_slice()?.to_vec()));
-    }
-    Ok(Places::Numbers(given.try_iter()?.map(|x| number(name, &x?)).collect::<PyResult<_>>()?))
-}
-
-impl Places {
-    /// As they are written.
-    fn numbers(self) -> Vec<Number> {
-        let spelled = |x: f64| format!("{x:e}").parse().unwrap_or_else(|_| Number::from(0));
-        match self {
-            Places::Doubles(list) => list.into_iter().map(spelled).collect(),
-            Places::Numbers(list) => list,
-        }
-    }
-
-    /// In the numbers of an attempt.
-    fn lift<N: Scalar>(&self, motion: &dyn Motion<N>) -> Vec<N> {
-        let end = motion.end();
-        match self {
-            Places::Doubles(list) => list.iter().map(|x| end.double(*x)).collect(),
-            // Digits that a history gave for an event stand for it.
-            Places::Numbers(list) if end.as_double().is_none() => {
-                list.iter().map(|x| N::from_number(x, &end.precision())).collect()
-            }
-            Places::Numbers(list) => list.iter().map(|x| N::spelling(x, &end.precision())).collect(),
+impl Listed {
+    fn new(name: &'static str, values: &[Result<&Value, String>], is_double: bool) -> Self {
+        let found = values.iter().map(|value| value.as_ref().ok().copied());
+        let reason = |(row, value): (usize, &Result<_, String>)| Some((row, value.as_ref().err()?.clone()));
+        Listed {
+            name,
+            values: Column::new(found.clone(), is_double),
+            bounds: Column::Doubles(
+                found.map(|value| value.map_or(f64::NAN, |value| value.log2_error().exp2())).collect(),
+            ),
+            missing: values.iter().enumerate().filter_map(reason).collect(),
         }
     }
 }
 
-/// Evaluates `$body` for the history inside `$solution`, whatever its numbers; `$digits` of them are to be given.
-macro_rules! each {
-    ($solution:expr, |$history:ident, $digits:pat_param| $body:expr) => {
-        match ($solution, &0) {
-            (Solution::Double($history), $digits) => $body,
-            (Solution::Exact($history), $digits) => $body,
-            (Solution::Digits($history, $digits) | Solution::DigitsAfter($history, $digits, _), _) => $body,
-            (Solution::Certified($history, $digits), _) => $body,
-        }
-    };
+/// Name, unit and meaning of a quantity.
+#[derive(IntoPyObject)]
+struct Described {
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
 }
 
-/// What a history lists, by name.
-const LISTS: [(&str, Table); 4] =
-    [("events", Table::Events), ("contacts", Table::Contacts), ("flights", Table::Flights), ("stress", Table::Stress)];
+/// Attributes of a history.
+#[derive(IntoPyObject)]
+struct Facts {
+    /// `double`, `exact`, `digits` or `certified`.
+    numbers: &'static str,
+    /// Numbers as they were asked for, in words.
+    question: String,
+    end: Cell,
+    ending: String,
+    engine: String,
+    /// Natural scales: time, velocity, length, wave speed, gravity.
+    scales: [f64; 5],
+}
 
-/// Numbers and how far each may be off, to the left and to the right.
-type Sides = [(Found, Found); 2];
+struct NaturalScales;
 
-/// What happened, and what can be asked of it.
+impl Visitor for NaturalScales {
+    type Output = [f64; 5];
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> [f64; 5] {
+        let scales = history.scales().map(|scale| scale.to_f64());
+        [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity]
+    }
+}
+
+/// The sheet of pictures, as SVG, in these units.
+struct Sheet(Units);
+
+impl Visitor for Sheet {
+    type Output = Result<String, Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        Ok(Drawing::default().draw(history, self.0)?.svg)
+    }
+}
+
+/// The first and the last time of the sheet.
+struct Span;
+
+impl Visitor for Span {
+    type Output = Result<[f64; 2], Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        Drawing::default().drawn_span(history)
+    }
+}
+
+/// Tables of a history, by name: a row for each event, contact, flight, or piece of the stress at the ground.
+const TABLES: [(&str, Needs); 4] = [
+    ("events", Needs::Event),
+    ("contacts", Needs::Contact),
+    ("flights", Needs::Flight),
+    ("stress_history", Needs::Piece),
+];
+
+/// A motion, and the means to interrupt its questions.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct History {
-    solution: Arc<Solution>,
-    /// What was solved, and the units of its numbers.
-    solved: (Problem, Units),
+    history: Arc<dalembert::History>,
     stop: Arc<AtomicBool>,
 }
 
 impl History {
-    pub(crate) fn new(solution: Solution, solved: (Problem, Units), stop: Arc<AtomicBool>) -> Self {
-        History { solution: Arc::new(solution), solved, stop }
+    pub(crate) fn new(history: dalembert::History, stop: Arc<AtomicBool>) -> Self {
+        History { history: Arc::new(history), stop }
     }
 
+    /// Returns the answer to `query`, without the interpreter's lock.
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        query: impl FnOnce(&Solution) -> Result<T, Error> + Send + 'static,
+        query: impl FnOnce(&dalembert::History) -> Result<T, Error> + Send + 'static,
     ) -> PyResult<T> {
-        let solution = self.solution.clone();
-        run(py, &self.stop, move || query(&solution))
+        let history = self.history.clone();
+        run(py, &self.stop, move || query(&history))
+    }
+
+    /// Returns the columns of a table; stresses and forces with a material only.
+    fn listed(&self, table: &Bound<'_, PyAny>) -> PyResult<Vec<Quantity>> {
+        let has_material = self.history.units().has_material();
+        let columns = one_of("table", table, &TABLES)?.quantities();
+        Ok(columns.filter(|quantity| quantity.is_listed(has_material)).collect())
     }
 }
 
 #[pymethods]
 impl History {
-    /// `double`, `exact`, `digits` or `certified`; the end; why it is the end, the engine, and what was asked;
-    /// warnings; `t₁`, the greatest speed, `L`, `c` and `g`.
-    // Without long numbers there are no enclosures to have scales.
-    #[allow(unreachable_code)]
-    fn facts(&self) -> (&'static str, Cell, [String; 3], Vec<String>, [f64; 5]) {
-        let (kind, first) = match &*self.solution {
-            Solution::Double(_) => ("double", None),
-            Solution::Exact(_) => ("exact", None),
-            Solution::Digits(..) => ("digits", None),
-            Solution::DigitsAfter(_, n, end) => ("digits", Some(format!("{end}; what follows is in {n} digits"))),
-            Solution::Certified(..) => ("certified", None),
+    fn facts(&self) -> Facts {
+        let history = &*self.history;
+        let numbers = match history.typed() {
+            Solution::Double(_) => "double",
+            Solution::Exact(_) => "exact",
+            Solution::Digits(..) | Solution::DigitsAfter(..) => "digits",
+            Solution::Certified(..) => "certified",
         };
-        each!(&*self.solution, |history, digits| {
-            let (plan, scales) = (history.plan(), history.scales());
-            let about = [history.ending().to_string(), plan.engine.to_string(), plan.numbers.to_string()];
-            let warnings = first.into_iter().chain(history.warnings().iter().map(ToString::to_string)).collect();
-            let scales = [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity];
-            (kind, cell(history.end(), *digits), about, warnings, scales.map(|x| Scalar::to_f64(&x)))
-        })
+        Facts {
+            numbers,
+            question: history.plan().numbers.to_string(),
+            end: Cell::from(&history.end()),
+            ending: history.ending().to_string(),
+            engine: history.plan().engine.to_string(),
+            scales: history.visit(NaturalScales),
+        }
     }
 
-    /// The sheet of pictures that tells the scene, as SVG.
-    fn sheet(&self, py: Python<'_>) -> PyResult<String> {
-        let (rod, units) = self.solved.clone();
-        self.ask(py, move |solution| {
-            each!(solution, |history, _| Drawing::default().draw(history, &rod, units)).map(|drawn| drawn.svg)
-        })
-    }
-
-    /// The first and the last time of that sheet.
-    fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
-        let rod = self.solved.0.clone();
-        self.ask(py, move |solution| each!(solution, |history, _| Drawing::default().drawn_span(history, &rod)))
+    fn warnings(&self) -> Vec<String> {
+        let in_digits = |end| format!("{end}; what follows is in {} digits", self.history.digits());
+        let first = self.history.exactness_end().map(in_digits);
+        first.into_iter().chain(self.history.warnings().iter().map(ToString::to_string)).collect()
     }
 
     fn error_estimate(&self) -> f64 {
-        each!(&*self.solution, |history, _| history.error_estimate())
+        self.history.error_estimate()
     }
 
-    /// Kind and error of the time of each event.
-    fn kinds(&self) -> (Vec<String>, Vec<f64>) {
-        each!(&*self.solution, |history, _| {
-            history.events().iter().map(|event| (event.kind.to_string(), event.t_error)).unzip()
+    /// Returns the sheet of pictures of the scene, as SVG.
+    fn sheet(&self, py: Python<'_>) -> PyResult<String> {
+        self.ask(py, |history| history.visit(Sheet(history.units().clone())))
+    }
+
+    /// Returns the first and the last time of that sheet.
+    fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
+        self.ask(py, |history| history.visit(Span))
+    }
+
+    /// Returns the kind of each event, and the bound of the error of its time.
+    fn kinds(&self, py: Python<'_>) -> PyResult<(Vec<String>, Vec<f64>)> {
+        self.ask(py, |history| {
+            Ok(history.events()?.iter().map(|event| (event.kind.to_string(), event.t_error)).unzip())
         })
     }
 
-    /// The columns of a table, by name.
-    fn table(&self, py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Vec<(&'static str, Found)>> {
-        let table = one_of("table", table, &LISTS)?;
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                let of = history.end().carry();
-                let found = |(quantity, column): (Quantity, Vec<Option<_>>)| {
-                    (quantity.name(), Found::of(column.iter().map(Option::as_ref), &of, *digits))
-                };
-                Ok(history.ask_table(table)?.into_iter().map(found).collect())
-            })
+    /// Returns the columns of a table.
+    fn table(&self, py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
+        let quantities = self.listed(table)?;
+        self.ask(py, move |history| {
+            let (rows, is_double) = (history.list(&quantities)?, history.end().is_double());
+            let column = |(k, quantity): (usize, &Quantity)| {
+                let values = rows.iter().filter_map(|row| row.get(k));
+                let values: Vec<_> = values.map(|value| value.as_ref().map_err(ToString::to_string)).collect();
+                Listed::new(quantity.name(), &values, is_double)
+            };
+            Ok(quantities.iter().enumerate().map(column).collect())
         })
     }
 
-    /// Derivatives by a value of the problem from the left and from the right, and how far each may be off.
-    fn derivatives(&self, py: Python<'_>, by: &str, table: &Bound<'_, PyAny>) -> PyResult<Vec<(&'static str, Sides)>> {
-        let by: Parameter = by.parse().map_err(refuse)?;
-        let table = one_of("table", table, &LISTS)?;
-        let with_material = self.solved.1.has_material();
-        let listed = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(with_material));
-        let quantities: Vec<Quantity> = listed.collect();
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                Ok(sides(&history.derivatives(by, &quantities)?, &quantities, &history.end().carry(), *digits))
-            })
+    /// Describes the columns of a table, or the quantities over `time` or along the `rod`.
+    fn describe(&self, table: &Bound<'_, PyAny>) -> PyResult<Vec<Described>> {
+        let quantities = match table.extract()? {
+            "time" => Needs::Time.quantities().collect(),
+            "rod" => Needs::PointAndTime.quantities().collect(),
+            _ => self.listed(table)?,
+        };
+        let units = self.history.units();
+        let described = |q: Quantity| Described { name: q.name(), unit: q.unit(units), meaning: q.meaning() };
+        Ok(quantities.into_iter().map(described).collect())
+    }
+
+    /// Returns the derivatives of a table from the left and from the right.
+    fn derivatives(
+        &self,
+        py: Python<'_>,
+        by: &Bound<'_, PyAny>,
+        table: &Bound<'_, PyAny>,
+    ) -> PyResult<[Vec<Listed>; 2]> {
+        let by = parameter(by)?;
+        let quantities = self.listed(table)?;
+        self.ask(py, move |history| {
+            let rows = history.derivatives(by, &quantities)?;
+            Ok(sides(&rows, &quantities, history.end().is_double()))
         })
     }
 
-    /// The same of columns at times, or of the field at points.
+    /// Returns the derivatives of quantities at times, or of the field at points at times.
     fn derivatives_at(
         &self,
         py: Python<'_>,
-        by: &str,
-        names: Vec<String>,
-        at: [Bound<'_, PyAny>; 2],
+        by: &Bound<'_, PyAny>,
+        times: &Bound<'_, PyAny>,
+        quantities: &Bound<'_, PyAny>,
+        points: &Bound<'_, PyAny>,
         side: &Bound<'_, PyAny>,
-    ) -> PyResult<Vec<(&'static str, Sides)>> {
-        let by: Parameter = by.parse().map_err(refuse)?;
-        let [times, points] = &at;
-        let (times, points) = (places("time", times)?.numbers(), places("point", points)?.numbers());
-        let needs = if points.is_empty() { Needs::Time } else { Needs::PointAndTime };
-        let (quantities, side) = (named(&names, needs)?, side_of(side)?);
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                let found = history.derivatives_at(by, &quantities, &times, &points, side)?;
-                Ok(sides(&found, &quantities, &history.end().carry(), *digits))
-            })
+    ) -> PyResult<[Vec<Listed>; 2]> {
+        let (by, side) = (parameter(by)?, side_of(side)?);
+        let (times, points) = (Given::new("time", times)?.into_numbers(), Given::new("point", points)?.into_numbers());
+        let quantities = named(quantities, if points.is_empty() { Needs::Time } else { Needs::PointAndTime })?;
+        self.ask(py, move |history| {
+            let rows = history.derivatives_at(by, &quantities, &times, &points, side)?;
+            Ok(sides(&rows, &quantities, history.end().is_double()))
         })
     }
 
-    /// Values of columns at times. Without a side a time has two rows where two limits differ.
+    /// Returns the values of quantities at times. Without a side a time has two rows where two limits differ.
     fn columns(
         &self,
         py: Python<'_>,
-        names: Vec<String>,
         times: &Bound<'_, PyAny>,
+        quantities: &Bound<'_, PyAny>,
         side: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<Found>> {
-        let columns = named(&names, Needs::Time)?;
-        let (times, side) = (places("time", times)?, side.map(side_of).transpose()?);
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                let found = history.ask_columns(&columns, side, |motion| Ok(times.lift(motion)))?;
-                Ok(Found::all(&found, &history.end().carry(), *digits))
-            })
+    ) -> PyResult<Vec<(&'static str, Column)>> {
+        let quantities = named(quantities, Needs::Time)?;
+        let (times, side) = (Given::new("time", times)?, side.map(side_of).transpose()?);
+        self.ask(py, move |history| {
+            if let (Solution::Double(typed), Given::Doubles(times)) = (history.typed(), &times) {
+                // A million doubles take a quarter less time than a million values.
+                let lift = |motion: &dyn Motion<Estimate<f64>>| {
+                    Ok(times.iter().map(|time| motion.end().double(*time)).collect())
+                };
+                let columns =
+                    typed.ask_columns(&quantities, side, lift)?.into_iter().map(|column: Vec<Estimate<f64>>| {
+                        Column::Doubles(column.iter().map(|number| *number.value()).collect())
+                    });
+                return Ok(quantities.iter().map(|quantity| quantity.name()).zip(columns).collect());
+            }
+            let columns = history.sample(&quantities, &times.places(), side)?;
+            Ok(Column::all(&quantities, &columns, history.end().is_double()))
         })
     }
 
-    /// `v`, `v_t`, `v_x` at each point at the time beside it.
+    /// Returns `u`, `v`, `strain` at each point at the time beside it.
     fn field(
         &self,
         py: Python<'_>,
         points: &Bound<'_, PyAny>,
         times: &Bound<'_, PyAny>,
         side: &Bound<'_, PyAny>,
-    ) -> PyResult<Vec<Found>> {
-        let (points, times, side) = (places("point", points)?, places("time", times)?, side_of(side)?);
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                let found = history.ask(
-                    |motion| {
-                        let mut columns = [vec![], vec![], vec![]];
-                        for (point, time) in points.lift(motion).iter().zip(&times.lift(motion)) {
-                            let field = motion.field(point, time, side)?;
-                            for (column, x) in
-                                columns.iter_mut().zip([field.displacement, field.velocity, field.strain])
-                            {
-                                column.push(x);
-                            }
-                        }
-                        Ok(columns)
-                    },
-                    |columns| columns.iter().flatten().collect(),
-                )?;
-                Ok(Found::all(&found, &history.end().carry(), *digits))
-            })
+    ) -> PyResult<Vec<(&'static str, Column)>> {
+        let (points, times) = (Given::new("point", points)?, Given::new("time", times)?);
+        let side = side_of(side)?;
+        self.ask(py, move |history| {
+            let columns = history.sample_pairs(&points.places(), &times.places(), side)?;
+            Ok(Column::all(&SLICE[3..], &columns, history.end().is_double()))
         })
     }
 
-    /// `v`, `v_t`, `v_x` time by time, and there point by point or cell by cell.
+    /// Returns `u`, `v`, `strain` time by time, and there point by point or cell by cell.
     fn grid(
         &self,
         py: Python<'_>,
@@ -301,48 +354,41 @@ impl History {
         times: &Bound<'_, PyAny>,
         side: &Bound<'_, PyAny>,
         kind: &Bound<'_, PyAny>,
-    ) -> PyResult<Vec<Found>> {
-        let (points, times, side) = (places("point", points)?, places("time", times)?, side_of(side)?);
+    ) -> PyResult<Vec<(&'static str, Column)>> {
+        let (points, times) = (Given::new("point", points)?, Given::new("time", times)?);
+        let side = side_of(side)?;
         let kinds = [("points", Slice::Points), ("averages", Slice::Averages), ("p1", Slice::P1)];
-        let slice = one_of("kind", kind, &kinds)?;
-        self.ask(py, move |solution| {
-            each!(solution, |history, digits| {
-                let found = history.ask(
-                    |motion| {
-                        let (points, times) = (points.lift(motion), times.lift(motion));
-                        Ok(slices(motion, slice, &points, &times, Some(side))?.split_off(3))
-                    },
-                    |columns| columns.iter().flatten().collect(),
-                )?;
-                Ok(Found::all(&found, &history.end().carry(), *digits))
-            })
+        let kind = one_of("kind", kind, &kinds)?;
+        self.ask(py, move |history| {
+            let columns = history.sample_field(kind, &points.places(), &times.places(), Some(side))?;
+            Ok(Column::all(&SLICE[3..], &columns[3..], history.end().is_double()))
         })
     }
 }
 
-/// The columns of these names.
-fn named(names: &[String], needs: Needs) -> PyResult<Vec<Quantity>> {
-    let column = |name: &String| {
-        let known = || needs.quantities().map(Quantity::name).collect::<Vec<_>>().join(", ");
-        needs.named(name).ok_or_else(|| refuse(format!("found column {name}, expected one of {}", known())))
-    };
-    names.iter().map(column).collect()
+/// Returns the quantities of these names and groups.
+fn named(quantities: &Bound<'_, PyAny>, needs: Needs) -> PyResult<Vec<Quantity>> {
+    needs.list(&names("names", quantities)?.join(",")).map_err(refuse)
 }
 
-/// Columns of derivatives of `quantities`.
-fn sides<N: Scalar>(rows: &Derivatives<N>, quantities: &[Quantity], of: &N, digits: u32) -> Vec<(&'static str, Sides)> {
-    let side = |k: usize, left: bool| {
-        let value = |row: &Vec<Option<Derivative<N>>>| {
-            let [a, b] = row.get(k)?.as_ref()?.sides();
-            if left { a } else { b }.ok().cloned()
-        };
-        let values: Vec<Option<N>> = rows.iter().map(value).collect();
-        let bounds = values.iter().map(|x| x.as_ref().map_or(f64::NAN, |x| x.log2_error().exp2())).collect();
-        (Found::of(values.iter().map(Option::as_ref), of, digits), Found::Doubles(bounds))
-    };
-    quantities.iter().enumerate().map(|(k, q)| (q.name(), [side(k, true), side(k, false)])).collect()
+fn parameter(by: &Bound<'_, PyAny>) -> PyResult<Parameter> {
+    typed::<String>("by", by, "the name of a value of the problem")?.parse().map_err(refuse)
 }
 
 fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {
     one_of("side", side, &[("left", Side::Left), ("right", Side::Right)])
+}
+
+/// Returns the columns of derivatives of `quantities` from the left and from the right.
+fn sides(rows: &Derivatives<Value>, quantities: &[Quantity], is_double: bool) -> [Vec<Listed>; 2] {
+    [0, 1].map(|side| {
+        let column = |(k, quantity): (usize, &Quantity)| {
+            let found = rows.iter().map(|row| row.get(k).and_then(Option::as_ref).map(Derivative::sides));
+            let none = || Err("there is no number".to_string());
+            let values = found.map(|sides| sides.map_or_else(none, |sides| sides[side].map_err(|why| why.to_string())));
+            let values: Vec<_> = values.collect();
+            Listed::new(quantity.name(), &values, is_double)
+        };
+        quantities.iter().enumerate().map(column).collect()
+    })
 }

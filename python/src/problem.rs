@@ -5,25 +5,46 @@ use std::sync::Arc;
 use dalembert::problem::{Builder, Written};
 use dalembert::quantity::UnitSystem;
 use dalembert::solve::{CERTIFIED_DIGITS, MAX_DIGITS};
-use dalembert::{Material, Number, Numbers, Parameters, Plan, Question, Run, Scene, Speed, Start, Top, Units};
+use dalembert::{Numbers, Parameter, Parameters, Plan, Question, Scene, Top, UnknownName};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use super::argument::{one_of, refuse, typed, written};
 use super::history::History;
-use super::number::written;
-use super::{observer, one_of, refuse, run};
+use super::{observer, run};
 
-/// A profile by its name, its points as they are spelt.
-type Spelt = (&'static str, Vec<[String; 2]>);
+/// A parameter of a problem as it is written: a number, or the points of a profile.
+#[derive(IntoPyObject)]
+struct Given {
+    name: &'static str,
+    /// Path in a scene file.
+    path: &'static str,
+    number: Option<String>,
+    points: Vec<[String; 2]>,
+}
+
+/// The values of a problem and some that follow from them.
+#[derive(IntoPyObject)]
+struct Facts {
+    given: Vec<Given>,
+    has_fixed_top: bool,
+    title: Option<String>,
+    units: &'static str,
+    accuracy: Option<f64>,
+    wave_speed: f64,
+    round_trip: f64,
+    damping_ratio: f64,
+    /// Infinite without gravity, and `None` where the start is not uniform.
+    speed_ratio: Option<f64>,
+}
 
 fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Written)>> {
-    let shape = format!("found {name} of another shape, expected points (x, value), an array of shape (n, 2)");
-    let pairs: Vec<[Bound<'_, PyAny>; 2]> = value.extract().map_err(|_| PyTypeError::new_err(shape))?;
+    let pairs: Vec<[Bound<'_, PyAny>; 2]> = typed(name, value, "points (x, value), an array of shape (n, 2)")?;
     pairs.iter().map(|[x, v]| Ok((written("x", x)?, written(name, v)?))).collect()
 }
 
-/// The physics in exact numbers, checked.
+/// A problem, with the accuracy, the title and the units of its scene.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct Problem {
     pub(crate) problem: dalembert::Problem,
@@ -34,7 +55,7 @@ pub(crate) struct Problem {
 
 #[pymethods]
 impl Problem {
-    /// A problem from its values by name or from a scene in TOML, and other values in place of some, in order.
+    /// Builds a problem from its values by name or from a scene in TOML, and then replaces some values, in order.
     #[new]
     #[pyo3(signature = (first, *replaced))]
     fn new(first: &Bound<'_, PyAny>, replaced: Vec<Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -54,61 +75,49 @@ impl Problem {
         Ok(made)
     }
 
-    /// Its numbers and profiles by the names of the constructor, as they are spelt; what is absent is left out.
-    fn values(&self) -> (Vec<(&'static str, String)>, Vec<Spelt>) {
-        let dalembert::Problem { rod, gravity, start, run } = &self.problem;
-        let mut numbers = vec![("length", Some(&rod.length))];
-        match &rod.material {
-            Material::WaveSpeed(speed) => numbers.push(("wave_speed", Some(speed))),
-            Material::Elastic { modulus, density, area } => {
-                numbers.extend([("modulus", Some(modulus)), ("density", Some(density)), ("area", area.as_ref())]);
-            }
-        }
-        numbers.extend([("damping", rod.damping.as_ref()), ("gravity", gravity.as_ref())]);
-        let mut profiles = vec![];
-        match start {
-            Start::Uniform(Speed::Given(speed)) => numbers.push(("impact_speed", Some(speed))),
-            Start::Uniform(Speed::DropHeight(height)) => numbers.push(("drop_height", Some(height))),
-            Start::Above { gap, speed } => numbers.extend([("impact_speed", Some(speed)), ("gap", Some(gap))]),
-            Start::Profile(profile) => {
-                profiles = vec![("displacement", &profile.displacement), ("velocity", &profile.velocity)];
-                profiles.retain(|(_, points)| !points.is_empty());
-            }
-        }
-        let text = |(name, number): (_, Option<&Number>)| Some((name, number?.to_string()));
-        let mut numbers: Vec<(&'static str, String)> = numbers.into_iter().filter_map(text).collect();
-        numbers.push(match run {
-            Run::Impacts(impacts) => ("impacts", impacts.to_string()),
-            Run::Time(time) => ("time", time.to_string()),
+    fn facts(&self) -> PyResult<Facts> {
+        let problem = &self.problem;
+        let given = Parameter::ALL.iter().map(|parameter| Given {
+            name: parameter.name(),
+            path: parameter.path(),
+            number: parameter.given(problem).map(|number| number.to_string()),
+            points: parameter
+                .list(problem)
+                .into_iter()
+                .flatten()
+                .map(|(x, v)| [x.to_string(), v.to_string()])
+                .collect(),
         });
-        let points = |(name, points): (_, &Vec<(Number, Number)>)| {
-            (name, points.iter().map(|(x, value)| [x.to_string(), value.to_string()]).collect())
-        };
-        (numbers, profiles.into_iter().map(points).collect())
+        let parameters = Parameters::<f64>::of(problem, &()).map_err(refuse)?;
+        let groups = problem.dimensionless();
+        Ok(Facts {
+            given: given.filter(|given| given.number.is_some() || !given.points.is_empty()).collect(),
+            has_fixed_top: problem.rod.top == Top::Fixed,
+            title: self.title.clone(),
+            units: UnitSystem::ALL.iter().find(|(_, system)| *system == self.units).map_or("", |(word, _)| word),
+            accuracy: self.accuracy,
+            wave_speed: parameters.wave_speed,
+            round_trip: parameters.round_trip(),
+            damping_ratio: groups.damping_ratio,
+            speed_ratio: groups.speed_ratio,
+        })
     }
 
-    /// Whether the upper end is held; the title of the scene.
-    fn about(&self) -> (bool, Option<&str>) {
-        (self.problem.rod.top == Top::Fixed, self.title.as_deref())
-    }
-
-    /// `c`, `t₁`, `R`, `M`, in doubles; `M` is infinite without gravity and `None` where the start is not uniform.
-    fn parameters(&self) -> PyResult<(f64, f64, f64, Option<f64>)> {
-        let rod = Parameters::<f64>::of(&self.problem, &()).map_err(refuse)?;
-        let groups = self.problem.dimensionless();
-        Ok((rod.wave_speed, rod.round_trip(), groups.damping_ratio, groups.speed_ratio))
-    }
-
-    /// Solves it, in the numbers that are asked for, through the first contact alone or the whole run.
+    /// Solves the problem in the numbers that are asked for, through the first contact alone or the whole run.
     fn solve(
         &self,
         py: Python<'_>,
-        digits: Option<i64>,
-        exact: bool,
-        certified: bool,
-        accuracy: Option<f64>,
-        first_contact: bool,
+        digits: &Bound<'_, PyAny>,
+        exact: &Bound<'_, PyAny>,
+        certified: &Bound<'_, PyAny>,
+        accuracy: &Bound<'_, PyAny>,
+        first_contact: &Bound<'_, PyAny>,
     ) -> PyResult<History> {
+        let flag = |name: &str, value: &Bound<'_, PyAny>| typed::<bool>(name, value, "True or False");
+        let (exact, certified) = (flag("exact", exact)?, flag("certified", certified)?);
+        let first_contact = flag("first_contact", first_contact)?;
+        let digits: Option<i64> = typed("digits", digits, "an integer or None")?;
+        let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
         let count = |digits| {
             let refused = |_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}"));
             u32::try_from(digits).map_err(refused)
@@ -126,54 +135,57 @@ impl Problem {
         }
         let question = if first_contact { Question::first_contact(numbers) } else { Question::run(numbers) };
         let (problem, stop) = (self.problem.clone(), Arc::default());
-        let solved = (problem.clone(), Units::of(&problem, self.units));
         let observe = observer(&stop);
         // The plan may already take long: it foresees the digits that a chaotic run loses.
-        let solution = run(py, &stop, move || Plan::of(&problem, &question)?.solve_typed(&problem, observe))?;
-        Ok(History::new(solution, solved, stop))
+        let history = run(py, &stop, move || Plan::of(&problem, &question)?.solve(&problem, observe))?;
+        Ok(History::new(history.in_units(self.units), stop))
     }
 }
 
 /// A value of a problem, as a builder takes it.
 #[derive(Clone)]
-pub(crate) enum Given {
-    Number(Written),
+pub(crate) enum Setting {
+    Number(Parameter, Written),
     Displacement(Vec<(Written, Written)>),
     Velocity(Vec<(Written, Written)>),
     Top(Top),
 }
 
-impl Given {
-    /// The value of this name.
-    pub(crate) fn of(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(match name {
-            "displacement" => Given::Displacement(points(name, value)?),
-            "velocity" => Given::Velocity(points(name, value)?),
-            "top" => Given::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            _ if Builder::numbers().any(|known| known == name) => Given::Number(written(name, value)?),
-            _ => {
-                let known = Builder::numbers().collect::<Vec<_>>().join(", ");
-                let expected = format!("one of {known}, displacement, velocity, top");
-                return Err(PyTypeError::new_err(format!("found the unknown value `{name}`, expected {expected}")));
+impl Setting {
+    /// Reads the value of this name.
+    pub(crate) fn new(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let parameter = name.parse().map_err(|error: UnknownName| PyTypeError::new_err(error.to_string()))?;
+        Ok(match parameter {
+            Parameter::Displacement(None) => Setting::Displacement(points(name, value)?),
+            Parameter::Velocity(None) => Setting::Velocity(points(name, value)?),
+            Parameter::Top => Setting::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
+            Parameter::Displacement(Some(_)) | Parameter::Velocity(Some(_)) => {
+                return Err(PyTypeError::new_err(format!("found {name}, expected all points of {}", parameter.name())));
             }
+            _ => Setting::Number(parameter, written(name, value)?),
         })
     }
 
-    pub(crate) fn set(self, builder: Builder, name: &str) -> Builder {
+    pub(crate) fn apply(self, builder: Builder) -> Builder {
         match self {
-            Given::Number(number) => builder.named(name, number),
-            Given::Displacement(points) => builder.displacement(points),
-            Given::Velocity(points) => builder.velocity(points),
-            Given::Top(top) => builder.top(top),
+            Setting::Number(parameter, number) => builder.set(parameter, number),
+            Setting::Displacement(points) => builder.displacement(points),
+            Setting::Velocity(points) => builder.velocity(points),
+            Setting::Top(top) => builder.top(top),
         }
     }
 }
 
-/// The problem of a builder with all of `values` set.
+/// Returns the message for a name that no parameter has; `None` for a name that one has.
+#[pyfunction]
+pub(crate) fn unknown_parameter(name: &str) -> Option<String> {
+    name.parse::<Parameter>().err().map(|error| error.to_string())
+}
+
+/// Returns the problem of a builder with all of `values` set.
 fn set(mut builder: Builder, values: &Bound<'_, PyDict>) -> PyResult<dalembert::Problem> {
     for (name, value) in values {
-        let name: String = name.extract()?;
-        builder = Given::of(&name, &value)?.set(builder, &name);
+        builder = Setting::new(&name.extract::<String>()?, &value)?.apply(builder);
     }
     builder.build().map_err(refuse)
 }

@@ -1,4 +1,4 @@
-//! The same numbers of many problems.
+//! Sweeps: the same numbers of many problems.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -8,44 +8,53 @@ use dalembert::{Numbers, Quantity};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::number::written;
-use super::problem::{Given, Problem};
-use super::{refuse, run};
+use super::argument::{names, number, refuse, typed};
+use super::problem::{Problem, Setting};
+use super::run;
 
 /// Values and bounds of one quantity, point by point.
 type Column = (Py<PyArray1<f64>>, Py<PyArray1<f64>>);
-/// What is said of points, by their index.
+/// Notes on points, by their index.
 type Notes = Vec<(usize, String)>;
 
-/// Values and bounds of each quantity, and a note for each point that has one.
+/// The answers of a sweep.
+#[derive(IntoPyObject)]
+pub(crate) struct Swept(Vec<&'static str>, Vec<Column>, Notes);
+
+/// Returns the names of the quantities, values and bounds of each, and a note for each point that has one.
 #[pyfunction]
 pub(crate) fn sweep(
     py: Python<'_>,
     base: &Bound<'_, PyAny>,
-    quantities: Vec<String>,
+    quantities: &Bound<'_, PyAny>,
     time: Option<&Bound<'_, PyAny>>,
-    accuracy: Option<f64>,
+    accuracy: &Bound<'_, PyAny>,
     varied: Vec<(String, Vec<Bound<'_, PyAny>>)>,
-) -> PyResult<(Vec<Column>, Notes)> {
+) -> PyResult<Swept> {
     let base = base.cast::<Problem>()?.get();
     let single = |name: &String| {
-        let known = || Quantity::singles().map(|quantity| quantity.name()).collect::<Vec<_>>().join(", ");
-        Quantity::single(name).ok_or_else(|| refuse(format!("found quantity `{name}`, expected one of {}", known())))
+        Quantity::single(name).ok_or_else(|| {
+            let known: Vec<&str> = Quantity::singles().map(Quantity::name).collect();
+            let meant = dalembert::nearest(name, known.iter().copied());
+            let meant = meant.map_or_else(String::new, |meant| format!(" (did you mean {meant}?)"));
+            refuse(format!("found the quantity `{name}`, expected one of {}{meant}", known.join(", ")))
+        })
     };
-    let quantities = quantities.iter().map(single).collect::<PyResult<Vec<_>>>()?;
-    let time = time.map(|time| written("time", time)?.number().cloned().map_err(refuse)).transpose()?;
-    let mut columns: Vec<(String, Vec<Given>)> = Vec::new();
+    let quantities = names("quantities", quantities)?.iter().map(single).collect::<PyResult<Vec<_>>>()?;
+    let time = time.map(|time| number("time", time)).transpose()?;
+    let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
+    let mut columns: Vec<Vec<Setting>> = Vec::new();
     for (name, values) in varied {
-        let values = values.iter().map(|value| Given::of(&name, value)).collect::<PyResult<_>>()?;
-        columns.push((name, values));
+        let values = values.iter().map(|value| Setting::new(&name, value)).collect::<PyResult<_>>()?;
+        columns.push(values);
     }
-    let count = columns.first().map_or(1, |column| column.1.len());
+    let count = columns.first().map_or(1, Vec::len);
     let numbers = Numbers::Double(accuracy.or(base.accuracy));
     let (start, stop) = (base.problem.clone(), Arc::new(AtomicBool::new(false)));
-    let (asked, seen) = (quantities.len(), stop.clone());
+    let (names, seen): (Vec<_>, _) = (quantities.iter().map(|quantity| quantity.name()).collect(), stop.clone());
     let cells = run(py, &stop, move || {
         let problem = |k: usize| {
-            let set = |builder, (name, values): &(String, Vec<Given>)| values[k].clone().set(builder, name);
+            let set = |builder, values: &Vec<Setting>| values[k].clone().apply(builder);
             columns.iter().fold(start.to_builder(), set).build()
         };
         let go_on = || if seen.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -58,11 +67,12 @@ pub(crate) fn sweep(
     };
     let mut notes = Vec::new();
     for (k, cells) in cells.iter().enumerate() {
-        let mut said: Vec<&str> = cells.iter().filter_map(|cell| cell.note()).collect();
-        said.dedup();
-        if !said.is_empty() {
-            notes.push((k, said.join("; ")));
+        let mut texts: Vec<&str> = cells.iter().filter_map(|cell| cell.note()).collect();
+        texts.dedup();
+        if !texts.is_empty() {
+            notes.push((k, texts.join("; ")));
         }
     }
-    Ok(((0..asked).map(column).collect(), notes))
+    let columns = (0..names.len()).map(column).collect();
+    Ok(Swept(names, columns, notes))
 }

@@ -1,6 +1,7 @@
 """`compare` gives what the command reports, bit for bit, whatever form the data have."""
 
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ T = np.arange(5.0)
 def run(tmp_path_factory):
     """A scheme's data, off in clock and size: in a file, and as columns."""
     t = np.linspace(0, 6, 401)
-    data = dalembert.solve(SCENE, to=7).columns(["u_end", "v_end", "force", "E_total"], t * 0.99, "right")
+    data = dalembert.solve(SCENE, to=7).columns(t * 0.99, ["u_end", "v_end", "force", "E_total"], "right")
     data = {"t": t} | {name: values * 1.01 for name, values in data.items()}
     path = tmp_path_factory.mktemp("data") / "run.csv"
     rows = zip(*(values.tolist() for values in data.values()))
@@ -39,7 +40,7 @@ def test_the_report_is_that_of_the_command(command, run, tmp_path):
 def test_a_wrong_clock_is_said(run):
     _, data = run
     t = np.linspace(0, 6, 401)
-    true = dalembert.solve(SCENE, to=6).columns(list(data)[1:], t, "right")
+    true = dalembert.solve(SCENE, to=6).columns(t, list(data)[1:], "right")
     hints = dalembert.compare(SCENE, {"t": 1.03 * t} | dict(true), to=6).hints
     assert [hint["kind"] for hint in hints] == ["clock"] and hints[0]["value"] == pytest.approx(0.03, rel=0.2)
 
@@ -111,6 +112,29 @@ def test_limits_are_those_of_the_command(command, run, tmp_path):
             c.fails_above(limits)
 
 
+def test_comparisons_are_pickled(run):
+    """Results, limits and arrays come back, from arrays and from files, through a worker of Dask too."""
+    path, data = run
+    for source in (data, path):
+        c = dalembert.compare(SCENE, source, to=6, fit=["wave_speed"])
+        again = pickle.loads(pickle.dumps(c))
+        assert again.report == c.report and again.table() == c.table() and again.warnings == c.warnings
+        np.testing.assert_array_equal(again.difference["force"], c.difference["force"])
+        limits = {"u": {"l2": 0.001}}
+        assert again.fails_above(limits) == c.fails_above(limits) != []
+    elsewhere = pickle.dumps(dalembert.compare(SCENE, path, to=6))
+    path.rename(path.with_suffix(".moved"))
+    try:  # The results do not need the file.
+        assert pickle.loads(elsewhere).norms["u_end"]["l2"]["relative"] > 0
+    finally:
+        path.with_suffix(".moved").rename(path)
+    dask = pytest.importorskip("dask.distributed")
+    with dask.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        with dask.Client(cluster) as client:
+            found = client.submit(dalembert.compare, SCENE, data, to=6).result()
+    assert found.report == dalembert.compare(SCENE, data, to=6).report
+
+
 def of(values, **options):
     return lambda: dalembert.compare(ROD, T, values, **{"quantity": "u", **options})
 
@@ -130,6 +154,14 @@ def of(values, **options):
         (ValueError, "found axis = left, expected up or down", of(T, axis="left")),
         (ValueError, "found dt 0, expected more than zero", lambda: dalembert.compare(ROD, {"u": T}, dt=0)),
         (ValueError, "cannot be read", lambda: dalembert.compare(ROD, "nowhere.csv")),
+        (TypeError, "found map = 3, of type int, expected a text such as", of(T, map=3)),
+        (TypeError, r"found widths = 0.1, of type float, expected a sequence of numbers", of(T, widths=0.1)),
+        (TypeError, r"found fit = 3, of type int, expected a name or a sequence of names", of(T, fit=3)),
+        (TypeError, r"found fit = \[1\], of type list, expected a name", of(T, fit=[1])),
+        (TypeError, r"found shift = \[\], of type list, expected a number", of(T, shift=[])),
+        (ValueError, "found `dampng`, expected some of length", of(T, fit="dampng")),
+        (TypeError, "found limits = 3, of type int, expected a mapping", lambda: of(T)().fails_above(3)),
+        (TypeError, "found the limit u.l2 = 'x', of type str", lambda: of(T)().fails_above({"u": {"l2": "x"}})),
         (AttributeError, "one of files", lambda: dalembert.compare(ROD, [{"t": T, "u": T}] * 2).norms),
     ],
 )

@@ -60,7 +60,6 @@ dalembert.solve("paper-strong", exakt=True)
 SKIPPED = """
 [mypy]
 strict = true
-allow_untyped_calls = true
 [mypy-dask.*,distributed.*,matplotlib.*,pandas.*,xarray.*]
 follow_imports = skip
 ignore_missing_imports = true

@@ -1,8 +1,8 @@
-//! The start from a bounce: the first contact in closed form up to the characteristic that leaves the ground at `t_b`.
+//! State after the first contact: from its closed form to the characteristic that leaves the ground at `t_b`.
 //!
-//! Nothing that happens at the ground after `t_b` reaches a point with `ξ = t − x/c < t_b`, so there the closed form,
-//! which goes on as if the end were held, is the motion, and its limit from `ξ < t_b` is the state from which the cells
-//! go on: the rays that come up jump in `p` alone, and `q` is continuous across them.
+//! No event at the ground after `t_b` reaches a point with `ξ = t − x/c < t_b`. So at such points the motion is the
+//! closed form, which continues as if the end were held. Its limit from `ξ < t_b` is the initial state of the cells:
+//! only `p` jumps at upward rays, and `q` is continuous across them.
 
 use std::collections::VecDeque;
 
@@ -22,12 +22,12 @@ pub(super) struct Held<S> {
     contact: FirstContact<Estimate<S>>,
     /// `t_b`.
     pub(super) release: S,
-    /// A bound of the motion from the release on, where that is as good as none.
+    /// Bound of the motion from the release on, if the vibration has faded to a negligible size.
     faded: Option<f64>,
 }
 
 impl<S: RoundedSpecial> Held<S> {
-    /// The motion up to `release`, in the units of the problem. A release within rounding of a lattice time is there.
+    /// Builds the motion up to `release`, in the units of the problem; rounds a release near a lattice time to it.
     pub(super) fn until(contact: &FirstContact<Estimate<S>>, data: &Data<S>, release: &S) -> Self {
         let trips = release.clone() / &data.units.time;
         let near = (trips.clone() + trips.ratio(1, 2)).floor_int();
@@ -39,13 +39,13 @@ impl<S: RoundedSpecial> Held<S> {
         }
     }
 
-    /// `p`, `q` of `z` at a point with `ξ ≤ t_b ≤ t`, and a bound of the error of either.
+    /// Computes `p`, `q` of `z` at a point with `ξ ≤ t_b ≤ t`, and a bound of the error of either.
     pub(super) fn invariants(&self, data: &Data<S>, x: &S, t: &S, side: Side) -> (S, S, f64) {
         if let Some(most) = self.faded {
             return (x.zero(), x.zero(), most);
         }
         let Scales { time, velocity: unit, length, wave_speed, .. } = &data.units;
-        // Within eight roundings of a ray is on it.
+        // A point within eight roundings of a ray counts as on the ray.
         let [point, time] = [x.clone() * x.int(2) * length, t.clone() * time].map(|at| Estimate::rounded(at, 8.0));
         let field = self.contact.field(&point, &time, side);
         let error = (field.velocity.bound() + wave_speed.to_f64() * field.strain.bound()) / unit.to_f64();
@@ -55,7 +55,7 @@ impl<S: RoundedSpecial> Held<S> {
         (velocity.clone() - &z_x, velocity + z_x, error)
     }
 
-    /// The parts of `from ≤ x ≤ to` at time `t` between rays of the first contact, those of more than a rounding.
+    /// Returns the parts of `from ≤ x ≤ to` at time `t` between rays of the first contact, if longer than a rounding.
     pub(super) fn between_rays(&self, t: &S, from: &S, to: &S) -> Vec<(S, S)> {
         if to <= from {
             return Vec::new();
@@ -76,8 +76,8 @@ impl<S: RoundedSpecial> Held<S> {
         cuts.windows(2).filter(long).map(|pair| (pair[0].clone(), pair[1].clone())).collect()
     }
 
-    /// The state on the characteristic that leaves the ground at `t_b`, and a bound of its error: from cells since the
-    /// impact where the contact is short, otherwise from the closed form if that is known better.
+    /// Computes the state on the characteristic that leaves the ground at `t_b`, and a bound of its error: by cells
+    /// from the impact on if the contact is short, otherwise by the closed form if its bound is smaller.
     pub(super) fn state(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
         let (trips, [surely, most]) = (self.release.to_f64(), MARCHED_TRIPS);
         if !medium.splits() || trips > most {
@@ -91,7 +91,7 @@ impl<S: RoundedSpecial> Held<S> {
         if closed.1 < marched.1 { closed } else { marched }
     }
 
-    /// That state from cells.
+    /// Computes that state by cells.
     fn marched(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
         let mut state = data.march(medium, &mut |_| {});
         let mut error = FIRST_CELLS * medium.cell_error(&state);
@@ -109,14 +109,14 @@ impl<S: RoundedSpecial> Held<S> {
             medium.strip(&mut state, true, &mut |_| {});
             error += (2.0 + (segments - state.segments.len()) as f64) * cell;
         }
-        // The place of the release itself, not that to which the strips have added up.
+        // The place is that of the release itself; the sum of the strips differs by roundings.
         state.segments[0].at = self.release.clone() - self.release.int(state.round);
         (state, error)
     }
 
-    /// The same from the closed form.
+    /// Computes that state from the closed form.
     ///
-    /// Between the rays `q` is of the form that the module `cell` says lasts, so the medium's number of terms serves.
+    /// Between the rays `q` keeps the form given in the module `cell`, so the medium's number of terms suffices.
     fn closed(&self, medium: &Medium<S>, data: &Data<S>) -> (State<S>, f64) {
         let release = &self.release;
         let round = release.floor_int().unwrap_or(0);

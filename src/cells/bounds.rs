@@ -1,4 +1,4 @@
-//! The answers of a damped run: every number with the bound that the run has carried to its time.
+//! Values of a damped run, each with the bound that the run has at its time.
 
 use super::budget::AtEvent;
 use super::history::Damped;
@@ -11,21 +11,21 @@ use crate::special::RoundedSpecial;
 
 /// Bounds near a time, in the units of the problem.
 struct Bounds {
-    /// Of displacements, as far as the events are in time.
+    /// Bound for displacements, apart from the time error of events.
     rise: f64,
-    /// Of `h` likewise.
+    /// Bound for `h`, apart from the time error of events.
     centre: f64,
     speed: f64,
-    /// Of that of the end.
+    /// Bound for the velocity of the end.
     end: f64,
     strain: f64,
-    /// Of `h′`.
+    /// Bound for `h′`.
     rate: f64,
     late: f64,
 }
 
 impl Bounds {
-    /// The less in all, and the greater lateness.
+    /// Returns the smaller bounds of both, but the greater time error.
     fn min(self, other: &Bounds) -> Bounds {
         Bounds {
             rise: self.rise.min(other.rise),
@@ -40,13 +40,13 @@ impl Bounds {
 }
 
 impl<S: RoundedSpecial> Damped<S> {
-    /// The run with its contacts and the bounds of its events, which are there without them.
+    /// Adds the contacts, and the bounds of the events.
     ///
-    /// **Errors**: those of a question at an event.
+    /// **Errors**: those of a query at an event.
     pub(super) fn with_bounds(mut self) -> Result<Self, Error> {
         let event = |(k, event): (usize, &Event<Estimate<S>>)| {
             let Bounds { centre, end, rate, late, .. } = self.at_event(k);
-            // As the rod lies on the ground, and as it leaves without a jump of the stress, is proved to be zero.
+            // A zero is proved where the rod lies on the ground, and where it leaves without a jump of the stress.
             let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
             let (moves, push) = (event.h_rate.to_f64().abs(), self.push(event.t.value(), late)?);
             Ok(Event {
@@ -75,8 +75,8 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self)
     }
 
-    /// What the impulse of a contact may be off by: by the balance of momentum between two events that are followed, or
-    /// by the stress, `−c² ∫ v_x dt`, where rays that are off within the contact move the end by their masses.
+    /// Bounds the error of the impulse of a contact: by the balance of momentum between two followed events, or by the
+    /// stress, `−c² ∫ v_x dt`, where displaced rays within the contact move the end by their masses.
     fn impulse_off(&self, impact: usize) -> f64 {
         let Scales { velocity, wave_speed: c, length, gravity, .. } = self.scales;
         let (from, to) = (&self.course.events[impact].t, self.course.events.get(impact + 1).map(|event| &event.t));
@@ -90,7 +90,7 @@ impl<S: RoundedSpecial> Damped<S> {
         by_momentum.unwrap_or((last - from.to_f64()) * speed * c + 2.0 * rise * c)
     }
 
-    /// The event at this very time, which is not spelled.
+    /// Returns the event at exactly this time, unless the time is given as text.
     fn event_at(&self, time: &Estimate<S>) -> Option<usize> {
         let events = &self.course.events;
         if time.spelled_as().is_some() {
@@ -100,7 +100,7 @@ impl<S: RoundedSpecial> Damped<S> {
         events.get(next).filter(|event| event.t.value() == time.value()).map(|_| next)
     }
 
-    /// How far values near a time may be off.
+    /// Returns the error bounds of values near a time.
     fn uncertainty(&self, time: &S) -> Uncertainty {
         let since = self.course.events.partition_point(|event| event.t.value() <= time);
         let lost = since.checked_sub(1).is_some_and(|last| self.course.events[last].t_error.is_infinite());
@@ -109,7 +109,7 @@ impl<S: RoundedSpecial> Damped<S> {
         if lost { Uncertainty { rise: none, speed: none, rate: none, ..found } } else { found }
     }
 
-    /// The bounds near a time; at that of an event, which has the bound of the event, those of the event itself.
+    /// Returns the bounds near a time, or those of an event at its time if that carries the bound of the event.
     fn near(&self, time: &Estimate<S>) -> Bounds {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
@@ -129,26 +129,26 @@ impl<S: RoundedSpecial> Damped<S> {
         }
     }
 
-    /// What velocities between rays, and `c v_x`, change by at most in so long.
+    /// Bounds the change of velocities and of `c v_x` between rays during `late`.
     fn change(&self, time: &S, late: f64) -> f64 {
         self.uncertainty(time).slope * late / self.scales.time * self.scales.velocity
     }
 
-    /// How far the time meant may be from the one that is stored, where that is more than rounding: of a proved run,
-    /// which is asked about enclosures.
+    /// Bounds the distance of the true time from the stored one, if it exceeds rounding; zero in a run that is not
+    /// proved, as only proved runs are queried at enclosures.
     fn apart(&self, time: &Estimate<S>) -> f64 {
         let rounding = 8.0 * time.value().unit() * time.to_f64();
         if self.proved { (time.bound() - rounding).max(0.0) } else { 0.0 }
     }
 
-    /// What that makes of `E_z`, and of the kinetic and the strain energy alone, per ρS.
+    /// Bounds the effect of that distance on `E_z`, and on the kinetic and the strain energy alone, per ρS.
     ///
     /// With M a bound of `|v_t|`, `|c v_x|`, `|h′|`: the ends take at most `c M²`, damping `2rL M²` and gravity `gL M`
     /// from the energy, and `L|h′h″| ≤ M (2cM + 2rLM + gL)`. Each part alone is `½ ∫ f² dx`: between rays f changes at
-    /// most at the rate s, and rays, which jump by J in all, move at c: at most `L M s + c M J`.
+    /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
         let apart = self.apart(time);
-        // At an event its own bounds count.
+        // An event has bounds of its own.
         if apart == 0.0 || self.event_at(time).is_some() {
             return [0.0; 2];
         }
@@ -159,15 +159,15 @@ impl<S: RoundedSpecial> Damped<S> {
         [apart * whole, apart * most * velocity * (length * slope / trip + c * jumps)]
     }
 
-    /// The bounds at an event: those of the contact that it begins or ends, whenever that is; but its time is rounded.
-    /// Where they are those of equal times, the event itself is off.
+    /// Returns the bounds at an event, whatever its true time: those of the contact that it begins or ends. Its time is
+    /// rounded. If the bounds are those at equal times, the time error of the event is added.
     fn at_event(&self, event: usize) -> Bounds {
         let events = &self.course.events;
         let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
         let found = self.uncertainty(events[contact].t.value());
         let Event { t: time, t_error: time_error, .. } = &events[event];
         let rounding = 8.0 * time.value().unit() * time.to_f64();
-        // Where the time may be off without bound, so may all else already.
+        // If the time error is unbounded, the other bounds already are too.
         let equal_times = found.late == 0.0 && time_error.is_finite();
         let off = if equal_times { *time_error } else { 0.0 };
         let near = self.scaled(Uncertainty { late: (off + rounding) / self.scales.time, ..found });
@@ -187,7 +187,7 @@ impl<S: RoundedSpecial> Damped<S> {
         Bounds { rise, centre: rise, speed, end: speed, strain, rate, late: late * time }
     }
 
-    /// Whether the rod has yet to touch the ground, and moves as a whole: a fixed top stops it from the start on.
+    /// Returns whether the rod still moves as a whole, before it touches; a fixed top stops it from the start on.
     fn is_rigid(&self, time: &Estimate<S>) -> bool {
         let touches = self.course.events.first();
         let before = |event: &Event<Estimate<S>>| time.to_f64() + time.bound() < event.t.to_f64() - event.t_error;
@@ -195,7 +195,7 @@ impl<S: RoundedSpecial> Damped<S> {
         self.data.rigid && (time.value().is_zero() || flies)
     }
 
-    /// What the force of the ground makes of `h′` while events are `late`: `h″ = −c² v_x(0,t)/L`.
+    /// Bounds the change of `h′` by the force of the ground during the time error `late`: `h″ = −c² v_x(0,t)/L`.
     fn push(&self, time: &S, late: f64) -> Result<f64, Error> {
         let Scales { length, wave_speed, .. } = &self.scales;
         // The last event may be a rounding beyond the end.
@@ -203,45 +203,45 @@ impl<S: RoundedSpecial> Damped<S> {
         let time = if time > end { end } else { time };
         let strain = |side| self.strain_of(time, side).map(|strain| strain.to_f64().abs());
         let right = strain(Side::Right)?;
-        // Before the start there is nothing.
+        // The start has no left limit.
         let most = strain(Side::Left).map_or(right, |left| left.max(right));
         Ok(late * wave_speed * (wave_speed * most + self.change(time, late)) / length)
     }
 
-    /// A displacement and its rate of change.
+    /// Attaches the bounds near a time to a displacement and its rate of change.
     fn moved(&self, time: &Estimate<S>, place: &S, rate: &S) -> [Estimate<S>; 2] {
         let near = self.near(time);
         [within(place, near.rise + near.late * rate.to_f64().abs()), within(rate, near.speed)]
     }
 
-    /// How far the root of a mean square may be off: what the ground gives to the centre of mass it takes from the
-    /// vibration, or not, while contact is in doubt.
+    /// Bounds the error of the root of a mean square: while contact is in doubt, the vibration may or may not lose what
+    /// the ground gives to the centre of mass.
     fn root_off(&self, time: &Estimate<S>) -> Result<f64, Error> {
         let near = self.near(time);
         Ok(near.speed + self.push(time.value(), near.late)?)
     }
 
-    /// `L s²/2` of a root mean square s that is `off` by so much: at most `L (2s + off) off`.
+    /// Bounds the error of `L s²/2` for the error `off` of a root mean square s: at most `L (2s + off) off`.
     fn square_off(&self, root: f64, off: f64) -> f64 {
         self.scales.length * (2.0 * root + off) * off
     }
 
-    /// What an energy is off by where the root of the mean square is `off` between rays, and where rays are off in
-    /// time: `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the
+    /// Bounds the error of an energy for the error `off` of the root of its mean square between rays, and for displaced
+    /// rays: `¼ ∫ |δp| (2|p| + |δp|) + |δq| (2|q| + |δq|) dx ≤ M ∫ |δp| + |δq| dx`, as `|δq|` is at most twice the
     /// greatest `|q|`, M; and half of the integral is at most `rise`.
     fn energy_off(&self, energy: &S, off: f64, by_rays: f64) -> f64 {
         self.square_off((2.0 * energy.to_f64().max(0.0) / self.scales.length).sqrt(), off) + by_rays
     }
 
-    /// The second part of [`Self::energy_off`].
+    /// Computes the second part of [`Self::energy_off`].
     fn by_rays(&self, time: &Estimate<S>) -> f64 {
         let Uncertainty { peak, .. } = self.uncertainty(time.value());
         2.0 * peak * self.scales.velocity * self.scales.wave_speed * self.near(time).rise
     }
 }
 
-/// **Accuracy**: *within its own bound*, away from rays that are themselves off in time. A time that is asked about is
-/// taken as it is stored; one within rounding of an event stands for the event, whenever that is.
+/// **Accuracy**: *within its own bound*, away from displaced rays. The stored value of a time is taken as exact; a time
+/// within rounding of an event stands for the event, whatever its true time.
 impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn course(&self) -> &Course<Estimate<S>> {
         &self.course
@@ -258,7 +258,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             if !self.proved {
                 return bounded_piece(piece, strain);
             }
-            // In flight there is none; and what begins or ends with a ray is off with it.
+            // The strain is zero in flight; a piece that begins or ends with a ray is displaced with it.
             let Scales { time, velocity, wave_speed, .. } = self.scales;
             let shifted = found.slope * found.rays * velocity / wave_speed;
             let off = if piece.chebyshev.is_empty() { 0.0 } else { strain + shifted };
@@ -276,7 +276,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         let time = meant(&self.course.events, time);
         let strain = self.strain_of(time.value(), side)?;
-        // Before the start, and in flight.
+        // A zero strain before the start or in flight is exact.
         let known = self.proved && strain.is_zero() && self.presses(time.value(), side) != Some(true);
         Ok(within(&strain, if known { 0.0 } else { self.near(time).strain }))
     }
@@ -317,7 +317,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                 let off = self.energy_off(&vibration, self.root_off(time)?, self.by_rays(time));
                 [within(&translational, by_centre), within(&vibration, off + apart)]
             }
-            // Of each mean square as of the vibration.
+            // Each mean square has the error bound of the vibration.
             Pair::EnergyParts => {
                 let [_, apart] = self.energies_apart(time);
                 let (off, by_rays) = (self.root_off(time)?, self.by_rays(time));
@@ -329,7 +329,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let time = meant(&self.course.events, time);
         let field = self.field_of(point.value(), time.value(), side)?;
-        // A point that is an enclosure is as if the time were one, but for `c` and for what is integrated to it.
+        // An error of the point acts as a time error, up to the factor `c` and the integral up to the point.
         let (placed, c) = (self.apart(point), self.scales.wave_speed);
         let near = self.near(&wider(time.clone(), placed / c));
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
@@ -342,23 +342,24 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         self.data.given.corners.iter().map(S::carry).collect()
     }
 
-    /// The integrals of `v_t` and `v_x` over a cell of a grid, with the weights 1 and `(x − a)/h`, are sums over
-    /// Gauss–Legendre nodes between rays and points; those of v follow by parts from `v(0,t)` and `v_x`. With `M`
-    /// (`most`) a bound of `|v_t|`, `|c v_x|`:
+    /// Integrates `v_t` and `v_x` over the cells of a grid, with the weights 1 and `(x − a)/h`, by sums over
+    /// Gauss–Legendre nodes between rays and points; the integrals of v follow by parts from `v(0,t)` and `v_x`. `M`
+    /// (`most`) is a bound of `|v_t|`, `|c v_x|`.
     ///
-    /// **Accuracy**: of `v_t`, and of `c v_x` too, within `h (speed + late · slope + 2^{a+1} M) + c (rise + 2M late)`.
-    /// Between rays it is off as a value is, and the rule leaves `2^{a+1} M`, as a side is a polynomial of as many
-    /// terms as the rule is exact for, and a rest of `2^a M`. Half of what displaced rays have in mass is at most
-    /// `rise`. Where all events are late by δ, so are all rays: `v_tt = c² v_xx − 2r v_t − g`, integrated over the cell
-    /// with its weight φ and over δ, gives `c² [φ v_x]` and `c² ∫ φ′ v_x`, at most `2cMδ`, and what `late · slope`
-    /// counts; for `v_x` it is `∫ (φ v_t)_x − φ′ v_t`, at most `2Mδ`. A point that is off by δ/c does no more.
-    /// Displacements are off by `rise + late · M` at every x, and by what the rule leaves of `∫ v_x` below.
+    /// **Accuracy**: for `v_t`, and for `c v_x` too, within `h (speed + late · slope + 2^{a+1} M) + c (rise + 2M
+    /// late)`. Between rays the integrand has the error of a value, and the rule adds `2^{a+1} M`, as a side is a
+    /// polynomial of as many terms as the rule is exact for, and a remainder of `2^a M`. Half of the mass of displaced
+    /// rays is at most `rise`. If all events are late by δ, so are all rays: `v_tt = c² v_xx − 2r v_t − g`, integrated
+    /// over the cell with its weight φ and over δ, gives `c² [φ v_x]` and `c² ∫ φ′ v_x`, at most `2cMδ`, and the part
+    /// counted in `late · slope`; for `v_x` it is `∫ (φ v_t)_x − φ′ v_t`, at most `2Mδ`. A point that is off by `cδ`
+    /// adds no more. Displacements are off by `rise + late · M` at every x, and by the error of the rule for `∫ v_x`
+    /// below.
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
         let time = meant(&self.course.events, time);
         let placed = points.iter().fold(0.0, |most: f64, point| most.max(point.bound()));
         let points: Vec<S> = points.iter().map(|point| point.value().clone()).collect();
         let lines = self.lines(time.value(), &points)?;
-        // What the rule leaves, relative to the greatest integrand and the length.
+        // Error of the rule, relative to the greatest integrand and the length.
         let left_out = 2.0 * self.medium.log2_accuracy.exp2();
         let [height, _] = self.ground_of(time.value(), Side::Left)?;
         let [_, rate] = self.centre_of(time.value())?;
@@ -403,7 +404,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
         let (time, height) = self.turn_after(release)?;
-        // dt*/dh′ = 1/(g + 2rh′); and what the height loses there is of second order.
+        // dt*/dh′ = 1/(g + 2rh′); the resulting error of the height is of second order.
         let (Bounds { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
         let late = self.course.events[release].t_error + rate / gravity;
         Some((within(&time, late), within(&height, rise + gravity * late * late)))
@@ -417,7 +418,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 }
 
-/// A piece of stress whose strain is off by so much. The bound is that of the whole; the first coefficient carries it.
+/// Attaches the bound `strain` to a piece of stress: to its ends, and as a bound of the whole to its first coefficient.
 pub(super) fn bounded_piece<S: Rounded>(piece: StressPiece<S>, strain: f64) -> StressPiece<Estimate<S>> {
     let coefficient = |(k, c)| within(c, if k == 0 { strain } else { 0.0 });
     StressPiece {

@@ -13,21 +13,20 @@
 //! P(ξ,η) = Σ_k (κ²η)ᵏ/k! (Jᵏ P(·,0))(ξ)  −  κ Σ_k (κ²ξ)ᵏ/k! (Jᵏ⁺¹ Q(0,·))(η)           J = ∫₀
 //! ```
 //!
-//! because `∫ F₀(κ²ξ(η−s)) Q(s) ds = Σ (κ²ξ)ᵏ/k!² ∫ (η−s)ᵏ Q(s) ds` and repeated integration is Cauchy's formula.
-//! In Chebyshev coefficients `J` has two diagonals, so a cell costs as many operations as it has coefficients, times
-//! the few terms of the sum. At `r = 0` the cell hands on what it was given, exactly, and nowhere is anything divided
-//! by `r`.
+//! because `∫ F₀(κ²ξ(η−s)) Q(s) ds = Σ (κ²ξ)ᵏ/k!² ∫ (η−s)ᵏ Q(s) ds` and repeated integration is Cauchy's formula. In
+//! Chebyshev coefficients `J` has two diagonals, so a cell costs one operation per coefficient, times the few terms of
+//! the sum. At `r = 0` the outgoing data are the incoming data, exactly; no formula divides by `r`.
 //!
 //! ## Sup norm
 //! `|p|, |q| ≤ M` on the incoming sides gives `|p|, |q| ≤ M` in the cell: the majorant system `P_η = κQ`, `Q_ξ = κP`
-//! with data `M e^{κs}` has the solution `M e^{κ(ξ+η)}`. Reflections `p = ±q` keep it. So errors of `p`, `q` never
-//! grow, and what is made in one cell adds once along a path of cells.
+//! with data `M e^{κs}` has the solution `M e^{κ(ξ+η)}`. Reflections `p = ±q` keep the bound. So errors of `p`, `q`
+//! never grow, and the error of one cell counts once along each path of cells.
 //!
 //! ## Entire sides
 //! If moreover `|P̂(s)| ≤ (a + b|s|) e^{κ|s|}` for complex `s` on an incoming side, and `|q| ≤ a`, then the outgoing
 //! side obeys the same bound with the same `a`, `b`: by the majorant, and because data `b ξ e^{κξ}` alone give at most
-//! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the start is of
-//! that form, so one number of Chebyshev terms, from [`super::series::terms_for`], serves a side for ever.
+//! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the initial data
+//! have that form, so one number of Chebyshev terms, from [`super::series::terms_for`], suffices for a side for ever.
 
 use std::sync::LazyLock;
 
@@ -45,11 +44,11 @@ pub(super) struct Cell<'a, S> {
     pub(super) depth: (S, S),
     pub(super) p: &'a [S],
     pub(super) q: &'a [S],
-    /// What `p` lacks and `q` has too much: the stress-free ground end is reflected about it.
+    /// Amount to add to `p` and to subtract from `q`: the reflection at the stress-free ground end is about this value.
     pub(super) offset: S,
 }
 
-/// How many terms of `Σ yᵏ/k!²` beyond the first reach `2^log2_accuracy`, `y ≥ 0`.
+/// Returns the number of terms of `Σ yᵏ/k!²` beyond the first that reach the accuracy `2^log2_accuracy`, `y ≥ 0`.
 ///
 /// `‖Jᵏ‖ ≤ 1/k!` on the unit interval, so the terms of the formula above are at most `yᵏ/k!²` of the data; for `y ≤ 1`
 /// each is less than half of the one before it, so the first one below half the accuracy bounds the rest.
@@ -66,7 +65,7 @@ pub(super) fn terms(y: f64, log2_accuracy: f64) -> usize {
     k.saturating_sub(1)
 }
 
-/// Turns incoming `p` and `q` into outgoing ones, each referred to the new corner.
+/// Replaces the incoming `p` and `q` by the outgoing ones, each referred to the new corner.
 pub(super) fn cross<S: Rounded>(
     basis: &Basis<S>,
     (p, q): (&mut Vec<S>, &mut Vec<S>),
@@ -97,7 +96,7 @@ pub(super) fn cross<S: Rounded>(
     scale(q, decay_a);
 }
 
-/// `target += factor · series`, as far as `target` goes.
+/// Adds `factor · series` to `target`, truncated to the length of `target`.
 pub(super) fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
     for (t, s) in target.iter_mut().zip(series) {
         *t = s.clone() * factor + &*t;
@@ -110,8 +109,8 @@ pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
     }
 }
 
-/// `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in `terms`
-/// terms.
+/// Computes `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in
+/// `terms_kept` terms.
 pub(super) fn diagonal<S: Rounded>(
     basis: &Basis<S>,
     q: &[S],
@@ -131,7 +130,7 @@ pub(super) fn diagonal<S: Rounded>(
         add_scaled(&mut u, &next, &mirrored);
         layers.push(std::mem::replace(&mut u, next));
     }
-    // Σ_k (yx)ᵏ/k! layer_k, by Horner's rule.
+    // Horner's rule for Σ_k (yx)ᵏ/k! layer_k.
     let mut sum = vec![depth.zero(); terms_kept.max(q.len())];
     for (k, layer) in layers.into_iter().enumerate().rev() {
         if k < count {
@@ -144,7 +143,7 @@ pub(super) fn diagonal<S: Rounded>(
 }
 
 impl<S: Rounded> Cell<'_, S> {
-    /// `p` and `q` of `z` at points `ξ`, `η` of the cell.
+    /// Computes `p` and `q` of `z` at the points `(ξ, η)` of the cell.
     pub(super) fn at(&self, basis: &Basis<S>, points: &[(S, S)], log2_accuracy: f64) -> Vec<(S, S)> {
         let (a, h) = (&self.depth.0, &self.depth.1);
         let place = |(xi, eta): &(S, S)| {
@@ -154,7 +153,7 @@ impl<S: Rounded> Cell<'_, S> {
         let y = a.clone() * h;
         let count = terms(y.to_f64(), log2_accuracy).min(basis.powers.len() - 1);
         let (mut u, mut w) = (self.p.to_vec(), self.q.to_vec());
-        // p, q, and (κ²ξ)ᵏ/k!, (κ²η)ᵏ/k!.
+        // The sums of p and q, and the factors (κ²ξ)ᵏ/k!, (κ²η)ᵏ/k!.
         let mut sums = vec![[y.zero(), y.zero(), y.one(), y.one()]; points.len()];
         let (mut at_x, mut at_e) = (evaluate_all(&u, &xs), evaluate_all(&w, &es));
         for k in 0..=count {

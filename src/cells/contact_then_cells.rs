@@ -1,4 +1,4 @@
-//! The paper's rod from the first contact on: closed form while the contact lasts, cells after it.
+//! The paper's rod from the first contact on: closed form during the contact, cells after it.
 
 use super::bounds::bounded_piece;
 use super::effort::{Effort, MOST_DIGITS, Task};
@@ -13,8 +13,8 @@ use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
 use crate::special::RoundedSpecial;
 
-/// The damped rod that starts as the paper's does, through any number of impacts: [`ContactHistory`] as long as the
-/// first contact lasts, [`Damped`] from the bounce on.
+/// The damped rod with the paper's initial data, through any number of impacts: [`ContactHistory`] during the first
+/// contact, [`Damped`] from the bounce on.
 ///
 /// **Source**: Theorem 1 and the closed forms of section 3 until `t_b`; the characteristic cells of `cells`
 /// after it.
@@ -28,15 +28,15 @@ pub struct ContactThenCells<S> {
     march: Option<Damped<S>>,
     course: Course<Estimate<S>>,
     error: S,
-    /// What a strain of the first contact may be off by where nothing else bounds it.
+    /// Bound of a strain of the first contact without a bound of its own.
     strain: f64,
 }
 
-/// What answers at a time, and the time that it is asked about.
+/// The solution valid at a time, and the time to query it at.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
 
 impl<S: RoundedSpecial> ContactThenCells<S> {
-    /// Follows `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
+    /// Solves `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
     /// scales.
     ///
     /// **Errors**: those of [`Damped::solve`].
@@ -49,7 +49,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, bounce, None)
     }
 
-    /// The same of a `task`; `rate` is `h′` at the bounce where it is known better than here.
+    /// Solves a `task` in the same way; `rate` is a better value of `h′` at the bounce, if known.
     pub(crate) fn march(
         task: &Task<'_, S>,
         bounce: Bounce<Estimate<S>>,
@@ -60,7 +60,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(history)
     }
 
-    /// The first contact alone, and no flight.
+    /// Solves the first contact alone, without a flight.
     pub(crate) fn first_contact(
         problem: &Problem,
         precision: &S::Precision,
@@ -77,7 +77,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let error = round_trip.double(17.0) * round_trip.roundoff() + round_trip.double(time_error) / &round_trip;
         let Scales { velocity, wave_speed, .. } = contact.scales().map(|scale| scale.to_f64());
         let strain = error.to_f64() * velocity / wave_speed;
-        // A peak that is only approached has no bound of its own that falls with more bits.
+        // The bound of a peak that is only approached does not fall with more bits.
         let bounded =
             |found: Contact<Estimate<S>>| Contact { peak_strain: within(found.peak_strain.value(), strain), ..found };
         let contacts = known.contacts.into_iter().map(bounded).collect();
@@ -85,7 +85,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(ContactThenCells { error, strain, march: None, course, contact })
     }
 
-    /// The flight and all that comes after it, from the cells.
+    /// Appends the flight and all later motion, from the cells.
     fn follow(&mut self, task: &Task<'_, S>, rate: Option<Estimate<S>>) -> Result<(), Error> {
         let (Some(rebound), Some(release)) = (self.contact.rebound(), self.course.events.get(1)) else { return Ok(()) };
         if task.effort.digits > MOST_DIGITS {
@@ -110,12 +110,12 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(())
     }
 
-    /// `t_b`.
+    /// Returns `t_b`.
     fn bounce(&self) -> Option<&S> {
         self.contact.events().get(1).map(|release| release.t.value())
     }
 
-    /// The cells, where they answer at a time; the closed form has the bounce itself.
+    /// Returns the cells if they are valid at `time`; the closed form includes the bounce itself.
     ///
     /// **Errors**: [`Error::TimeOutside`].
     fn later(&self, time: &Estimate<S>) -> Result<Option<&Damped<S>>, Error> {
@@ -126,7 +126,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(self.march.as_ref().filter(|_| self.bounce().is_some_and(|bounce| time > bounce)))
     }
 
-    /// What answers at a time, and the time as it is asked about: the closed form takes it as it is stored.
+    /// Returns the solution valid at a time, and the time to query: the closed form takes the stored time as exact.
     fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
@@ -147,7 +147,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
         let bounded = |piece: StressPiece<Estimate<S>>| {
-            // Between the rays its own bounds hardly change.
+            // The bounds at both ends of a piece stand for those between: they hardly change between rays.
             let own = |time: &Estimate<S>, side| {
                 self.contact.strain(&time.value().carry(), side).map_or(0.0, |strain| strain.bound())
             };
@@ -158,7 +158,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         if let (Some(march), Some(bounce)) = (&self.march, self.bounce()) {
             let first = pieces.len();
             pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.end.value() > bounce));
-            // The flight begins where the closed form ends, and its stress is zero: the cells' errors are not in it.
+            // The flight begins where the closed form ends, and its stress is zero, without the errors of the cells.
             if let Some(flight) = pieces.get_mut(first) {
                 *flight = bounded_piece(flight.clone().map(Estimate::into_value), self.strain);
                 flight.start = within(bounce, 0.0);

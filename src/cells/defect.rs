@@ -1,12 +1,12 @@
-//! What one step of a run may be off by: the difference of what is stored after it and the exact image of what is
+//! Defect of one step of a run: the difference between the state stored after the step and the exact image of the state
 //! stored before it, bounded from the sizes of stored coefficients alone.
 //!
 //! **Rounding.** A step is a chain of sums and products of its inputs with constants. If no path from an input to the
-//! result has more than n roundings of u each, the result is off by at most `1.01 n u` times what the same chain gives
-//! of absolute values, as long as `n u < 0.01`. Sums of absolute coefficients do not grow by integration from 0 to x,
-//! by a product with `x` or `xᵏ`, and bound a function on its interval.
-//! **What is left out.** The coefficients that integration, products and interpolation drop, from the same recurrences
-//! in absolute values; and the rests of Riemann's and Taylor's sums. `docs/proofs.md` has the constants one by one.
+//! result has more than n roundings of u each, the error of the result is at most `1.01 n u` times the same chain of
+//! absolute values, as long as `n u < 0.01`. Sums of absolute coefficients do not grow by integration from 0 to x or by
+//! a product with `x` or `xᵏ`, and bound a function on its interval. **Truncation.** The coefficients that integration,
+//! products and interpolation drop follow from the same recurrences in absolute values; the remainders of Riemann's and
+//! Taylor's sums are added. `docs/proofs.md` lists all constants.
 
 use super::cell::{Cell, terms};
 use super::leap::LeapCount;
@@ -15,22 +15,22 @@ use super::series::{bound, left_by};
 use crate::number::Rounded;
 use crate::special::RoundedSpecial;
 
-/// More than doubles lose by underflow in a step; far below a rounding of the longest numbers that are allowed.
+/// Bound of the underflow of doubles in a step; far below a rounding of the longest numbers that are allowed.
 const FLOOR: f64 = 1e-290;
-/// `Σ yᵏ/k!` for `y ≤ 1`, and more.
+/// Upper bound of `Σ yᵏ/k!` for `y ≤ 1`.
 const E: f64 = 3.0;
 
-/// What the steps in a medium may be off by.
+/// Bounds of the defects of steps in a medium.
 #[derive(Clone, Debug)]
 pub(super) struct Steps {
     pub(super) unit: f64,
     kappa: f64,
     log2_accuracy: f64,
-    /// The most terms of a series.
+    /// Maximum number of terms of a series.
     pub(super) size: f64,
-    /// Of the weights that give `h′` and `z(0)`: what so many terms leave out.
+    /// Truncation errors, by number of terms, of the weights that give `h′` and `z(0)`.
     weights: Vec<f64>,
-    /// Of `h′` along a characteristic, `e^{κs}` times it, the same.
+    /// Truncation errors, by number of terms, of `e^{κs} h′` along a characteristic.
     falls: Vec<f64>,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn sizes<S: Rounded>(c: &[S]) -> Vec<f64> {
     c.iter().map(|term| term.to_f64().abs()).collect()
 }
 
-/// `∫₀ˣ` of absolute values, and a bound of what the dropped term makes of the function.
+/// Integrates absolute values from 0 to x, and returns a bound of the dropped term as a function.
 fn integrate(c: &mut [f64]) -> f64 {
     let n = c.len();
     let left = c[n - 1] / n as f64;
@@ -52,7 +52,7 @@ fn integrate(c: &mut [f64]) -> f64 {
     left
 }
 
-/// The product of absolute values with x, and the term that is dropped.
+/// Multiplies absolute values by x, and returns the dropped term.
 fn times_x(c: &mut [f64]) -> f64 {
     let left = c.last().map_or(0.0, |last| last / 2.0);
     let mut below = 0.0;
@@ -65,21 +65,22 @@ fn times_x(c: &mut [f64]) -> f64 {
     left
 }
 
-/// `Σ_{i+j ≥ from} |a_i||b_j|`, where `b` is given by what so many of its terms leave.
+/// Computes `Σ_{i+j ≥ from} |a_i||b_j|`, where `rest` bounds the sum of the terms of `b` from an index on.
 fn beyond(a: &[f64], rest: impl Fn(usize) -> f64, from: usize) -> f64 {
     a.iter().enumerate().map(|(i, a)| a * rest(from.saturating_sub(i))).sum()
 }
 
-/// How many roundings a value of the series with such coefficients is off by.
+/// Bounds the error, in roundings, of a value of the series with coefficients of these sizes.
 ///
 /// Clenshaw's recurrence `b_k = 2y b_{k+1} − b_{k+2} + c_k`, `|y| ≤ 1`, rounds by `6|b_{k+1}| + 2|b_{k+2}| + |c_k|` at
-/// most, which is as if `c_k` were off; with `|b_k| ≤ Σ_{j≥k} (j−k+1)|c_j|` that makes `Σ (2j+1)²|c_j|`. A node is off
-/// by 15 of them, where `T_j(2x−1)` has slopes of `2j²`.
+/// most, which is equivalent to an error of `c_k`; with `|b_k| ≤ Σ_{j≥k} (j−k+1)|c_j|` the sum is `Σ (2j+1)²|c_j|`. A
+/// node is off by 15 roundings, where `T_j(2x−1)` has slopes of `2j²`.
 fn values(c: &[f64]) -> f64 {
     c.iter().enumerate().map(|(j, c)| (38.0 * (j * j) as f64 + 1.0) * c).sum()
 }
 
-/// Coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, and half of it each time.
+/// Bounds the sum of the coefficients of `e^{z x}` from the n-th on, `|z| ≤ 2`: `|c_k| ≤ 2e^{|z|} (|z|/4)ᵏ/k!`, each at
+/// most half of the one before.
 fn exponential_rest(z: f64, n: usize) -> f64 {
     let mut term = 4.0 * z.abs().exp();
     for k in 1..=n {
@@ -103,12 +104,12 @@ impl Steps {
         self.log2_accuracy.exp2()
     }
 
-    /// Of coefficients through values of this size, each off by so many roundings of it.
+    /// Bounds the error of coefficients through values of size `most`, each off by `roundings` roundings of it.
     fn through(&self, most: f64, roundings: f64) -> f64 {
         2.0 * self.size * (self.size + 64.0 + roundings) * self.unit * most
     }
 
-    /// Of a series through the values of another on part of its interval: a value is off by [`values`].
+    /// Bounds the error of a series through values of another on part of its interval, each off by [`values`].
     fn anew(&self, c: &[f64]) -> f64 {
         let size: f64 = c.iter().sum();
         2.0 * self.size * self.unit * values(c) + self.through(size, 0.0)
@@ -118,19 +119,20 @@ impl Steps {
         2.0 * self.size * self.unit * (of_b * values(a) + of_a * values(b)) + self.through(of_a * of_b, 0.0)
     }
 
-    /// Of both outgoing sides of a cell; and the greatest of the incoming ones.
+    /// Bounds the defect of both outgoing sides of a cell; also returns the size of the greater incoming side.
     pub(super) fn cell<S: RoundedSpecial>(&self, medium: &Medium<S>, cell: &Cell<'_, S>) -> (f64, f64) {
         let y = cell.depth.0.to_f64() * cell.depth.1.to_f64();
         let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
         let (mut p, mut q) = (sizes(cell.p), sizes(cell.q));
         let (of_p, of_q): (f64, f64) = (p.iter().sum(), q.iter().sum());
         let (short_p, short_q) = (p.len(), q.len());
-        // What J^{k+1} lacks enters with yᵏ/k! and less; its value at the end, at most 1/(k+1)! of the data, with it.
+        // The missing part of J^{k+1}, and its value at the end, at most 1/(k+1)! of the data, enter with yᵏ/k! or
+        // less.
         let (mut left, mut factor, mut whole) = (self.accuracy() * (of_p + of_q), 1.0, 1.0);
         for k in 0..=count {
             left += 2.0 * E * factor * (integrate(&mut p) + integrate(&mut q));
             whole /= (k + 1) as f64;
-            // Powers that have more terms than the side.
+            // Powers with more terms than the side.
             for (short, other) in [(short_p, of_q), (short_q, of_p)] {
                 if k >= short {
                     left += factor * whole * other * bound(&medium.basis.powers[k], short);
@@ -144,7 +146,7 @@ impl Steps {
         (left + 2.0 * E * paths * self.unit * (of_p + of_q) + shifted + FLOOR, of_p.max(of_q))
     }
 
-    /// Of `factor · e^{z x}` in n terms.
+    /// Bounds the error of `factor · e^{z x}` in n terms.
     fn grown(&self, factor: f64, z: f64, n: usize) -> f64 {
         factor * (3.0 * exponential_rest(z, n) + self.through(E, 32.0))
     }
@@ -153,7 +155,7 @@ impl Steps {
         least * size + self.through(38.0 * self.size * size, 0.0)
     }
 
-    /// Of cutting a segment, but for what the two parts leave out.
+    /// Bounds the defect of cutting a segment, apart from the truncation of the two parts.
     pub(super) fn cut<S: RoundedSpecial>(&self, segment: &Segment<S>) -> f64 {
         2.0 * self.anew(&sizes(&segment.q)) + FLOOR
     }
@@ -175,7 +177,7 @@ impl Steps {
         let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
         let mut sum = vec![0.0; u.len()];
         let mut layers = Vec::with_capacity(count + 1);
-        // A layer enters with yᵏ/k!, and what the next one lacks with κ len of that.
+        // A layer enters with yᵏ/k!, and the missing part of the next one with κ len of that.
         let mut factor = 1.0;
         for k in 0..=count {
             let mut next = u.clone();
@@ -195,7 +197,7 @@ impl Steps {
             sum.iter_mut().zip(layer).for_each(|(sum, c)| *sum += c);
         }
         off += 2.0 * self.accuracy() * norm + 2.0 * E * (count as f64 + 2.0) * (self.size + 24.0) * self.unit * norm;
-        // Its product with e^{−2κ len x}, in so many terms.
+        // The product with e^{−2κ len x}, truncated to `kept` terms.
         let rest = |n: usize| exponential_rest(2.0 * depth, n);
         let kept = medium.terms(&segment.len, 4.0);
         let lost = beyond(&sum, rest, kept) + 3.0 * rest(self.size as usize) * norm;
@@ -205,16 +207,16 @@ impl Steps {
         off + 2.0 * lost + product + 4.0 * self.unit * medium.slope.to_f64().abs()
     }
 
-    /// Of `h′` and of `h` over a strip, whose first terms are of this size.
+    /// Bounds the error of `h′` and of `h` over a strip, whose first terms have the size `first`.
     pub(super) fn rigid(&self, len: f64, first: f64) -> f64 {
         let fall = 4.0 * self.kappa * len;
         let n = self.size as usize;
-        // x^k has 2^{1−2k} at its end: Taylor's terms beyond the series.
+        // The series of x^k ends with 2^{1−2k}, which bounds Taylor's terms beyond the series.
         let beyond = (1..n).fold(64.0, |term, k| term * fall / (4.0 * k as f64));
         first * fall.exp() * (self.accuracy() + beyond + 16.0 * (self.size + 16.0).powi(2) * self.unit) + FLOOR
     }
 
-    /// Of `h′` or `z(0)` as weighed means of `q`, where functions of x of this size may be part of it.
+    /// Bounds the error of `h′` or `z(0)` as weighted means of `q`, which may contain functions of size `shifts`.
     pub(super) fn weighed<S: RoundedSpecial>(&self, state: &State<S>, shifts: f64) -> f64 {
         let n = self.size as usize;
         let rest = |n: usize| self.weights[n];
@@ -230,7 +232,7 @@ impl Steps {
         2.0 * state.segments.iter().map(of).sum::<f64>() + FLOOR
     }
 
-    /// Of adding functions of x of this size to `q`.
+    /// Bounds the defect of adding functions of x of this size to `q`.
     pub(super) fn shift<S: RoundedSpecial>(&self, state: &State<S>, size: f64) -> f64 {
         let of = |segment: &Segment<S>| {
             let len = segment.len.to_f64();
@@ -241,8 +243,8 @@ impl Steps {
         state.segments.iter().map(of).sum::<f64>() + FLOOR
     }
 
-    /// Of the first state, through values that are rounded data of this size over pieces of the rod no shorter than
-    /// `least`.
+    /// Bounds the defect of the first state, through values that are rounded data of this size over pieces of the rod
+    /// no shorter than `least`.
     pub(super) fn start<S: RoundedSpecial>(&self, state: &State<S>, size: f64, least: f64) -> f64 {
         let size = 64.0 * size;
         let of = |segment: &Segment<S>| {
@@ -252,8 +254,8 @@ impl Steps {
         2.0 * state.segments.iter().map(of).sum::<f64>() + FLOOR
     }
 
-    /// What a leap makes at most of `|q|`, and of the height that it is given: of its parts in absolute values, where
-    /// an antiderivative of mean zero is at most half of a function.
+    /// Bounds the factor by which a leap amplifies `|q|` and the height it is given: the sum of its parts in absolute
+    /// values, where an antiderivative of mean zero is at most half of a function.
     fn gain(&self, count: &LeapCount, trips: f64) -> f64 {
         let r = 2.0 * self.kappa;
         let lag = 2.0 * (1.0 - (1.0 - r * r / 4.0).max(0.0).sqrt());
@@ -265,18 +267,18 @@ impl Steps {
         64.0 * turn * (4.0 * self.kappa + lag * (1.0 + trips)).exp()
     }
 
-    /// Of a leap from a state of this size; `stray` is the `h′` that it still has, with what the height is off by.
+    /// Bounds the defect of a leap from a state of this size; `stray` bounds its remaining `h′` and the height's error.
     pub(super) fn leap(&self, count: &LeapCount, trips: f64, (segments, size): (usize, f64), stray: f64) -> f64 {
         let (n, order, layers) = (self.size, count.order as f64, count.layers as f64);
         let powers = count.powers as f64;
-        // Besides the antiderivatives that the circle counts there are those from q to Z and back.
+        // The antiderivatives from q to Z and back are added to those that the circle counts.
         let integrals = count.integrals + 4.0;
         let paths = 64.0 * n * (segments as f64 + 3.0) * (n + 8.0) * integrals + powers * (order + 8.0);
         let left = 64.0 * (trips + layers + 16.0) * self.accuracy() + self.passed(count.powers, trips);
         self.gain(count, trips) * ((paths * self.unit + left) * size + count.dropped * (1.0 + size) + stray) + FLOOR
     }
 
-    /// What the powers of `D⁻¹` beyond so many leave out of `e^{nG}`: by Cauchy's estimate on a circle within `1/R`,
+    /// Bounds the truncation of `e^{nG}` after `powers` powers of `D⁻¹`: by Cauchy's estimate on a circle within `1/R`,
     /// with `‖D⁻ᵏ‖ ≤ 1.39 · 0.18ᵏ`.
     fn passed(&self, powers: usize, trips: f64) -> f64 {
         const INVERSE: f64 = 0.18;

@@ -1,35 +1,35 @@
-//! What is followed, and how much is computed of it.
+//! Limits of the computation, and the task of a run.
 
 use std::ops::ControlFlow;
 
 use crate::number::Scalar;
 use crate::problem::Problem;
 
-/// How much is computed of a run at most.
+/// Limits of a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
-    /// Decimal digits of the natural scales that cells are marched to.
+    /// Decimal digits, relative to the natural scales, to which cells are marched.
     pub(crate) digits: f64,
-    /// Cells that are crossed.
+    /// Maximum number of cells crossed.
     pub(crate) cells: u64,
-    /// Whether the run is given up where its bounds no longer tell the events apart.
+    /// Whether the run stops once its bounds no longer separate the events.
     pub(crate) until_lost: bool,
 }
 
 impl Effort {
-    /// So many digits, however many cells they take.
+    /// Returns the effort for `digits` digits without a limit of cells.
     pub(super) fn of(digits: f64) -> Self {
         Effort { digits, cells: u64::MAX, until_lost: false }
     }
 }
 
-/// Digits beyond which nothing is marched.
+/// Maximum number of digits of a march.
 pub(crate) const MOST_DIGITS: f64 = 300.0;
-/// A first contact of up to so many round trips is marched over; one of up to the second of them is if the march knows
-/// it better than the closed form.
+/// Round-trip limits for marching over a first contact: always up to the first limit, and up to the second if the march
+/// is more accurate than the closed form.
 pub(crate) const MARCHED_TRIPS: [f64; 2] = [4.0, 64.0];
 
-/// What is followed: a problem in numbers of a precision, how much may be computed, and who is told how far a run is.
+/// Input of a run: the problem, the precision of its numbers, the limits, and an observer of its progress.
 pub(crate) struct Task<'a, S: Scalar> {
     pub(crate) problem: &'a Problem,
     pub(crate) precision: &'a S::Precision,
@@ -37,9 +37,9 @@ pub(crate) struct Task<'a, S: Scalar> {
     pub(crate) observe: &'a dyn Fn(usize, usize) -> ControlFlow<()>,
 }
 
-/// The most strips that are followed: some hundred megabytes.
+/// Maximum number of strips of a run: some hundred megabytes.
 pub(super) const MOST_PIECES: usize = 400_000;
-/// The most segments of a round trip.
+/// Maximum number of segments of a round trip.
 pub(super) const MOST_SEGMENTS: usize = 4096;
-/// The fewest round trips that are leapt over: a leap costs about as much as two of them.
+/// Minimum number of round trips of a leap, which costs about as much as two of them.
 pub(super) const LEAST_LEAP: f64 = 3.0;

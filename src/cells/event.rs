@@ -1,4 +1,4 @@
-//! What an event does to the state, and to the bound of its error.
+//! Effects of an event on the state and on its error bound.
 
 use super::account::Proof;
 use super::budget::{AtEvent, LEAP_CELLS, MOST_LATE, weight_rest};
@@ -12,14 +12,14 @@ use crate::motion::EventKind;
 use crate::reason::{Near, Warning};
 use crate::special::RoundedSpecial;
 
-/// Where something is open, it is looked for how long in steps that grow from this part of a strip.
+/// First step, in strips, of the search for the extent of an undecided stretch; later steps are longer.
 const SMALLEST_STEP: f64 = 1e-12;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// How far a root in the strip may be off: the error of the function, and `vague` more, over its slope, or the root
-    /// of twice the error over the second derivative if that is less. Where the function bends back, up to twice the
-    /// former. What Clenshaw's sum rounds, at most `(k + 2)u` of each coefficient, counts where the strip is long and
-    /// the hop is short.
+    /// Computes the error of a root in the strip: the error of the function plus `vague` over its slope, or the square
+    /// root of twice that error over the second derivative if this is less. If the function bends back, the former
+    /// grows by a factor of up to two. The rounding of Clenshaw's sum, at most `(k + 2)u` of each coefficient, matters
+    /// where the strip is long and the hop is short.
     pub(super) fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64();
@@ -31,22 +31,22 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let rounding = x.log2_roundoff().exp2() * roundings;
             (self.height_error(strip * x.to_f64()), vague + rounding, at(trace), at(&first) / strip)
         };
-        // Where the event is: rounding of the place in the strip.
+        // Rounding of the place in the strip.
         let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
         let (bends_back, slope, curvature) = (slope * curvature < 0.0, slope.abs(), curvature.abs());
-        // The part of s²/2c, the depth at which it bends back, that the error is.
+        // The error as a fraction of s²/2c, the depth at which the function bends back.
         let part = |error: f64| 2.0 * curvature * (error + more) / (slope * slope);
         let off = |error: f64| {
             let back = if bends_back { 2.0 / (1.0 + (1.0 - part(error)).max(0.0).sqrt()) } else { 1.0 };
             (back * (error + more) / slope).min((2.0 * (error + more) / curvature).sqrt()) + place
         };
-        // The clock that times are counted in is off itself.
+        // The clock of the run has an error of its own.
         let late = self.budget.clock(self.contact);
         Off { fixed: off(error.fixed), apart: off(error.apart) + late }
     }
 
-    /// An impact where this strip begins, at a ray that may be off by `ray`; as [`Follower::land`]. The end has come
-    /// as close to the ground as the noise, and reaches it a little later.
+    /// Carries out an impact at the beginning of this strip, at a ray with the time error `ray`; otherwise as
+    /// [`Follower::land`]. The end is within the noise of the ground, and reaches it a little later.
     pub(super) fn land_at_ray(&mut self, goal: &Goal<S>, ray: Off, trace: &[S], height: &[S], len: &S) -> bool {
         let zero = len.zero();
         let left = at_zero(height, &zero).to_f64().abs();
@@ -55,7 +55,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.land(goal, off)
     }
 
-    /// An impact now; whether it is the one after the last that was asked for.
+    /// Carries out an impact now; returns whether it comes after the last one requested, which ends the run.
     pub(super) fn land(&mut self, goal: &Goal<S>, off: Off) -> bool {
         if let Goal::Impacts(count) = goal
             && self.landed >= *count
@@ -70,15 +70,15 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         false
     }
 
-    /// The roundings of t₁ and of the time now: a ray of the start is off by no more.
+    /// Returns the roundings of t₁ and of the present time, which bound the time error of a ray from the initial data.
     fn rounding(&self) -> f64 {
         let time = self.state.time();
         4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64())
     }
 
-    /// Turns contact into flight or back, now. A release at a root of the trace, which has this `slope` there, has
-    /// velocity zero. Where the end only touches the ground and a ray arrives at that very time, the velocity is the
-    /// one that the ray brings.
+    /// Changes contact into flight or flight into contact, now. A release at a root of the trace, where the trace has
+    /// this `slope`, has velocity zero. If the end only touches the ground and a ray arrives at that very time, the
+    /// velocity is that of the ray.
     pub(super) fn event(&mut self, off: Off, slope: Option<f64>) {
         let zero = self.height.zero();
         let kind = if self.contact { EventKind::Release } else { EventKind::Impact };
@@ -124,29 +124,29 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// What values may be off by at the event that has just happened, where flights are taken apart.
+    /// Returns the error bounds of values at the event that has just occurred, if flights are separated.
     pub(super) fn at_event(&self) -> Option<AtEvent> {
         let (slope, _, variation) = self.medium.variation(&self.state);
         let begins = self.flying().map(|_| (slope, variation, self.bend()));
         self.medium.splits().then(|| self.budget.at_event(begins))
     }
 
-    /// `z_tt` of the end from now on, in a flight that is taken apart.
+    /// Computes `z_tt` of the end just after the present time in a separated flight.
     fn bend(&self) -> f64 {
         let (first, zero) = (&self.state.segments[0], self.height.zero());
         at_zero(&derivative(&self.medium.trace(&self.state, false)), &zero).to_f64() / first.len.to_f64()
     }
 
-    /// The ground lets go, with this velocity, at a root of the stress with this slope or at a ray: p goes over from −q
-    /// to q, too early or too late by what the time is off.
+    /// Releases the end with this velocity, at a root of the stress with this slope or at a ray: p changes from −q to
+    /// q, early or late by the time error.
     pub(super) fn let_go(&mut self, velocity: &S, off: Off, slope: Option<f64>) {
         self.budget.let_go(velocity.to_f64().abs(), off, self.cell_error);
         self.take_off(velocity, off, slope);
         self.note_slope();
     }
 
-    /// How fast velocities change between rays: `q` by its slope and by damping, and the static state by gravity. And
-    /// how great they and strains may be: as `q`, the centre of mass and the static state are.
+    /// Records bounds of the slopes of velocities between rays (`q` by its slope and by damping, the static state by
+    /// gravity), and of velocities and strains (those of `q`, the centre of mass and the static state).
     pub(super) fn note_slope(&mut self) {
         let rate = self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let moving = self.state.bound() + rate;
@@ -168,7 +168,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let whole = self.landing.as_ref().is_some_and(|(landing, at)| *landing + 1 == round && *at == first);
         self.ground = self.height.clone() - &flight.height;
         let (velocity, rate) = (velocity.to_f64(), flight.rate.to_f64());
-        // In contact p = −q, and the last q is the last trace.
+        // The contact has p = −q, and the last q is the last trace.
         let last = self.last_trace.as_ref().map_or(self.state.bound(), S::to_f64);
         let fall = -self.medium.gravity.to_f64() - 2.0 * self.damping() * rate;
         let begins = TakeOff {
@@ -190,7 +190,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.weigh();
     }
 
-    /// The ground is hit: what is off in time is the ray that starts.
+    /// Lands the end: the ray that starts carries the time error.
     fn touch_down(&mut self, velocity: &S, off: Off) {
         let speed = velocity.to_f64().abs();
         self.landing = Some((self.state.round, self.state.segments[0].at.clone()));
@@ -223,8 +223,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.flight = None;
     }
 
-    /// Counts a landing that the bound does not tell apart from a ray that passes: between the two the end may rise for
-    /// as long, now or whenever both return. A landing without speed starts no ray.
+    /// Counts a landing that the bound does not separate from a passing ray: between the two the end may rise for as
+    /// long, now and whenever both return. A landing without speed starts no ray.
     fn compare_rays(&mut self, speed: f64, off: Off) {
         let off = self.budget.better(off);
         let segments = &self.state.segments;
@@ -238,8 +238,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// The ground holds or lets go at the ray that arrives now: that is open where the stress on either side of it is
-    /// within its bound of zero.
+    /// Records an undecided release at the ray that arrives now: the stress on either side of the ray is within its
+    /// bound of zero.
     pub(super) fn note_open_ray(&mut self, trace: &[S]) {
         let off = self.trace_error();
         let after = at_zero(trace, &self.height.zero()).to_f64();
@@ -249,18 +249,18 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// Compares what the ground feels in this strip, until `left` from now, with the bound of its error: see
-    /// [`super::near`]. Whether that leaves open what happens; the bounds of the rest of the run include both.
+    /// Tests the motion of the ground end in this strip, until `left` from now, against its error bound, as in
+    /// [`super::near`]. Returns whether an event is undecided; the bounds of the rest of the run include both outcomes.
     pub(super) fn note_open(&mut self, trace: &[S], height: &[S], fresh: bool, left: f64) -> bool {
         let (basis, len) = (&self.medium.basis, self.state.segments[0].len.to_f64());
-        // Without damping events lie on rays by construction; such runs belong to the lattice.
+        // Without damping events lie on rays by construction; the lattice computes such runs.
         if self.medium.kappa.is_zero() {
             return false;
         }
         let off = self.trace_error();
         if self.contact {
             let begins = fresh && self.pieces.is_empty();
-            // What a ray leaves open at the beginning is counted already.
+            // A release undecided at the ray that begins the strip is counted already.
             let open = open_release(basis, trace, off, begins).filter(|at| at * len < left);
             if let Some(at) = open.filter(|at| fresh || *at > 0.0) {
                 self.note_open_release(trace, at, off);
@@ -273,7 +273,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let Some(at) = open.filter(|at| at * len < left) else { return false };
         let at_ray = at == 0.0 && !fresh;
         let before = self.last_trace.as_ref().filter(|_| at_ray).map_or(0.0, S::to_f64);
-        // As long as the end may lie on the ground: p is −q there, and q in flight.
+        // The stretch on which the end may lie on the ground: p is −q there, and q in flight.
         let value = |c: &[S], x: f64| evaluate(c, &c[0].double(x)).to_f64();
         let (mut from, mut to, mut step) = (at, at, SMALLEST_STEP);
         while from > 0.0 && value(height, from) <= high {
@@ -287,7 +287,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             |from, to| bound(&basis.restrict(trace, &trace[0].double(from), &trace[0].double(to), trace.len()), 0);
         let most = if to > from { most(from, to) } else { 0.0 };
         if before < -off {
-            // Until the ray arrives, for as long as the last of the fall takes.
+            // The time until the ray arrives, for the rest of the fall.
             self.budget.cover_hop(4.0 * high);
             self.count_unresolved(2.0 * high / -before);
         }
@@ -295,8 +295,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         true
     }
 
-    /// From the place `at` in this strip on the stress is within `off` of zero: the end may fly until the integral of
-    /// what is possible is negative again.
+    /// Records an undecided release. From the place `at` in this strip on the stress is within `off` of zero: the end
+    /// may fly until the integral of the greatest possible stress is negative again.
     fn note_open_release(&mut self, trace: &[S], at: f64, off: f64) {
         let basis = &self.medium.basis;
         let mut area = trace.to_vec();
@@ -309,7 +309,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
         step = SMALLEST_STEP;
         let start = value(&area, from);
-        // Until it has surely let go, or would be back on the ground.
+        // The stretch ends once the end has certainly let go, or would be back on the ground.
         let open = |to: f64| value(trace, to) <= off && value(&area, to) - start + off * (to - from) >= 0.0;
         while to < 1.0 && (to == at || open(to)) {
             (to, step) = ((to + step).min(1.0), 1.5 * step);
@@ -319,7 +319,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.not_told(at * len, Near::Release, 2.0 * (most + off));
     }
 
-    /// So much later than now something is open, and velocities may differ by this from then on.
+    /// Records an undecided event `later` than now, after which velocities may differ by `differ`.
     pub(super) fn not_told(&mut self, later: f64, what: Near, differ: f64) {
         let units = &self.data.units;
         let time = (self.state.time().to_f64() + later) * units.time.to_f64();
@@ -331,7 +331,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// Counts one more hop or contact that is not told from what comes before and after it, and is at most so long.
+    /// Counts one more hop or contact of at most this length that the bound does not separate from its neighbours.
     fn count_unresolved(&mut self, longest: f64) {
         let unit = &self.data.units.time;
         let (from, most, landings) = match self.unresolved {

@@ -1,17 +1,16 @@
-//! A flight under a free top: the centre of mass and the vibration about it, apart.
+//! Separation of a flight under a free top into the centre of mass and the vibration about it.
 //!
-//! `v = h(t) + z(x,t)` with `h″ + 2Rh′ = −g` alone, and `z` of mean zero with free ends. What separates both on the
-//! characteristic `t = b + x`, `0 ≤ x ≤ ½`, that leaves the ground at b, are two solutions w of the adjoint equation
-//! that depend on t alone: by Green's formula in the triangle between the characteristic and `t = b`, where
-//! `q = v_t + v_x`,
+//! `v = h(t) + z(x,t)` with `h″ + 2Rh′ = −g` alone, and `z` of mean zero with free ends. Two solutions w of the adjoint
+//! equation that depend on t alone separate them on the characteristic `t = b + x`, `0 ≤ x ≤ ½`, that leaves the ground
+//! at b. By Green's formula in the triangle between the characteristic and `t = b`, where `q = v_t + v_x`,
 //!
 //! ```text
 //! h′(b) = 2 ∫ e^{2Rx} q + g x φ₁(2Rx) dx                      w = e^{2R(t−b)}
 //! z(0,b) = −2 ∫ (½ − x − x φ₁(2Rx)) (q − h′(b + x)) dx          w = −(t−b) φ₁(2R(t−b))
 //! ```
 //!
-//! The second is what makes the mean of z vanish, and holds on every characteristic of the flight: the height of the
-//! end is never summed up over round trips.
+//! The second formula makes the mean of z vanish, and holds on every characteristic of the flight: the height of the
+//! end is never summed over round trips.
 
 use super::march::MOST_DAMPING;
 use super::march::{Medium, State};
@@ -19,14 +18,14 @@ use super::series::{at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 use crate::special::{phi1, phi2};
 
-/// The centre of mass in a flight.
+/// Motion of the centre of mass in a flight.
 #[derive(Clone, Debug)]
 pub(super) struct Flight<S> {
-    /// When it began, in whole round trips and the fraction.
+    /// Start of the flight: the number of whole round trips, and the fraction.
     pub(super) from: (i64, S),
-    /// `h` there.
+    /// `h` at the start.
     pub(super) height: S,
-    /// `h′` there.
+    /// `h′` at the start.
     pub(super) rate: S,
     /// `2R`.
     drag: S,
@@ -34,7 +33,7 @@ pub(super) struct Flight<S> {
 }
 
 impl<S: RoundedSpecial> Flight<S> {
-    /// The age of a characteristic when it leaves the ground.
+    /// Returns the age of the flight when the characteristic of `state` leaves the ground.
     pub(super) fn age(&self, state: &State<S>) -> S {
         let at = &state.segments[0].at;
         at.clone() - &self.from.1 + at.int(state.round - self.from.0)
@@ -44,7 +43,7 @@ impl<S: RoundedSpecial> Flight<S> {
         t.clone() - t.int(self.from.0) - &self.from.1
     }
 
-    /// `h` and `h′`.
+    /// Computes `h` and `h′` at an age.
     pub(super) fn at(&self, age: &S) -> (S, S) {
         let fall = -(self.drag.clone() * age);
         let drop = phi2(&fall) * &age.square() * &self.gravity;
@@ -58,9 +57,9 @@ impl<S: RoundedSpecial> Flight<S> {
 }
 
 impl<S: RoundedSpecial> Medium<S> {
-    /// `h` and `h′` over a strip of this length, as series, from what they are at its beginning.
+    /// Computes `h` and `h′` over a strip of length `len`, as series, from their values at its beginning.
     ///
-    /// The Taylor coefficients are `c_{k+1} = −2R c_k/(k+1)` of `h′`, whose first is `−(g + 2Rh′)`.
+    /// The Taylor coefficients of `h′` are `c_{k+1} = −2R c_k/(k+1)`, after the second one, `−(g + 2Rh′)`.
     pub(super) fn rigid(&self, (height, rate): &(S, S), len: &S) -> (Vec<S>, Vec<S>) {
         let zero = len.zero();
         let drag = self.kappa.clone() * len.int(4);
@@ -85,12 +84,12 @@ impl<S: RoundedSpecial> Medium<S> {
         (rise, series)
     }
 
-    /// Whether flights are followed as centre of mass and vibration.
+    /// Returns whether flights are separated into centre of mass and vibration.
     pub(super) fn splits(&self) -> bool {
         self.free_top && 2.0 * self.kappa.to_f64() <= MOST_DAMPING
     }
 
-    /// `2 ∫ f(x) q dx` over the characteristic, `q` from the segments, `f` given at `x`.
+    /// Computes `2 ∫ f(x) q dx` over the characteristic, with `q` from the segments and `f` given at `x`.
     fn weighed(&self, state: &State<S>, weight: &dyn Fn(&S) -> S) -> S {
         let mut start = self.kappa.zero();
         let mut sum = start.clone();
@@ -107,8 +106,8 @@ impl<S: RoundedSpecial> Medium<S> {
         sum
     }
 
-    /// `∫ w dq` of a vibration over a round trip, `w = e^{−κs} + κ(1 − s)`, by parts: what `∫y` of a contact of one
-    /// round trip changes by when the vibration comes earlier.
+    /// Computes `∫ w dq` of a vibration over a round trip, `w = e^{−κs} + κ(1 − s)`, by parts: the change of `∫y` of a
+    /// contact of one round trip, per time by which the vibration comes earlier.
     pub(super) fn phase(&self, state: &State<S>) -> f64 {
         let (kappa, zero) = (self.kappa.to_f64(), self.kappa.zero());
         let last = &state.segments[state.segments.len() - 1];
@@ -118,21 +117,21 @@ impl<S: RoundedSpecial> Medium<S> {
         (-kappa).exp() * after - (1.0 + kappa) * before + self.weighed(state, &weight).to_f64()
     }
 
-    /// `z(0,b)` from the `q` of a vibration.
+    /// Computes `z(0,b)` from the `q` of a vibration.
     pub(super) fn ground_of(&self, state: &State<S>) -> S {
         let drag = self.kappa.clone() * self.kappa.int(4);
         -self.weighed(state, &|x| x.ratio(1, 2) - x - phi1(&(drag.clone() * x)) * x)
     }
 
-    /// Takes `q` of the deviation from the static state apart into centre of mass and vibration, where the end is at
+    /// Separates `q` of the deviation from the static state into centre of mass and vibration, with the end at
     /// `height`.
     pub(super) fn take_off(&self, state: &mut State<S>, height: &S) -> Flight<S> {
         let (zero, half) = (self.kappa.zero(), self.kappa.ratio(1, 2));
         let drag = self.kappa.clone() * self.kappa.int(4);
-        // v_x of the static state and h′ − h′(b) e^{−2Rx} in one.
+        // Adds v_x of the static state; `weight` below is the share of gravity in h′(b).
         self.shift(state, &|x| self.gravity.clone() * x + &self.slope);
         let grown = self.weighed(state, &|x| (drag.clone() * x).exp());
-        // 2 ∫₀^½ x φ₁(2Rx) dx = ½ φ₂(R)/2 …: ∫₀ˣ y φ₁(ay) dy = x² φ₂(ax).
+        // 2 ∫₀^½ x φ₁(2Rx) dx = ½ φ₂(R), as ∫₀ˣ y φ₁(ay) dy = x² φ₂(ax).
         let weight = phi2(&(drag.clone() * &half)) * &self.gravity * &half;
         let rate = grown + weight;
         let segment = &state.segments[0];
@@ -143,7 +142,7 @@ impl<S: RoundedSpecial> Medium<S> {
         flight
     }
 
-    /// Puts them together again, at an age of the flight.
+    /// Recombines centre of mass and vibration, at the present age of the flight.
     pub(super) fn touch_down(&self, state: &mut State<S>, flight: &Flight<S>) {
         let age = flight.age(state);
         let rate = flight.rate_at(&age);
@@ -151,7 +150,7 @@ impl<S: RoundedSpecial> Medium<S> {
         self.shift(state, &|x| now.rate_at(x) - self.gravity.clone() * x - &self.slope);
     }
 
-    /// Goes over from one flight, or from the deviation from the static state, to another.
+    /// Converts the state from one flight, or from the deviation from the static state, to another.
     pub(super) fn convert(&self, state: &mut State<S>, from: Option<&Flight<S>>, to: Option<&Flight<S>>) {
         if let Some(from) = from {
             self.touch_down(state, from);

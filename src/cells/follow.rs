@@ -1,8 +1,8 @@
-//! Following the ground end through contacts and flights.
+//! The ground end, followed through contacts and flights.
 //!
 //! With `y = v_t + c v_x` at the ground: in contact `y = c v_x`, and the rod leaves when `y` turns positive; in flight
-//! `y = v_t`, and it lands when `v(0,·) = ∫ y` returns to zero. A landing at which `y` is not negative, and at `y = 0`
-//! not falling, is none: the flight goes on.
+//! `y = v_t`, and the rod lands when `v(0,·) = ∫ y` returns to zero. A return at which `y` is positive, or zero and not
+//! falling, is no landing: the flight goes on.
 
 use super::account::Proof;
 use super::bounce::Held;
@@ -24,14 +24,14 @@ use crate::special::RoundedSpecial;
 
 #[derive(Clone, Debug)]
 pub(super) enum Goal<S> {
-    /// This many contacts with the flights after them.
+    /// A number of contacts, each with the flight after it.
     Impacts(u32),
-    /// Up to this time, dimensionless.
+    /// A time, dimensionless.
     Time(S),
 }
 
 impl<S: RoundedSpecial> Goal<S> {
-    /// As far as the run of the problem says.
+    /// Reads the goal from the run of the problem.
     fn of(task: &Task<'_, S>, data: &Data<S>) -> Self {
         match &task.problem.run {
             Run::Impacts(count) => Goal::Impacts(*count),
@@ -40,29 +40,29 @@ impl<S: RoundedSpecial> Goal<S> {
     }
 }
 
-/// The rod at the ground, on its way.
+/// State of a run: the rod, its ground end, and the results so far.
 #[derive(Debug)]
 pub(super) struct Follower<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
     pub(super) held: Option<&'a Held<S>>,
-    /// `q` of the deviation from the static state, or of the vibration in a flight that is taken apart.
+    /// `q` of the deviation from the static state, or of the vibration in a separated flight.
     pub(super) state: State<S>,
     pub(super) contact: bool,
     pub(super) landed: u32,
-    /// Whether events are in doubt.
+    /// Whether the order of events is in doubt.
     pub(super) lost: bool,
-    /// Whether the landing that is decided is at a ray.
+    /// Whether the present landing is at a ray.
     pub(super) at_ray: bool,
-    /// How far the end of the run may be off where it is an event.
+    /// Time error of the end of the run, if it is an event.
     pub(super) end_error: f64,
-    /// Whether the end has only gone up since the release, and is not yet clear of the ground.
+    /// Whether the end has only risen since the release and is not yet clear of the ground.
     pub(super) rising: bool,
-    /// Hops that the bound does not tell apart from contact.
+    /// Warning about hops that the bound does not separate from contact.
     pub(super) unresolved: Option<Warning>,
-    /// When the last contact began, in whole round trips and the fraction.
+    /// Start of the last contact: the number of whole round trips, and the fraction.
     pub(super) landing: Option<(i64, S)>,
-    /// The flight that is under way, where it is taken apart.
+    /// Index of the present flight, if it is separated.
     pub(super) flight: Option<usize>,
     pub(super) flights: Vec<Flight<S>>,
     /// `v(0,b)`.
@@ -78,15 +78,15 @@ pub(super) struct Follower<'a, S> {
     /// Error of `p`, `q` made in one cell.
     pub(super) cell_error: f64,
     pub(super) budget: Budget,
-    /// The trace at the end of the last piece.
+    /// Value of the trace at the end of the last piece.
     pub(super) last_trace: Option<S>,
-    /// How far values may be off before the first event.
+    /// Error bounds of values before the first event.
     pub(super) before: Uncertainty,
     pub(super) proof: Option<Proof<S>>,
 }
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
-    /// At `t = 0`.
+    /// Builds the state of a run at `t = 0`.
     pub(super) fn new(medium: &'a Medium<S>, data: &'a Data<S>, mut proof: Option<Proof<S>>) -> Self {
         let state = data.march(medium, &mut |cell| {
             if let Some(proof) = &mut proof {
@@ -112,8 +112,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// At the first release, from the state there and the bound of its error; the end leaves with `velocity`, the time
-    /// may be off by `time_error`, and `h′` is `rate`.
+    /// Builds the state of a run at the first release, from the state there and its error bound; the end leaves with
+    /// `velocity`, the time has the error `time_error`, and `h′` is `rate`.
     pub(super) fn released(
         medium: &'a Medium<S>,
         data: &'a Data<S>,
@@ -140,7 +140,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// In flight at height zero, with no error.
+    /// Builds the state of a run in flight at height zero, without errors.
     fn with(medium: &'a Medium<S>, data: &'a Data<S>, state: State<S>) -> Self {
         let mut follower = Follower {
             medium,
@@ -179,19 +179,19 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.cell_error = self.medium.cell_error(&self.state);
     }
 
-    /// A strip crosses two cells more on the longest path to the next characteristic, and the first strips of a chain
-    /// all that there are on this one.
+    /// Adds the error of the cells along the present characteristic: each strip adds two cells to the longest path to
+    /// the next characteristic, and the first strips of a chain add all cells of this one.
     pub(super) fn add_chain(&mut self) {
         self.budget.add(self.state.segments.len() as f64 * self.cell_error);
     }
 
-    /// What roundings and truncations make of `p` and `q`: what is smaller decides nothing.
+    /// Returns the error of `p` and `q` from roundings and truncations; smaller values decide nothing.
     pub(super) fn noise(&self) -> f64 {
         self.budget.noise()
     }
 
-    /// The same of `v(0,·)` up to `len` from now. Where the bound leaves `open` what happens, the noise alone decides,
-    /// so that there is one hop and not a row of ever smaller ones.
+    /// Returns the corresponding error of `v(0,·)` up to `len` from now. Where the bound leaves an event `open`, this
+    /// noise alone decides, so that one hop results and not a row of ever smaller ones.
     fn height_noise(&self, len: f64, open: bool) -> f64 {
         let noise = if self.flight.is_some() {
             2.0 * self.damping().exp() * self.noise()
@@ -201,12 +201,12 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         if open { noise } else { noise.min(self.height_most(len)) }
     }
 
-    /// The error of `p` and `q` at the ground, by the better account.
+    /// Returns the error of `p` and `q` at the ground, by the better account.
     pub(super) fn trace_error(&self) -> f64 {
         self.budget.trace()
     }
 
-    /// A bound of the error of `v(0,·)` from now until `len` later, by the better account.
+    /// Bounds the error of `v(0,·)` from now until `len` later, by the better account.
     pub(super) fn height_most(&self, len: f64) -> f64 {
         let flown = self.flying().map(|flight| {
             let age = flight.age(&self.state).to_f64();
@@ -219,22 +219,22 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         2.0 * self.medium.kappa.to_f64()
     }
 
-    /// Where on the circle of a round trip this characteristic leaves the ground.
+    /// Returns the place on the circle of a round trip where this characteristic leaves the ground.
     pub(super) fn place(&self) -> f64 {
         self.state.segments[0].at.to_f64()
     }
 
-    /// The flight that is under way, where it is taken apart.
+    /// Returns the present flight, if it is separated.
     pub(super) fn flying(&self) -> Option<&Flight<S>> {
         self.flight.and_then(|k| self.flights.get(k))
     }
 
-    /// `h` and `h′` now, in such a flight.
+    /// Returns `h` and `h′` now in a separated flight.
     pub(super) fn centre(&self) -> Option<(S, S)> {
         self.flying().map(|flight| flight.at(&flight.age(&self.state)))
     }
 
-    /// The error of `v(0,·)` up to `len` from now.
+    /// Computes the error of `v(0,·)` up to `len` from now, in both accounts.
     pub(super) fn height_error(&self, len: f64) -> Off {
         let then = self.flying().map(|flight| {
             let age = flight.age(&self.state).to_f64() + len;
@@ -244,10 +244,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.budget.end(then, len)
     }
 
-    /// Whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
+    /// Returns whether the ground end, at height zero, leaves at once: `y > 0`, or `y = 0` and rising.
     ///
-    /// What is less than the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, says what
-    /// that is for a derivative.
+    /// A value below the error counts as zero; Markov's inequality, `‖f′‖ ≤ 2n²‖f‖` on the unit interval, gives the
+    /// error of a derivative.
     fn rises(&self, mut c: Vec<S>) -> bool {
         let zero = self.height.zero();
         let mut noise = self.noise();
@@ -262,7 +262,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         false
     }
 
-    /// The trace in contact, whatever there is now.
+    /// Computes the trace as if the end were now in contact.
     pub(super) fn held_trace(&self) -> Vec<S> {
         match self.flying() {
             Some(flight) => {
@@ -275,7 +275,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// What is found on the way to the goal.
+    /// Runs to the goal and returns the result.
     pub(super) fn run(mut self, task: &Task<'_, S>) -> Result<Found<S>, Error> {
         let ending = self.follow(&Goal::of(task, self.data), task)?;
         let last = self.budget.since();
@@ -287,13 +287,13 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         Ok(Found { pieces, checkpoints, flights, marks, warnings, unresolved, before, ending, end_error, proof })
     }
 
-    /// Goes on until the goal; `observe` receives the round trips, or the contacts where so many are asked for, and the
-    /// number of pieces.
+    /// Follows the end to the goal; `observe` receives the number of round trips, or of contacts if the goal is a
+    /// number of impacts, and the number of pieces.
     fn follow(&mut self, goal: &Goal<S>, Task { effort, observe, .. }: &Task<'_, S>) -> Result<Ending, Error> {
         let unit = self.height.log2_roundoff().exp2();
         let mut round = i64::MIN;
         let mut calm = None;
-        // Whether something happened at this very time already.
+        // Whether an event has already occurred at this time.
         let mut fresh = true;
         loop {
             if self.open() {
@@ -333,7 +333,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             {
                 return Ok(ending);
             }
-            // What the beginning of this strip decides.
+            // Event at the beginning of this strip.
             let first = &self.state.segments[0];
             let (len, ray) = (first.len.clone(), first.off);
             if !fresh && self.contact {
@@ -346,7 +346,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 }
             }
             let (trace, height) = self.over(&len);
-            // At a release the end starts with the ray that lets it go: the height counts that already.
+            // The height after a release already includes the ray that releases the end.
             if !fresh {
                 self.pass_ray(&trace, ray);
             }
@@ -363,7 +363,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 fresh = true;
                 continue;
             }
-            // The next event in this strip.
+            // Next event in this strip.
             let (noise, found) = if self.contact {
                 let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
                 let most = if open { f64::INFINITY } else { self.trace_error() };
@@ -373,7 +373,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 let noise = self.height_noise(len.to_f64(), open).max(unit * 16.0 * bound(&height, 0));
                 (noise, first_descent(&self.medium.basis, &height, noise))
             };
-            // Where a root is not told from the noise, both the function and what is known of it are off by so much.
+            // If the noise hides the root, both the function and its error bound are off by the noise.
             let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
             let found = found.map(|(x, _)| if self.proof.is_some() { on_grid(x * &len) } else { x * &len });
             let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
@@ -436,7 +436,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// A round trip begins: the state is kept, and what is summed up in it is computed anew.
+    /// Begins a round trip: stores a checkpoint, and computes anew the values that are summed up during a round trip.
     fn new_round(&mut self) {
         self.weigh();
         if self.flight.is_some() {
@@ -447,14 +447,14 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.checkpoints.push(Checkpoint { index, flight, state: self.state.clone(), ground: self.ground.clone() });
     }
 
-    /// A ray that may be off in time passes the ground: in flight the height takes its jump at the wrong time.
+    /// Records that a displaced ray passes the ground: in flight the velocity jumps at the wrong time.
     fn pass_ray(&mut self, trace: &[S], off: Off) {
         let now = at_zero(trace, &self.height.zero());
         let jump = self.last_trace.as_ref().map_or(2.0 * self.state.bound(), |last| (now - last).to_f64().abs());
         self.budget.pass(jump, off);
     }
 
-    /// `v_t + c v_x` at the ground and, in flight, `v(0,·)` over the strip.
+    /// Computes `v_t + c v_x` at the ground and, in flight, `v(0,·)` over the strip.
     fn over(&self, len: &S) -> (Vec<S>, Vec<S>) {
         let mut trace = self.medium.trace(&self.state, self.contact);
         if self.contact {
@@ -476,7 +476,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         (trace, height)
     }
 
-    /// Marches over the first segment, or the part of it before `cut`, and whether it ends with an event there.
+    /// Marches over the first segment, or its part before `cut`; the flag beside `cut` says whether an event ends it.
     fn advance(&mut self, cut: Option<(&S, bool)>, off: Off, trace: &[S], height: &[S]) {
         self.prove(|proof, run| proof.strip(run, cut, trace, height));
         let cut = cut.map(|(cut, _)| cut);

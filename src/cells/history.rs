@@ -1,4 +1,4 @@
-//! The solution of the damped problem, and the answers to what is asked of it.
+//! Solution of the damped problem, and its values.
 
 use super::account::Proof;
 use super::bounce::Held;
@@ -24,7 +24,7 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// The motion of the damped rod through any number of impacts, `r ≥ 0`.
 ///
 /// **Source**: the characteristic cells of `v_tt + 2r v_t − c² v_xx = −g` with the contact law (1.3)–(1.6); derivation
-/// in the modules of `cells`. `r → 0` is regular: nothing is divided by `r`.
+/// in the modules of `cells`. `r → 0` is regular: no formula divides by `r`.
 ///
 /// **Units**: those of the problem.
 ///
@@ -55,47 +55,47 @@ pub struct Damped<S> {
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     pub(super) course: Course<Estimate<S>>,
-    /// The motion of the centre of mass after the release that the run begins with.
+    /// Motion of the centre of mass after the release that begins the run.
     pub(super) rebound: Option<Rebound<Estimate<S>>>,
-    /// Before the first event, and after each.
+    /// Error bounds before the first event, and after each event.
     pub(super) uncertain: Vec<Uncertainty>,
-    /// At each event, where that is known better.
+    /// Error bounds at each event, where better ones are known.
     pub(super) at_events: Vec<Option<AtEvent>>,
     pub(super) proved: bool,
-    /// Cells that earlier questions have marched.
+    /// Cells marched by earlier queries.
     pool: Pool<S>,
 }
 
 impl<S: RoundedSpecial> Damped<S> {
-    /// Follows `problem` as far as its `run` says, to about `digits` decimal digits of the natural scales.
+    /// Solves `problem` up to the end of its `run`, to about `digits` decimal digits of the natural scales.
     ///
-    /// What a cell leaves out is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system where that is
-    /// more; every number says by its bound what came of it.
+    /// The truncation of a cell is at most `2^{−20} 10^{−digits}`, or the roundoff of the number system if that is
+    /// greater; every number carries the bound of the resulting error.
     ///
-    /// A run up to a time that the motion does not last is answered from the state at rest from where the motion is
-    /// below its own error, by a bound that it can never pass again; the ending then says from when.
+    /// If the goal is a time and the motion fades before it, the state at rest stands for the motion once the motion is
+    /// below its own error, by a bound that holds for ever; the ending then says from which time on.
     ///
-    /// The history ends before that, and says so, beyond 400 000 strips and 4096 segments in a round trip.
+    /// The history ends early, and says so, beyond 400 000 strips or 4096 segments in a round trip.
     ///
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
         Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, 1, false)
     }
 
-    /// The same of a `task`, with segments `shorten` times shorter than need be, and with a proof of its bounds, as far
-    /// as that goes, where it `proves`.
+    /// Solves a `task` in the same way, with segments `shorten` times shorter than necessary; if `proves`, with a proof
+    /// of its bounds as far as that goes.
     ///
-    /// **Errors**: [`Error::NotDecided`] where not even the first strip is shown.
+    /// **Errors**: [`Error::NotDecided`] if not even the first strip is proved.
     pub(crate) fn march(task: &Task<'_, S>, shorten: i64, proves: bool) -> Result<Self, Error> {
         let (medium, data) = medium(task.problem, task.precision, task.effort.digits, shorten)?;
         let found = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium))).run(task)?;
         Self::record_of(task, (medium, data), None, found)
     }
 
-    /// The motion after the first release, at `time`, known to `time_error`, with the velocity `leaves` of the end and
-    /// `h′` as in `rate`.
+    /// Solves for the motion after the first release at `time`, known to `time_error`, with the velocity `leaves` of
+    /// the end and `h′` as in `rate`.
     ///
-    /// The first event is that release; no question may be asked about what came before it.
+    /// The first event is that release; queries before it are not allowed.
     pub(super) fn after_bounce(
         task: &Task<'_, S>,
         contact: &FirstContact<Estimate<S>>,
@@ -111,8 +111,8 @@ impl<S: RoundedSpecial> Damped<S> {
         Self::released(task, (medium, data), (held, state), (release, rate))
     }
 
-    /// The motion after a release in this state, whose error has this bound; with the velocity of the end, how far the
-    /// time is off, and `h′`.
+    /// Solves for the motion after a release from a state and its error bound, with the velocity of the end, the time
+    /// error, and `h′`.
     pub(super) fn released(
         task: &Task<'_, S>,
         (medium, data): (Medium<S>, Data<S>),
@@ -174,7 +174,7 @@ impl<S: RoundedSpecial> Damped<S> {
         history.with_bounds()
     }
 
-    /// The data, where `time` is the start seen from before it.
+    /// Returns the initial data if `time` is the left limit at the start.
     fn given_at(&self, point: &S, time: &S, side: Side) -> Result<Option<Field<S>>, Error> {
         let before = side == Side::Left && time.is_zero() && self.held.is_none();
         Ok(if before { Some(self.data.given.at(point)?) } else { None })
@@ -185,7 +185,7 @@ impl<S: RoundedSpecial> Damped<S> {
         Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
     }
 
-    /// The dimensionless time.
+    /// Converts a time to a dimensionless one.
     fn time(&self, time: &S) -> Result<S, Error> {
         if time.is_negative() || time > self.course.end.value() || !time.is_finite() {
             return Err(Error::TimeOutside { found: time.text(), end: self.course.end.value().text() });
@@ -205,7 +205,7 @@ impl<S: RoundedSpecial> Damped<S> {
         if outside { Err(Error::PointOutside { found: point.text(), length: length.text() }) } else { Ok(()) }
     }
 
-    /// `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) v_x dx`.
+    /// Computes `h` and `h′` from the nodes of the whole rod: `⟨v⟩ = v(0) + (1/L)∫(L−x) v_x dx`.
     fn mean(&self, t: &S, nodes: &[Node<S>]) -> (S, S) {
         let half = t.ratio(1, 2);
         let (mut mean, mut rate) = (t.zero(), t.zero());
@@ -216,7 +216,7 @@ impl<S: RoundedSpecial> Damped<S> {
         (mean * t.int(2) + self.record().height(t), rate * t.int(2))
     }
 
-    /// `h` and `h′` at a dimensionless time.
+    /// Computes `h` and `h′` at a dimensionless time.
     fn centre_at(&self, t: &S) -> (S, S) {
         let (mean, rate) = match self.record().flight(t, Side::Left) {
             _ if t.is_zero() && self.data.rigid => (self.data.ground.clone(), self.data.end_velocity()),
@@ -226,7 +226,7 @@ impl<S: RoundedSpecial> Damped<S> {
         (mean * &self.data.displacement, rate * &self.data.units.velocity)
     }
 
-    /// `v(x,t)`, dimensionless.
+    /// Computes the dimensionless `v(x,t)`.
     fn displacement(&self, x: &S, t: &S) -> S {
         let mut sum = self.record().height(t);
         if *x == x.ratio(1, 2) {
@@ -241,7 +241,7 @@ impl<S: RoundedSpecial> Damped<S> {
         sum
     }
 
-    /// The impulse and the peak of each contact, in order.
+    /// Computes the impulse and the peak of each contact, in order.
     pub(super) fn pushes(&self) -> impl Iterator<Item = (S, S)> {
         let (units, zero) = (&self.data.units, &self.data.slope);
         let contacts = self.pieces.chunk_by(|a, b| a.contact == b.contact).filter(|pieces| pieces[0].contact);
@@ -262,8 +262,8 @@ impl<S: RoundedSpecial> Damped<S> {
         })
     }
 
-    /// The nodes of a quadrature along the rod, from the ground to the first of some points and from each to the next,
-    /// and how many rays cut each of these.
+    /// Computes quadrature nodes along the rod, from the ground to the first of `points` and from each to the next, and
+    /// counts the rays that cut each of these parts.
     pub(super) fn lines(&self, time: &S, points: &[S]) -> Result<Vec<Cut<S>>, Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let cuts: Vec<S> = points.iter().map(|x| x.clone() / &units.length * t.ratio(1, 2)).collect();
@@ -279,7 +279,7 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self.record().lines(&t, &cuts).into_iter().map(line).collect())
     }
 
-    /// Flights are one piece each; in contact a piece ends where a ray arrives.
+    /// Returns the pieces of the stress: one for each flight, and in contact one between any two arriving rays.
     pub(super) fn pieces_of_stress(&self) -> Vec<StressPiece<S>> {
         let units = &self.data.units;
         let unit = units.velocity.clone() / &units.wave_speed;
@@ -317,7 +317,7 @@ impl<S: RoundedSpecial> Damped<S> {
         pieces
     }
 
-    /// Whether the end lies on the ground, as far as the run goes; before its start it does not say.
+    /// Returns whether the end lies on the ground at a time of the run; `None` outside of it.
     pub(super) fn presses(&self, time: &S, side: Side) -> Option<bool> {
         let given = side == Side::Left && time.is_zero();
         let time = self.time(time).ok().filter(|_| !given)?;
@@ -356,7 +356,7 @@ impl<S: RoundedSpecial> Damped<S> {
             Some(flight) => flight.rate_at(&flight.age_at(&t)),
             None => self.mean(&t, &nodes).1,
         };
-        // The difference first, so that a vibration in flight loses nothing.
+        // The difference comes first, so that a vibration in flight loses no digits.
         let square = |node: &Node<S>| (node.rigid.clone() - &rate + &node.motion).square() + node.strain.square();
         // dx is c t₁ = 2L times the dimensionless one.
         Ok(summed(&nodes, &t, square) * &units.length * units.velocity.square())
@@ -365,7 +365,7 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn parts_of(&self, time: &S) -> Result<[S; 2], Error> {
         let (t, units) = (self.time(time)?, &self.data.units);
         let nodes = self.record().whole_line(&t);
-        // As in the sum of both.
+        // The unit is that of the sum of both parts.
         let unit = units.velocity.square() * &units.length;
         let parts =
             [summed(&nodes, &t, |node| node.velocity().square()), summed(&nodes, &t, |node| node.strain.square())];
@@ -402,14 +402,14 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self.record().grid(&points, &times).into_iter().map(scaled).collect())
     }
 
-    /// `t*` and `h(t*)` of the flight after a release.
+    /// Computes `t*` and `h(t*)`, the highest point of the centre of mass, of the flight after a release.
     pub(super) fn turn_after(&self, release: usize) -> Option<(S, S)> {
         let release = self.course.events.get(release)?.clone().map(Estimate::into_value);
         let Scales { gravity, time, .. } = &self.data.units;
         if gravity.is_zero() || !self.medium.free_top || release.h_rate.is_negative() {
             return None;
         }
-        // Remark 2, with the quotients by 2r and 4r² taken regularly.
+        // Remark 2, with regular forms of the quotients by 2r and 4r².
         let damping = self.data.damping.clone() / time;
         let rise = release.h_rate.clone() / gravity;
         let drag = damping.int(2) * &damping * &rise;
@@ -417,14 +417,14 @@ impl<S: RoundedSpecial> Damped<S> {
         Some((release.t.clone() + log_mean(&drag) * &rise, release.h.clone() + height))
     }
 
-    /// The flight after the release that the run begins with, while that time is in it.
+    /// Returns the flight after the release that begins the run, if `time` lies in it.
     pub(super) fn first_flight(&self, time: &Estimate<S>) -> Option<&Rebound<Estimate<S>>> {
         let next = self.course.events.get(1);
         self.rebound.as_ref().filter(|_| next.is_none_or(|next| time.value() <= next.t.value()))
     }
 }
 
-/// The nodes along a part of the rod, and how many rays cut it.
+/// Nodes along a part of the rod, and the number of rays that cut it.
 type Cut<S> = (Vec<moments::Node<S>>, usize);
 
 fn summed<S: RoundedSpecial>(nodes: &[Node<S>], like: &S, part: impl Fn(&Node<S>) -> S) -> S {

@@ -1,15 +1,15 @@
 //! A flight of many round trips in one step.
 //!
 //! In flight both ends are free. The vibration `z` about the centre of mass, extended evenly, has the period 1 in `x`
-//! (in `c t₁`), and `Z = e^{Rt} z` obeys `Z_tt − Z_xx = R² Z`. Its modes are `cos(2πkx) e^{±iω_k t}`,
-//! `ω_k² = (2πk)² − R²`, `k ≥ 1`. Hence with one real wave that goes down,
+//! (in `c t₁`), and `Z = e^{Rt} z` obeys `Z_tt − Z_xx = R² Z`. Its modes are `cos(2πkx) e^{±iω_k t}`, `ω_k² = (2πk)² −
+//! R²`, `k ≥ 1`. Hence with one real downward wave,
 //!
 //! ```text
 //! Z(x,t) = F(x,t) + F(−x,t),    F_t = Ω F,    Ω = D √(1 + R²D⁻²),    D = ∂/∂y,    D⁻¹: antiderivative of mean zero.
 //! F(y,t) = (e^{tG} F(·,0))(y + t),    G = Ω − D = ½R² D⁻¹ − ⅛R⁴ D⁻³ + …
 //! ```
 //!
-//! A whole number n of round trips is `e^{nG}`, and everything is a power series in `D⁻¹`, which takes piecewise
+//! A whole number n of round trips is `e^{nG}`, and every operator is a power series in `D⁻¹`, which maps piecewise
 //! polynomials to piecewise polynomials: jumps stay on their rays. `G` is skew, so `e^{nG}` keeps the norm.
 //!
 //! On the characteristic `t = x = s/2` that leaves the ground, with `ψ = F_t` at `t = 0`, `H = 1 − (1 + R²D⁻²)^{−½}`,
@@ -19,17 +19,17 @@
 //! ψ = Σ_j Gʲ/j! Π[(−s/2)ʲ Z_s] + ½ Σ_j (∫(−s/2)ʲ Z ds)/j! G^{j+1} δ                                      (in)
 //! ```
 //!
-//! where Π takes the mean away and `D⁻¹δ = ½ − s`. The first is the chain rule. For the second, `U Z_t − Z U_t` of two
-//! solutions is the density of a conserved quantity without flux through the free ends, so its integral over `t = 0` is
-//! `∫(U Z_s − Z U_s) ds` over the characteristic; `U = cos(2πkx) e^{−iω_k t}` gives `iω_k a_k/2` of
-//! `Z = Σ Re a_k cos(2πkx) e^{iω_k t}`, and `U = ½ e^{−G_k s/2} (1 + e^{−2πiks})`, `G_k = i(ω_k − 2πk)`, on the
-//! characteristic. Integrating the first of its terms by parts,
-//! `iω_k a_k = 2 ∫ e^{−G_k s/2} e^{−2πiks} Z_s ds + G_k ∫ e^{−G_k s/2} Z ds`, which is (in) mode by mode.
+//! where Π subtracts the mean and `D⁻¹δ = ½ − s`. The first formula is the chain rule. For the second, `U Z_t − Z U_t`
+//! of two solutions is the density of a conserved quantity without flux through the free ends, so its integral over `t
+//! = 0` is `∫(U Z_s − Z U_s) ds` over the characteristic; `U = cos(2πkx) e^{−iω_k t}` gives `iω_k a_k/2` of `Z = Σ Re
+//! a_k cos(2πkx) e^{iω_k t}`, and `U = ½ e^{−G_k s/2} (1 + e^{−2πiks})`, `G_k = i(ω_k − 2πk)`, on the characteristic.
+//! Integrating the first of its terms by parts, `iω_k a_k = 2 ∫ e^{−G_k s/2} e^{−2πiks} Z_s ds + G_k ∫ e^{−G_k s/2} Z
+//! ds`, which is (in) mode by mode.
 //!
-//! ## What is left out
-//! On mean-free functions `‖D⁻¹‖ ≤ ¼`, `‖D⁻²‖ ≤ 0.0324` in the sup norm: the integrals of `|½ − s|` and of
-//! `|s² − s + ⅙|/2`. The series of `G`, `H` and `e^{nG}` are alternating or have known coefficients, and are cut where
-//! what follows is below the accuracy.
+//! ## Truncation
+//! On mean-free functions `‖D⁻¹‖ ≤ ¼`, `‖D⁻²‖ ≤ 0.0324` in the sup norm: the integrals of `|½ − s|` and of `|s² − s +
+//! ⅙|/2`. The series of `G`, `H` and `e^{nG}` alternate or have known coefficients, and end where the remainder is
+//! below the accuracy.
 
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -39,13 +39,12 @@ use super::march::{Medium, Segment, State};
 use super::series::{Basis, at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
 
-/// The most of `nR²/4π`, the phase by which damping holds the lowest mode back, in one leap: its series loses
-/// `e^{nR²/4π}`.
+/// Largest `nR²/4π` of one leap, the phase by which damping delays the lowest mode: the series loses `e^{nR²/4π}`.
 const MOST_PHASE: f64 = 4.0;
-/// `‖D⁻²‖`.
+/// Bound of `‖D⁻²‖`.
 const INVERSE_SQUARE: f64 = 0.0324;
 
-/// The most round trips of one leap.
+/// Returns the maximum number of round trips of one leap.
 pub(super) fn most_trips(damping: f64) -> f64 {
     MOST_PHASE * 4.0 * std::f64::consts::PI / (damping * damping)
 }
@@ -56,23 +55,23 @@ type Function<S> = Vec<Vec<S>>;
 /// The circle, cut at the rays.
 struct Circle<'a, S> {
     basis: &'a Basis<S>,
-    /// Where each segment begins, and its length.
+    /// Start and length of each segment.
     parts: Vec<(S, S)>,
     /// Coefficients of `D^{1−2m}` in `G`, and of `D^{−2m}` in `H`, `m ≥ 1`.
     lag: Vec<S>,
     turn: Vec<S>,
-    /// See [`LeapCount::dropped`]; and by how much what is dropped now is multiplied later, at most.
+    /// The sum [`LeapCount::dropped`]; and a bound of the later amplification of a term dropped now.
     dropped: Cell<f64>,
     weight: Cell<f64>,
-    /// See [`LeapCount::integrals`]; and of what size a function is relative to the wave, at most.
+    /// The sum [`LeapCount::integrals`]; and a bound of the size of the present function relative to the wave.
     integrals: Cell<f64>,
     size: Cell<f64>,
-    /// What is smaller than this is left out.
+    /// Size below which terms are left out.
     accuracy: f64,
 }
 
-/// What is left of a sum of absolute values from each term on, where a function in one term is at most `norm` of that
-/// in the term before.
+/// Computes the sums of absolute values from each term on, where a function in one term is at most `norm` times that in
+/// the term before.
 fn rests<S: RoundedSpecial>(terms: &[S], norm: f64) -> Vec<f64> {
     let mut rests: Vec<f64> = terms.iter().map(|term| term.to_f64().abs()).collect();
     for k in (1..rests.len()).rev() {
@@ -81,26 +80,26 @@ fn rests<S: RoundedSpecial>(terms: &[S], norm: f64) -> Vec<f64> {
     rests
 }
 
-/// `‖D⁻¹‖` on functions of mean zero, as the account has it; and that of its square.
+/// Bound of `‖D⁻¹‖` on functions of mean zero that the account of the proof uses; and its square.
 const HALF: f64 = 0.5;
 const QUARTER: f64 = HALF * HALF;
 
-/// What a leap has summed up.
+/// Sums that a leap collects for the account of its error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LeapCount {
-    /// A bound of the functions that integration and products with s have dropped, all together.
+    /// Bound of the sum of all functions that integration and products with s have dropped.
     pub(super) dropped: f64,
-    /// Terms of `G` and `H`.
+    /// Number of terms of `G` and `H`.
     pub(super) order: usize,
-    /// Powers of `G/2` on the characteristic.
+    /// Number of powers of `G/2` on the characteristic.
     pub(super) layers: usize,
-    /// Antiderivatives and products with s, each weighed by what its roundings become at most.
+    /// Number of antiderivatives and products with s, each weighted by a bound of the amplification of its roundings.
     pub(super) integrals: f64,
-    /// Powers of `D⁻¹` in `e^{nG}`.
+    /// Number of powers of `D⁻¹` in `e^{nG}`.
     pub(super) powers: usize,
 }
 
-/// `target += factor · f`.
+/// Adds `factor · f` to `target`.
 fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
     for (target, f) in target.iter_mut().zip(f) {
         for (t, c) in target.iter_mut().zip(f) {
@@ -110,24 +109,24 @@ fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
 }
 
 impl<S: RoundedSpecial> Circle<'_, S> {
-    /// The mean.
+    /// Computes the mean over the circle.
     fn mean(&self, f: &[Vec<S>]) -> S {
         let zero = self.parts[0].0.zero();
         self.parts.iter().zip(f).fold(zero, |sum, ((_, len), c)| integral(c) * len + &sum)
     }
 
-    /// The last coefficient of what is integrated, or multiplied with s: a bound of what that drops.
+    /// Records the last coefficient of a series that is integrated or multiplied by s: a bound of the dropped term.
     fn drops(&self, c: &[S]) {
         let last = c.last().map_or(0.0, |last| last.to_f64().abs());
         self.dropped.set(self.dropped.get() + self.weight.get() * last);
     }
 
-    /// An antiderivative, or a product with s.
+    /// Records an antiderivative or a product with s.
     fn counts(&self) {
         self.integrals.set(self.integrals.get() + self.weight.get() * self.size.get());
     }
 
-    /// Weighs what is dropped by `weight`, besides all else.
+    /// Runs `work` with the present weight multiplied by `weight`.
     fn weighed<T>(&self, weight: f64, work: impl FnOnce() -> T) -> T {
         let before = self.weight.replace(weight * self.weight.get());
         let found = work();
@@ -135,7 +134,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         found
     }
 
-    /// `D⁻¹`, in place.
+    /// Applies `D⁻¹`, in place.
     fn antiderivative(&self, f: &mut [Vec<S>]) {
         let mut here = self.parts[0].0.zero();
         self.counts();
@@ -149,7 +148,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         self.centre(f);
     }
 
-    /// Takes the mean away.
+    /// Subtracts the mean.
     fn centre(&self, f: &mut [Vec<S>]) {
         let mean = self.mean(f);
         for c in f {
@@ -157,7 +156,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         }
     }
 
-    /// `f · s · factor`, in place.
+    /// Computes `f · s · factor`, in place.
     fn times_s(&self, f: &mut [Vec<S>], factor: &S) {
         self.counts();
         for ((start, len), c) in self.parts.iter().zip(f) {
@@ -170,7 +169,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         }
     }
 
-    /// `Σ c_m D^{−2m}` of `f`, and before that `D⁻¹` if `odd`, then with `D^{2−2m}`.
+    /// Computes `Σ c_m D^{−2m} f`; if `odd`, `Σ c_m D^{1−2m} f`.
     fn series(&self, f: &[Vec<S>], coefficients: &[S], odd: bool) -> Function<S> {
         let mut power = f.to_vec();
         let mut sum = vec![vec![self.parts[0].0.zero(); self.basis.size()]; f.len()];
@@ -191,17 +190,17 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         sum
     }
 
-    /// `G f`.
+    /// Computes `G f`.
     fn lagged(&self, f: &[Vec<S>]) -> Function<S> {
         self.series(f, &self.lag, true)
     }
 
-    /// `H f`.
+    /// Computes `H f`.
     fn turned(&self, f: &[Vec<S>]) -> Function<S> {
         self.series(f, &self.turn, false)
     }
 
-    /// `γ = Gδ`.
+    /// Computes `γ = Gδ`.
     fn lagged_delta(&self) -> Function<S> {
         let zero = self.parts[0].0.zero();
         let mut sawtooth = vec![vec![zero.zero(); self.basis.size()]; self.parts.len()];
@@ -227,7 +226,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
     }
 }
 
-/// The binomial coefficients `C(p, m) R^{2m}`, `m ≥ 1`, for `p = ±½`, as long as they matter.
+/// Computes the binomial coefficients times powers `C(p, m) R^{2m}`, `m ≥ 1`, for `p = ±½`, down to the accuracy.
 fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> Vec<S> {
     let square = damping.square();
     let (ratio, mut size) = ((square.to_f64() * INVERSE_SQUARE).log2(), 0.0);
@@ -237,7 +236,7 @@ fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> 
         term = term * &square * &damping.ratio(power - 2 * m + 2, 2 * m);
         terms.push(term.clone());
         size += ratio;
-        // |C| ≤ 1, and what follows is at most a sixth of the last term.
+        // C| ≤ 1, and the remainder is at most a sixth of the last term.
         if size < log2_accuracy || term.is_zero() || m > 2000 {
             break;
         }
@@ -246,12 +245,12 @@ fn binomials<S: RoundedSpecial>(damping: &S, power: i64, log2_accuracy: f64) -> 
 }
 
 impl<S: RoundedSpecial> Medium<S> {
-    /// The state of a flight `trips` round trips later, and what that has summed up.
+    /// Computes the state of a flight `trips` round trips later, and the sums for its account.
     ///
     /// **Accuracy**: the truncation of a cell and a few dozen roundings, relative to the greatest `|q|`.
     pub(super) fn leap(&self, state: &mut State<S>, ground: &S, trips: i64) -> LeapCount {
         if state.bound() == 0.0 {
-            // Only the centre of mass moves; over any number of round trips the series below would overflow.
+            // Only the centre of mass moves; over a large number of round trips the series below would overflow.
             state.round += trips;
             return LeapCount::default();
         }
@@ -276,10 +275,10 @@ impl<S: RoundedSpecial> Medium<S> {
         };
         let (value, rate) = self.scaled(state, &circle, ground);
         let layers = self.layers(&damping);
-        // (in), by Horner's rule.
+        // Formula (in), by Horner's rule.
         let gamma = circle.lagged_delta();
         let mut products = vec![(rate, value)];
-        // ‖G‖, by the same.
+        // Bound of ‖G‖, from the same bound of ‖D⁻¹‖.
         let lag = HALF * rests(&circle.lag, QUARTER).first().copied().unwrap_or(0.0);
         for j in 1..=layers {
             let (mut rate, mut value) = products[j - 1].clone();
@@ -295,7 +294,7 @@ impl<S: RoundedSpecial> Medium<S> {
             circle.centre(&mut rate);
             add(&mut rate, &gamma, &(circle.mean(&value) * &half));
             if let Some(wave) = wave {
-                // G is still to be applied j times to what this drops.
+                // The term dropped here is still multiplied by G j times.
                 let later = circle.weighed(lag.powi(j as i32), || circle.lagged(&wave));
                 add(&mut rate, &later, &zero.one());
             }
@@ -303,7 +302,7 @@ impl<S: RoundedSpecial> Medium<S> {
         }
         let Some(mut wave) = wave else { return LeapCount::default() };
         let powers = self.pass(&circle, &mut wave, &damping, trips);
-        // (out).
+        // Formula (out).
         let mut at_ground = wave.clone();
         add(&mut at_ground, &circle.turned(&wave), &-zero.one());
         circle.antiderivative(&mut at_ground);
@@ -340,7 +339,7 @@ impl<S: RoundedSpecial> Medium<S> {
         LeapCount { dropped, order: circle.lag.len(), layers, integrals, powers }
     }
 
-    /// How many powers of `G/2` count on the characteristic.
+    /// Returns the number of powers of `G/2` on the characteristic that reach the accuracy.
     fn layers(&self, damping: &S) -> usize {
         let size = damping.to_f64().powi(2) / 14.0;
         let (mut log2_term, mut j) = (0.0, 0usize);
@@ -351,7 +350,7 @@ impl<S: RoundedSpecial> Medium<S> {
         j
     }
 
-    /// `Z` and `Z_s` from `q` and `z(0)`: `Z_s = κZ + ½e^{κs}q`.
+    /// Computes `Z` and `Z_s` from `q` and `z(0)`: `Z_s = κZ + ½e^{κs}q`.
     fn scaled(&self, state: &State<S>, circle: &Circle<'_, S>, ground: &S) -> (Function<S>, Function<S>) {
         let size = self.basis.size();
         let (mut here, mut grown) = (ground.clone(), ground.one());
@@ -361,7 +360,7 @@ impl<S: RoundedSpecial> Medium<S> {
             push.resize(size, len.zero());
             scale(&mut push, &(grown.clone() * len.ratio(1, 2)));
             grown = grown / &segment.decay;
-            // Z = Z(0) + J(κZ + push): each round adds a power of κ·len ≤ ½.
+            // Each iteration of Z = Z(0) + J(κZ + push) adds a power of κ·len ≤ ½.
             let depth = self.kappa.clone() * len;
             let mut first = push.clone();
             circle.drops(&first);
@@ -387,7 +386,7 @@ impl<S: RoundedSpecial> Medium<S> {
         (value, rate)
     }
 
-    /// How many rounds of `Z = Z(0) + J(κZ + …)` reach the accuracy.
+    /// Returns the number of iterations of `Z = Z(0) + J(κZ + …)` that reach the accuracy.
     fn rounds(&self, depth: &S) -> usize {
         let (mut log2_term, mut k) = (0.0, 0usize);
         while log2_term > self.log2_accuracy && k < 1000 {
@@ -397,7 +396,7 @@ impl<S: RoundedSpecial> Medium<S> {
         k
     }
 
-    /// `q` from `Z_s` and `Z(0)`.
+    /// Computes `q` from `Z_s` and `Z(0)`.
     fn unscaled(&self, segments: &mut VecDeque<Segment<S>>, circle: &Circle<'_, S>, rate: &[Vec<S>], ground: &S) {
         let (mut here, mut shrunk) = (ground.clone(), ground.int(2));
         for ((segment, rate), (_, len)) in segments.iter_mut().zip(rate).zip(&circle.parts) {
@@ -414,7 +413,7 @@ impl<S: RoundedSpecial> Medium<S> {
         }
     }
 
-    /// `e^{−Rn} e^{nG}`, and how many powers of `D⁻¹` that has taken.
+    /// Applies `e^{−Rn} e^{nG}`, and returns the number of powers of `D⁻¹` used.
     ///
     /// The coefficients `e_k` of the powers of `D⁻¹` follow from `E′ = nG′E`: `k e_k = n Σ i g_i e_{k−i}` over odd i.
     fn pass(&self, circle: &Circle<'_, S>, wave: &mut Function<S>, damping: &S, trips: i64) -> usize {
@@ -433,7 +432,7 @@ impl<S: RoundedSpecial> Medium<S> {
             let next = sum * &n / damping.int(k as i64);
             let size = next.to_f64().abs().log2() + 0.5 * k as f64 * INVERSE_SQUARE.log2();
             coefficients.push(next);
-            // Two in a row, far down: from there on they fall faster than geometrically.
+            // After four small terms in a row the coefficients fall faster than geometrically.
             below = if size < self.log2_accuracy - 2.0 { below + 1 } else { 0 };
             if below >= 4 {
                 break;

@@ -1,4 +1,4 @@
-//! Over many round trips of a flight at once: how many, and what is left of its rays.
+//! Leaps over many round trips of a flight: their length, and the removal of faded rays.
 
 use super::budget::LEAP_CELLS;
 use super::effort::LEAST_LEAP;
@@ -8,14 +8,14 @@ use super::piece::Piece;
 use crate::special::RoundedSpecial;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// How many round trips can be leapt over: as long as the end surely stays above the ground.
+    /// Returns the number of round trips of the next leap: the end is proved to stay above the ground for so long.
     ///
-    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. For `z` has mean zero, hence
-    /// `|z(0)| ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies
-    /// between `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` half a round trip
-    /// from now, above the characteristic on which `|q| ≤ M`. So `B = e^{R/2} M √((1 + ρ)/(1 − ρ)/12)`. Where
-    /// `h′ ≥ −g/2R` the fall is concave, and `h − B e^{−Rτ}` with it: both ends decide. Otherwise h falls all the time,
-    /// and its end does.
+    /// `v(0,t) = h + z(0,t)` with `|z(0,t)| ≤ B e^{−Rτ}` at the age τ from now. Proof: `z` has mean zero, hence `|z(0)|
+    /// ≤ ‖z_x‖/√6` on a rod of length ½; `e^{2Rτ} (|ȧ + Ra|² + ω²|a|²)` is constant in each mode `a`, and lies between
+    /// `1 ∓ ρ` times `e^{2Rτ}(|ȧ|² + (2πk)²|a|²)`, `ρ = R/2π`; and `½ ∫ p² + q² dx ≤ ½ M²` half a round trip from now,
+    /// above the characteristic on which `|q| ≤ M`. So `B = e^{R/2} M √((1 + ρ)/(1 − ρ)/12)`. Where `h′ ≥ −g/2R` the
+    /// fall is concave, and so is `h − B e^{−Rτ}`: its minimum is at one of its ends. Otherwise h falls throughout, and
+    /// its end is the minimum.
     pub(super) fn leap_length(&self, goal: &Goal<S>) -> Option<i64> {
         let flight = self.flying()?;
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());
@@ -55,7 +55,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         Some(low as i64)
     }
 
-    /// B of [`Self::leap_length`], where `|q| ≤ most`.
+    /// Computes B of [`Self::leap_length`] for `|q| ≤ most`.
     fn swing(&self, most: f64) -> f64 {
         let rho = self.damping() / (2.0 * std::f64::consts::PI);
         (0.5 * self.damping()).exp() * most * ((1.0 + rho) / (1.0 - rho) / 12.0).sqrt()
@@ -80,7 +80,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         self.budget.note_end(self.height_error(0.0));
     }
 
-    /// Forgets rays and vibrations that are below the truncation of a cell.
+    /// Removes rays and vibrations below the truncation of a cell.
     fn forget(&mut self) {
         let most = self.state.bound();
         let least = self.medium.least() * self.medium.gravity.to_f64();
@@ -95,8 +95,8 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// No more than the least of `v(0,·)` over so many round trips: that of `h − B e^{−Rτ}`, concave or falling, as in
-    /// [`Self::leap_length`]; less a billionth of what it is the difference of.
+    /// Computes a lower bound of `v(0,·)` over `trips` round trips: the minimum of `h − B e^{−Rτ}`, which is concave or
+    /// falls, as in [`Self::leap_length`], less a billionth of the terms of that difference.
     fn least_over(&self, trips: f64) -> f64 {
         let Some(flight) = self.flying() else { return f64::NEG_INFINITY };
         let (damping, gravity) = (self.damping(), self.medium.gravity.to_f64());

@@ -1,12 +1,12 @@
 //! Marching: from the data on one upward characteristic to those on the next.
 //!
 //! Dimensionless: time in `t₁`, `x/c` in `t₁` (so that the rod is `0 … ½`), velocities in `V`. The state is `q` on the
-//! characteristic `ξ = b` that leaves the ground at time `b`, for `b ≤ η ≤ b + 1`, in segments between the rays that
-//! come down. A strip takes the first segment to the ground, sends `p` up through the others, reflects it at the top
-//! and appends the result as the last segment, one round trip later.
+//! characteristic `ξ = b` that leaves the ground at time `b`, for `b ≤ η ≤ b + 1`, in segments between the downward
+//! rays. A strip carries the first segment to the ground, sends `p` up through the others, reflects it at the top and
+//! appends the result as the last segment, one round trip later.
 //!
-//! A segment knows its place as a fraction of a round trip, which the ray keeps for ever: it is handed on, not computed
-//! again, so that rays return at exactly the same fraction and lengths never drift.
+//! A segment stores its place as a fraction of a round trip, which its ray keeps for ever. The place is copied, not
+//! computed again, so that rays return at exactly the same fraction and lengths never drift.
 
 use std::collections::VecDeque;
 use std::sync::OnceLock;
@@ -17,10 +17,10 @@ use super::uncertainty::Off;
 use crate::number::Rounded;
 use crate::special::gauss_legendre;
 
-/// The strongest damping `R` for which flights are leapt over: `R²‖D⁻²‖ ≤ 0.13`.
+/// The strongest damping `R` for leaps: `R²‖D⁻²‖ ≤ 0.13`.
 pub(super) const MOST_DAMPING: f64 = 2.0;
 
-/// What stays the same during a run.
+/// Constants of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Medium<S> {
     pub(super) basis: Basis<S>,
@@ -30,52 +30,52 @@ pub(super) struct Medium<S> {
     pub(super) gravity: S,
     /// Slope of the static state at the ground, in `V`: contact has `z_x = v_x − slope`.
     pub(super) slope: S,
-    /// What flight has of it, `z_x = −slope`: nothing where z is the vibration about the centre of mass.
+    /// Slope of `−z` at the ground in flight, `z_x = −offset`: zero where z is the vibration about the centre of mass.
     pub(super) offset: S,
     pub(super) free_top: bool,
     /// Truncation of one cell relative to `V`, as `log₂`.
     pub(super) log2_accuracy: f64,
     pub(super) longest: S,
-    /// See [`Medium::rule`].
+    /// Quadrature rules of [`Medium::rule`].
     rules: [OnceLock<Vec<(S, S)>>; RULES],
 }
 
-/// Rules for so many lengths, each half of the one before.
+/// Number of quadrature rules; each serves half the length of the one before.
 const RULES: usize = 8;
 
-/// Bounds `a`, `b` of the sides for [`terms_for`]: velocities of a few dozen `V`, slopes `(1 + r t₁)` times that.
-/// They enter as logarithms; the error estimate uses what is found in the run.
+/// Bounds `a`, `b` of the sides for [`terms_for`]: velocities of a few dozen `V`, slopes `(1 + r t₁)` times that. They
+/// enter as logarithms; the error estimate uses the values of the run.
 const SIDE_BOUND: f64 = 32.0;
 
 /// `q` on a part of an upward characteristic: `e^{κ(η−η₀)} q` in Chebyshev coefficients.
 #[derive(Clone, Debug)]
 pub(super) struct Segment<S> {
-    /// Where its lower end meets the ground, as a fraction of a round trip in `0 … 1`.
+    /// Place where its lower end meets the ground, as a fraction of a round trip in `0 … 1`.
     pub(super) at: S,
     /// Length in `η`.
     pub(super) len: S,
     /// `e^{−κ len}`.
     pub(super) decay: S,
     pub(super) q: Vec<S>,
-    /// How far the ray at its lower end may be off.
+    /// Time error of the ray at its lower end.
     pub(super) off: Off,
 }
 
 /// `q` on a whole upward characteristic.
 #[derive(Clone, Debug)]
 pub(super) struct State<S> {
-    /// Whole round trips so far.
+    /// Number of whole round trips so far.
     pub(super) round: i64,
-    /// From the ground up; never empty.
+    /// Segments from the ground up; never empty.
     pub(super) segments: VecDeque<Segment<S>>,
 }
 
 impl<S: Rounded> Medium<S> {
-    /// The medium for `R = r t₁`, with segments `shorten` times shorter than need be.
+    /// Builds the medium for `R = r t₁`, with segments `shorten` times shorter than necessary.
     pub(super) fn new(damping: &S, (gravity, slope): (S, S), free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
         let r = damping.to_f64();
         let offset = if free_top && r <= MOST_DAMPING { slope.zero() } else { slope.clone() };
-        // Segments of κ·len ≤ 1: every series stays short, and what e^{κs} costs in digits is nothing.
+        // κ·len ≤ 1 on each segment: every series stays short, and the factor e^{κs} costs no noticeable digits.
         let longest = if r > 2.0 { damping.int(2) / damping } else { damping.one() } / damping.int(shorten);
         let depth = 0.5 * r.min(2.0);
         // y = (κ len)² is largest for two longest segments.
@@ -87,8 +87,8 @@ impl<S: Rounded> Medium<S> {
         Medium { basis, kappa, gravity, slope, offset, free_top, log2_accuracy, longest, rules: Default::default() }
     }
 
-    /// Gauss–Legendre nodes and weights on `0 … 1` for products with a parabola of functions that grow like
-    /// `e^{4κ|s|}`, on a part of this length of a line of constant time.
+    /// Returns Gauss–Legendre nodes and weights on `0 … 1` for products of a parabola with functions that grow like
+    /// `e^{4κ|s|}`, on a part of length `len` of a line of constant time.
     pub(super) fn rule(&self, len: &S) -> &[(S, S)] {
         let (mut k, mut longest) = (0, self.longest.clone());
         while k + 1 < RULES && len.int(2) * len <= longest {
@@ -100,26 +100,26 @@ impl<S: Rounded> Medium<S> {
         self.rules[k].get_or_init(|| rule().into_iter().map(on_unit).collect())
     }
 
-    /// What is too small to be told, relative to the greatest `|q|`: the truncation of a cell, or a rounding.
+    /// Returns the resolution relative to the greatest `|q|`: the truncation of a cell, or a rounding.
     pub(super) fn least(&self) -> f64 {
         self.log2_accuracy.max(self.kappa.log2_roundoff()).exp2()
     }
 
-    /// The error of a cell: what the series of its sides and of its sum leave out, and four roundings of every
-    /// coefficient: the sum, the correction, the decay and its factor. Both are relative to what moves now.
+    /// Estimates the error of a cell: the truncation of the series of its sides and of its sum, and four roundings of
+    /// every coefficient (the sum, the correction, the decay and its factor). Both are relative to the present motion.
     pub(super) fn cell_error(&self, state: &State<S>) -> f64 {
         let unit = self.log2_accuracy.exp2() + self.kappa.log2_roundoff().exp2();
         4.0 * unit * (state.bound() + self.slope.to_f64().abs())
     }
 
-    /// Terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
+    /// Returns the number of terms for a function that grows like `e^{multiple·κ|s|}` on a segment.
     pub(super) fn terms(&self, len: &S, multiple: f64) -> usize {
         let (kappa, len) = (self.kappa.to_f64(), len.to_f64());
         let b = SIDE_BOUND * (1.0 + 2.0 * kappa) * len;
         terms_for(SIDE_BOUND, b, multiple * kappa * len, self.log2_accuracy).min(self.basis.size())
     }
 
-    /// A segment through values of `q` at the nodes.
+    /// Builds a segment through values of `q` at the nodes.
     pub(super) fn segment(&self, at: S, len: S, values: &[S]) -> Segment<S> {
         let terms = self.terms(&len, 1.0);
         let depth = self.kappa.clone() * &len;
@@ -128,7 +128,7 @@ impl<S: Rounded> Medium<S> {
         Segment { decay: (-depth).exp(), at, len, q, off: Off::default() }
     }
 
-    /// Cuts a segment at `0 < cut < len`; the new ray starts with this error.
+    /// Cuts a segment at `0 < cut < len`; the new ray starts with the time error `off`.
     fn cut(&self, segment: &Segment<S>, cut: &S, off: Off) -> (Segment<S>, Segment<S>) {
         let (zero, one) = (cut.zero(), cut.one());
         let fraction = cut.clone() / &segment.len;
@@ -145,7 +145,7 @@ impl<S: Rounded> Medium<S> {
         )
     }
 
-    /// `q + offset`.
+    /// Returns the series of `q + offset`.
     pub(super) fn raised(&self, segment: &Segment<S>, offset: &S) -> Vec<S> {
         let mut q = segment.q.clone();
         self.raise(&mut q, &(self.kappa.clone() * &segment.len), offset);
@@ -158,12 +158,12 @@ impl<S: Rounded> Medium<S> {
         }
     }
 
-    /// The data at the ground that are mirrored: `q` in contact, `q + offset` in flight.
+    /// Returns the data reflected at the ground: `q` in contact, `q + offset` in flight.
     fn mirrored(&self, segment: &Segment<S>, contact: bool) -> Vec<S> {
         if contact { segment.q.clone() } else { self.raised(segment, &self.offset) }
     }
 
-    /// `v_t + c v_x` at the ground while the first segment comes down: the velocity in flight, `c v_x` in contact.
+    /// Computes `v_t + c v_x` at the ground over the first segment: the velocity in flight, `c v_x` in contact.
     ///
     /// **Source**: [`diagonal`]; in contact `q` of `z` plus the static slope.
     pub(super) fn trace(&self, state: &State<S>, contact: bool) -> Vec<S> {
@@ -185,7 +185,7 @@ impl<S: Rounded> Medium<S> {
         trace
     }
 
-    /// Marches over the first segment. `visit` sees every cell before it is crossed.
+    /// Marches over the first segment; `visit` receives every cell before it is crossed.
     pub(super) fn strip(&self, state: &mut State<S>, contact: bool, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         let Some(first) = state.segments.pop_front() else { return };
         let zero = first.len.zero();
@@ -213,7 +213,7 @@ impl<S: Rounded> Medium<S> {
             self.cross((&mut p, &mut segment.q), (&depth, &h), (&first.decay, &segment.decay));
             eta = eta + &segment.len;
         }
-        // The top, the same way.
+        // The top: likewise a cell and its mirror image.
         let mut q = if self.free_top { p.clone() } else { p.iter().map(|term| -term.clone()).collect() };
         let (corner, size, depths) = cell(&eta, &first.len);
         visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: zero });
@@ -254,12 +254,12 @@ impl<S: Rounded> Medium<S> {
         }
     }
 
-    /// [`cross`] with the tables of this medium.
+    /// Calls [`cross`] with the tables of this medium.
     fn cross(&self, sides: (&mut Vec<S>, &mut Vec<S>), depth: (&S, &S), decay: (&S, &S)) {
         cross(&self.basis, sides, depth, decay, self.log2_accuracy);
     }
 
-    /// Forgets all rays that can be, and says how many that were.
+    /// Joins all segments that can be joined, and returns the number of rays removed.
     pub(super) fn join_all(&self, state: &mut State<S>) -> usize {
         let count = state.segments.len();
         for k in (0..count.saturating_sub(1)).rev() {
@@ -268,7 +268,7 @@ impl<S: Rounded> Medium<S> {
         count - state.segments.len()
     }
 
-    /// Puts silence in the place of a vibration.
+    /// Replaces the vibration by zero.
     pub(super) fn still(&self, state: &mut State<S>) {
         let first = state.segments[0].clone();
         let depth = self.kappa.clone();
@@ -277,7 +277,7 @@ impl<S: Rounded> Medium<S> {
         state.segments = VecDeque::from([whole]);
     }
 
-    /// The greatest slope of `q` between rays, its range, and its total variation around the circle.
+    /// Bounds the slope of `q` between rays, its range, and its total variation around the circle.
     pub(super) fn variation(&self, state: &State<S>) -> (f64, f64, f64) {
         let (mut slope, mut low, mut high) = (0.0f64, f64::INFINITY, f64::NEG_INFINITY);
         let (mut variation, mut ends) = (0.0, Vec::new());
@@ -287,7 +287,7 @@ impl<S: Rounded> Medium<S> {
             slope = slope.max(rate);
             variation += rate * len;
             ends.push((at_zero(&segment.q, &zero).to_f64(), (at_one(&segment.q, &zero) * &segment.decay).to_f64()));
-            // e^{−κs} times what lies about c₀.
+            // The factor e^{−κs} applied to the range about c₀.
             let (mean, spread, decay) = (segment.q[0].to_f64(), bound(&segment.q, 1), segment.decay.to_f64());
             low = low.min(mean - spread).min((mean - spread) * decay);
             high = high.max(mean + spread).max((mean + spread) * decay);
@@ -296,14 +296,14 @@ impl<S: Rounded> Medium<S> {
         (slope, high - low, variation + jumps.sum::<f64>())
     }
 
-    /// `Σ |jump of q| · time` of the rays that may be off.
+    /// Computes `Σ |jump of q| · time error` of the displaced rays.
     pub(super) fn passing(&self, state: &State<S>) -> f64 {
         let mut sum = 0.0;
         let mut last: Option<S> = None;
         for segment in &state.segments {
             let zero = segment.len.zero();
             let start = at_zero(&segment.q, &zero);
-            // The first ray leaves the ground here: twice its own velocity is the most that it jumps by.
+            // The first ray leaves the ground here; its jump is at most twice its own velocity.
             let jump = last.map_or_else(|| 2.0 * start.to_f64().abs(), |last| (start.clone() - last).to_f64().abs());
             sum += jump * segment.off.fixed;
             last = Some(at_one(&segment.q, &zero) * &segment.decay);
@@ -311,12 +311,12 @@ impl<S: Rounded> Medium<S> {
         sum
     }
 
-    /// Forgets the ray between the segments k and k + 1 once they continue each other within the truncation of a cell.
+    /// Joins the segments k and k + 1 once they continue each other within the truncation of a cell.
     ///
-    /// A jump at age `T` is `e^{−rT}` of the one that it started with, and so are its derivatives' (times powers of
-    /// `r²T`), so every ray is forgotten in the end, except those that keep segments short. What is compared is the
-    /// joined series with the two old ones, term by term: the sum of the differences bounds what the joining changes,
-    /// and by the sup norm property it is never amplified.
+    /// A jump at age `T` is `e^{−rT}` of its first value, and so are the jumps of derivatives (times powers of `r²T`),
+    /// so every ray disappears in the end, except those that keep segments short. The joined series is compared with
+    /// the two old ones, term by term: the sum of the differences bounds the change by the joining, and by the sup norm
+    /// property the change is never amplified.
     fn join(&self, state: &mut State<S>, k: usize) {
         let (a, b) = (&state.segments[k], &state.segments[k + 1]);
         let len = a.len.clone() + &b.len;
@@ -350,7 +350,7 @@ impl<S: Rounded> Medium<S> {
         state.segments.remove(k + 1);
     }
 
-    /// Cuts the first segment, so that the next strip ends there.
+    /// Cuts the first segment, so that the next strip ends at the cut.
     pub(super) fn cut_first(&self, state: &mut State<S>, cut: &S, off: Off) {
         if let Some(first) = state.segments.pop_front() {
             let (low, high) = self.cut(&first, cut, off);
@@ -361,19 +361,19 @@ impl<S: Rounded> Medium<S> {
 }
 
 impl<S: Rounded> State<S> {
-    /// `b`: the time at which this characteristic leaves the ground.
+    /// Returns `b`: the time at which this characteristic leaves the ground.
     pub(super) fn time(&self) -> S {
         let at = &self.segments[0].at;
         at.int(self.round) + at
     }
 
-    /// A bound of `|q|` of `z` on the characteristic, hence of `|q|` at the ground in contact at every later time.
+    /// Bounds `|q|` of `z` on the characteristic, hence `|q|` at the ground in contact at every later time.
     pub(super) fn bound(&self) -> f64 {
         self.segments.iter().map(|segment| bound(&segment.q, 0)).fold(0.0, f64::max)
     }
 }
 
-/// The place on the circle of a round trip, `0 … 2` given.
+/// Reduces a place in `0 … 2` to the circle of a round trip.
 pub(super) fn on_circle<S: Rounded>(place: S) -> S {
     let one = place.one();
     if place >= one { place - one } else { place }

@@ -1,15 +1,15 @@
 //! The damped rod, any number of impacts: characteristic cells, the contact law, marching.
 //!
-//! In reading order: `series` holds functions, `cell` carries the invariants through one cell, `march` through one
-//! strip; `start` makes the first state from the data at `t = 0` and `bounce` from the closed form of the first
-//! contact; `flight` takes a flight apart into centre of mass and vibration, and `leap` goes over many of its round
-//! trips at once. `root` finds events, `near` what the bound leaves open of them, `effort` limits a run, `follow`
-//! decides what happens at the ground, `long_flight` where a leap is due, `event` does it, `piece` is what remains of
-//! it, `budget` adds up what all of it may be off by, with the signs that `dependence` follows; `proof` proves each
-//! event by its `signs`, from the `account` of the `defect` of each step; `rest` says when nothing more can happen.
-//! `record` gets the field back, from cells that `strips` keeps for the next question, `history` answers questions,
-//! `bounds` gives the answers the bounds that the `uncertainty` of the run makes of them, `contact_then_cells` puts the
-//! closed form of the first contact before them.
+//! Reading order. `series` holds Chebyshev series, `cell` computes one cell and `march` one strip. `start` builds the
+//! first state from the data at `t = 0`, `bounce` from the closed form of the first contact. `flight` separates a
+//! flight into centre of mass and vibration, `leap` computes many round trips of it in one step. `root` finds events,
+//! `near` finds what the error bound leaves undecided about them, `effort` limits a run. `follow` decides the events at
+//! the ground, `long_flight` decides when to leap, `event` carries an event out, `piece` stores the result. `budget`
+//! adds up the error bound, with the signs that `dependence` follows. `proof` proves each event by the `signs` of its
+//! series, from the `account` of the `defect` of each step. `rest` proves that no event can follow. `record` computes
+//! the field again, from cells that `strips` caches, `history` answers queries, `bounds` gives each answer the bound
+//! that follows from the `uncertainty` of the run. `contact_then_cells` puts the closed form of the first contact in
+//! front of the cells.
 
 mod account;
 mod bounce;

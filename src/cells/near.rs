@@ -1,17 +1,17 @@
-//! What the bound of an error leaves open at the ground: touches that may be misses, releases that may be none.
+//! Events at the ground that the error bound leaves open: touches that may be misses, releases that may not occur.
 //!
-//! A function `f` is known within a bound. A touch, or a release, is decided where `f` passes through all of the bound
-//! on one stretch on which its derivative has one sign beyond its own bound, and it is none where `f` stays clear.
-//! Anything else is open: the true motion may have an event that the computed one lacks, or the other way round.
+//! A function `f` is known within a bound. A touch or a release is decided where `f` passes through the whole bound on
+//! one stretch on which its derivative has one sign beyond its own bound; there is none where `f` stays clear of the
+//! bound. Anything else is open: the true motion may have an event that the computed motion lacks, or the reverse.
 
 use super::series::{Basis, at_zero, derivative, spread};
 use crate::number::Rounded;
 
-/// Stretches shorter than this part of a strip are not cut any further, nor is a strip into more than so many.
+/// Length, in strips, below which a stretch is not halved, followed by the maximum number of stretches of a strip.
 const SHORTEST: f64 = 1e-14;
 const MOST_PARTS: usize = 1000;
 
-/// The two halves of series on the unit interval, the latter first.
+/// Restricts series to the two halves of the unit interval; the later half comes first.
 fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) -> [[Vec<S>; N]; 2] {
     let zero = series[0][0].zero();
     let (half, one) = (zero.ratio(1, 2), zero.one());
@@ -19,23 +19,23 @@ fn halves<S: Rounded, const N: usize>(basis: &Basis<S>, series: &[Vec<S>; N]) ->
     [part(&half, &one), part(&zero, &half)]
 }
 
-/// Whether the derivative is positive throughout.
+/// Returns whether the derivative is positive throughout.
 fn increases<S: Rounded>(c: &[S]) -> bool {
     let slope = derivative(c);
     slope.first().is_some_and(|mean| mean.to_f64() > spread(&slope))
 }
 
-/// What is known of a part of a strip.
+/// Result of a test of a part of a strip.
 enum Told {
-    /// Nothing happens in it.
+    /// No event occurs in the part.
     Clear,
-    /// It happens in it, and what comes after is another question.
+    /// The event occurs in the part; the rest of the strip is not tested.
     Over,
-    /// Halves of it may tell.
+    /// The part is undecided; its halves may be decided.
     Open,
 }
 
-/// Where the first part begins, as a part of the strip, that `told` leaves open and that is not worth cutting.
+/// Returns the start, in strips, of the first part that `told` leaves open at the smallest size.
 fn open<S: Rounded, const N: usize>(
     basis: &Basis<S>,
     series: [Vec<S>; N],
@@ -59,9 +59,9 @@ fn open<S: Rounded, const N: usize>(
     None
 }
 
-/// Where it first is open whether the end, in flight, touches the ground, as a part of the strip: `height` and its
-/// derivative `trace` are known within these bounds. `rising` says that since the release the end has gone up and is
-/// not yet clear of the ground.
+/// Returns the first place in the strip, as a fraction of it, where a touch of the flying end is undecided. `height`
+/// and its derivative `trace` are known within `high` and `fast`. `rising` is true while the end has only risen since
+/// the release and is not yet clear of the ground.
 pub(super) fn open_touch<S: Rounded>(
     basis: &Basis<S>,
     (height, trace): (&[S], &[S]),
@@ -90,10 +90,10 @@ pub(super) fn open_touch<S: Rounded>(
     })
 }
 
-/// Where it first is open whether the ground, in contact, lets go, as a part of the strip: the stress `trace` is known
-/// within `off`. `begins` says that it may fall from zero here, by construction.
+/// Returns the first place in the strip, as a fraction of it, where a release is undecided. The stress `trace` is known
+/// within `off`. `begins` is true where the stress may fall from zero by construction.
 pub(super) fn open_release<S: Rounded>(basis: &Basis<S>, trace: &[S], off: f64, mut begins: bool) -> Option<f64> {
-    // Where no wave has arrived yet, and without weight, the stress is zero and not only small.
+    // Before the first wave arrives, and without weight, the stress is exactly zero.
     if trace.iter().all(S::is_zero) {
         return None;
     }

@@ -1,4 +1,4 @@
-//! What a run leaves behind: what the ground felt, strip by strip, events, and states to start again from.
+//! Results of a run: the motion of the ground end strip by strip, events, and checkpoints to march from again.
 
 use super::account::Proof;
 use super::budget::AtEvent;
@@ -9,19 +9,19 @@ use crate::motion::{Ending, EventKind};
 use crate::reason::Warning;
 use crate::special::RoundedSpecial;
 
-/// What happened at the ground during one strip, or during a flight that was leapt over, dimensionless.
+/// Motion of the ground end during one strip or one leap, dimensionless.
 #[derive(Clone, Debug)]
 pub(super) struct Piece<S> {
     pub(super) from: S,
     pub(super) len: S,
     pub(super) contact: bool,
-    /// The flight that it belongs to, where centre of mass and vibration are apart.
+    /// Index of its flight, if centre of mass and vibration are separated.
     pub(super) flight: Option<usize>,
     /// Whether the first segment was cut for this strip.
     pub(super) cut: bool,
     /// Whether the rod is at rest: nothing was marched.
     pub(super) still: bool,
-    /// Round trips that were leapt over; zero for a strip.
+    /// Number of round trips of a leap; zero for a strip.
     pub(super) leap: i64,
     /// `v_t + c v_x` in Chebyshev coefficients; empty in a leap.
     pub(super) trace: Vec<S>,
@@ -30,7 +30,7 @@ pub(super) struct Piece<S> {
 }
 
 impl<S: RoundedSpecial> Piece<S> {
-    /// A strip of which the ground has felt nothing.
+    /// Builds a strip without trace and height.
     pub(super) fn new(from: S, len: S, contact: bool, flight: Option<usize>) -> Self {
         let (trace, height) = (Vec::new(), Vec::new());
         Piece { from, len, contact, flight, cut: false, still: false, leap: 0, trace, height }
@@ -41,12 +41,12 @@ impl<S: RoundedSpecial> Piece<S> {
     }
 }
 
-/// A state that is kept.
+/// A stored state.
 #[derive(Clone, Debug)]
 pub(super) struct Checkpoint<S> {
-    /// How many pieces came before it.
+    /// Number of pieces before it.
     pub(super) index: usize,
-    /// The flight whose vibration it holds; the deviation from the static state without one.
+    /// Index of the flight whose vibration it holds; without one it holds the deviation from the static state.
     pub(super) flight: Option<usize>,
     pub(super) state: State<S>,
     /// `z(0,b)` in such a flight.
@@ -58,23 +58,23 @@ pub(super) struct Checkpoint<S> {
 pub(super) struct Mark<S> {
     pub(super) kind: EventKind,
     pub(super) time: S,
-    /// `v_t(0,·)`, just before or just after.
+    /// `v_t(0,·)` just before or just after the event.
     pub(super) velocity: S,
     pub(super) time_error: f64,
-    /// How far values may be off then, where flights are taken apart.
+    /// Error bounds of values at the event, if flights are separated.
     pub(super) at: Option<AtEvent>,
-    /// How far they may be off from then to the next event.
+    /// Error bounds of values between this event and the next.
     pub(super) after: Uncertainty,
 }
 
 impl<S> Mark<S> {
-    /// With nothing known of how far it is off.
+    /// Builds an event whose errors are not yet known.
     pub(super) fn new(kind: EventKind, time: S, velocity: S) -> Self {
         Mark { kind, time, velocity, time_error: f64::INFINITY, at: None, after: Uncertainty::default() }
     }
 }
 
-/// What a run has found.
+/// Result of a run.
 pub(super) struct Found<S> {
     pub(super) pieces: Vec<Piece<S>>,
     pub(super) checkpoints: Vec<Checkpoint<S>>,
@@ -84,7 +84,7 @@ pub(super) struct Found<S> {
     pub(super) unresolved: Option<Warning>,
     pub(super) before: Uncertainty,
     pub(super) ending: Ending,
-    /// How far its time may be off where it is an event.
+    /// Time error of the end of the run, if it is an event.
     pub(super) end_error: f64,
     pub(super) proof: Option<Proof<S>>,
 }

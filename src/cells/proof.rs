@@ -1,18 +1,18 @@
-//! A damped run with a proof: what it shows of the true motion.
+//! Proof of a damped run: the properties of the true motion that follow from the stored one.
 //!
-//! The stored history is taken as exact data. Each step of it differs from the exact image of what was stored before by
-//! no more than its own defect (module `defect`). Neither `sup(|δp|, |δq|)` nor `∫ |δp| + |δq|` grows (module `cell`;
-//! `|p| = |q|` at both ends), so errors are added, step by step, and nothing is propagated. `docs/proofs.md` has the
-//! lemmas. Dimensionless: times in `t₁`, lengths in `c t₁`, velocities in `V`; `δ = δ_E + δ_W`:
+//! The stored history is taken as exact data. Each step differs from the exact image of the state stored before it by
+//! at most its own defect (module `defect`). Neither `sup(|δp|, |δq|)` nor `∫ |δp| + |δq|` grows (module `cell`; `|p| =
+//! |q|` at both ends), so errors are added, step by step, and never propagated. `docs/proofs.md` has the lemmas.
+//! Dimensionless: times in `t₁`, lengths in `c t₁`, velocities in `V`; `δ = δ_E + δ_W`:
 //!
 //! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
-//! - **W**, `masses`: `∫ |δ_W|`. An event that is off by at most τ differs from the true one in what holds at the
-//!   ground for no longer than τ, where p is −q here and q there: `2τ max|q|`.
-//! - **Θ**, `clock`: how far the clock of the true motion has been set at impacts, instead of that.
-//! - Away from rays that are off, `|δq| ≤ F = E + min(R(T + 1), e^R) W` and what the trace itself has been rounded by.
+//! - **W**, `masses`: `∫ |δ_W|`. An event with a time error of at most τ differs from the true one in the boundary
+//!   condition at the ground for at most τ, where p is −q in one motion and q in the other: `2τ max|q|`.
+//! - **Θ**, `clock`: bound of the shift of the true motion's clock at impacts, which replaces that mass.
+//! - Away from displaced rays, `|δq| ≤ F = E + min(R(T + 1), e^R) W` plus the rounding of the trace itself.
 //! - In flight `|δv(0,·)| ≤ H`, [`Proof::height_off`].
 //!
-//! What the signs below do not show ends the proof: at the beginning of the strip in question.
+//! A sign below that is not proved ends the proof: at the beginning of the strip in question.
 
 use super::account::{Change, Open, Proof, Release, SLACK};
 use super::budget::AtEvent;
@@ -29,11 +29,11 @@ use crate::motion::{Ending, EventKind};
 use crate::reason::{Near, Reason};
 use crate::special::RoundedSpecial;
 
-/// Roundings of values that are asked for, besides those of three powers of the terms of a series.
+/// Roundings of a queried value, per cube of the number of terms of a series.
 const ASKED: f64 = 4096.0;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// Works on the account of a proof, where there is one.
+    /// Runs `work` on the account of the proof, if there is one.
     pub(super) fn prove(&mut self, work: impl FnOnce(&mut Proof<S>, &Self)) {
         if let Some(mut proof) = self.proof.take() {
             work(&mut proof, self);
@@ -41,7 +41,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         }
     }
 
-    /// Whether the proof has ended.
+    /// Returns whether the proof has ended.
     pub(super) fn open(&self) -> bool {
         self.proof.as_ref().is_some_and(|proof| proof.open.is_some())
     }
@@ -52,7 +52,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let (unit, data) = (self.steps.unit, run.data);
         let defect = self.steps.start(&run.state, data.most, data.shortest);
         self.add(defect);
-        // Places of breaks are rounded.
+        // The places of breaks are rounded.
         self.masses += 256.0 * unit * data.most * run.state.segments.len() as f64;
         self.summed = 64.0 * unit * data.ground.to_f64().abs();
         self.rising = !data.ground.is_positive();
@@ -60,23 +60,23 @@ impl<S: RoundedSpecial> Proof<S> {
         self.joins(run.medium, 1);
     }
 
-    /// F at a time.
+    /// Computes F at a time.
     fn trace_off(&self, damping: f64, time: f64) -> f64 {
         (self.even + (damping * (time + 1.0)).min(damping.exp()) * self.masses) * (1.0 + SLACK)
     }
 
-    /// `A`: what `h′` of a flight is off by.
+    /// Computes `A`: the bound of the error of `h′` of a flight.
     fn rate_off(&self, damping: f64) -> f64 {
         (damping.exp() * (self.even + self.masses) + self.means[0]) * (1.0 + SLACK)
     }
 
-    /// H, so long after the release.
+    /// Computes H, at the time `flown` after the release.
     ///
-    /// Taken apart: at the release `|δv(0)|` is at most what that has left; since then `h` moves by `s A`, and
-    /// `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` may be off then and now; and since it was a mean of
-    /// what is stored, by the defects of the steps.
-    /// Otherwise the defect of each step moves the end by its own mean and vibration: by `(s + 1)E` under a free top,
-    /// and by `½E` under a held one, besides what the sum of `∫ q dt` itself is off by.
+    /// If separated: at the release `|δv(0)|` is at most the mass that the release has left; since then `h` moves by `s
+    /// A`, and `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` has an error then and now; and since `z(0)`
+    /// was last a mean of stored data, it has the defects of the steps. Otherwise the defect of each step moves the end
+    /// by its own mean and vibration: by `(s + 1)E` under a free top, and by `½E` under a held one; the error of the
+    /// sum of `∫ q dt` itself is added.
     fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
         let (damping, both) = (run.damping(), self.even + self.masses);
         let rate = 2.0 * damping;
@@ -99,12 +99,12 @@ impl<S: RoundedSpecial> Proof<S> {
         off * (1.0 + SLACK)
     }
 
-    /// How fast the motion changes from the beginning of a strip on, as long as it goes on as it is, in contact or in
-    /// flight. Where `jump` is known, that of p on the ray that starts with the strip is no more.
+    /// Bounds the rates of change of the motion from the beginning of a strip on, as long as its contact or flight goes
+    /// on. If `jump` is known, it bounds the jump of p on the ray that starts with the strip.
     ///
-    /// `(p_t, q_t)` solves the equations without gravity, with the same reflections: what comes of its continuous part
-    /// is at most as great as that, and what comes of its masses has no more mass. On the characteristic
-    /// `q_t = q_η + q_ξ`, `q_ξ = −κ(p + q)`.
+    /// `(p_t, q_t)` solves the equations without gravity, with the same reflections: the part that comes from its
+    /// continuous part never exceeds that in size, and the part that comes from its masses never exceeds them in mass.
+    /// On the characteristic `q_t = q_η + q_ξ`, `q_ξ = −κ(p + q)`.
     fn change(&self, run: &Follower<'_, S>, jump: Option<f64>) -> Change {
         let (medium, zero) = (run.medium, run.height.zero());
         let (kappa, offset) = (medium.kappa.to_f64(), 2.0 * medium.offset.to_f64().abs());
@@ -130,7 +130,7 @@ impl<S: RoundedSpecial> Proof<S> {
         }
     }
 
-    /// How far values may be off, up to now.
+    /// Records the error bounds of values up to now.
     fn note(&mut self, run: &Follower<'_, S>, time: f64, high: f64) {
         let damping = run.damping();
         let both = self.even + self.masses;
@@ -155,46 +155,46 @@ impl<S: RoundedSpecial> Proof<S> {
         self.known[last] = self.known[last].max(now);
     }
 
-    /// What an event leaves that is off by so much.
+    /// Records an event with these time errors.
     fn event(&mut self, off: [f64; 2]) {
         self.events.push(off);
         let last = self.known[self.known.len() - 1];
         self.known.push(Uncertainty { late: self.clock, ..last });
     }
 
-    /// The contact that the run begins with.
+    /// Records the contact that begins the run.
     pub(super) fn contact(&mut self) {
         self.event([0.0; 2]);
         self.known[1] = Uncertainty::default();
     }
 
-    /// The impact that has been shown.
+    /// Records the proved impact, or ends the proof if the impact is not proved.
     pub(super) fn impact(&mut self, run: &Follower<'_, S>) {
         match self.landed.take() {
             Some(off) => {
                 self.event(off);
                 self.note(run, run.state.time().to_f64(), 0.0);
             }
-            // At a ray: a coincidence.
+            // An impact at a ray is a coincidence.
             None => self.end(run, run.pieces.len(), Open { what: Near::Touch, differ: 2.0 * self.most }),
         }
     }
 
     fn end(&mut self, run: &Follower<'_, S>, pieces: usize, open: Open) {
         if self.open.is_none() {
-            // A release that is not shown takes the strip before it.
+            // A release that is not proved takes the strip before it along.
             let pieces = self.release.as_ref().map_or(pieces, |release| release.pieces);
             self.open = Some((pieces.min(run.pieces.len()), open));
         }
     }
 
-    /// The ground lets go at a ray, `left` having been the last stress.
+    /// Records a release at a ray, which the next strip has to prove; `left` is the last stress.
     pub(super) fn let_go_at_ray(&mut self, run: &Follower<'_, S>, left: &S, at: &S) {
         let ([ray, late], pieces) = (self.ray_at(at), run.pieces.len().saturating_sub(1));
         self.release = Some(Release { pieces, left: Some(left.to_f64()), late, steep: 0.0, ray, at: at.clone() });
     }
 
-    /// A strip is going to be marched, up to `cut` if there is one, with which the ground lets go or is hit if `event`.
+    /// Proves the next strip, up to `cut` if there is one; the flag says whether it ends with a release or a landing.
     pub(super) fn strip(&mut self, run: &Follower<'_, S>, cut: Option<(&S, bool)>, trace: &[S], height: &[S]) {
         let first = &run.state.segments[0];
         let (from, len) = (run.state.time().to_f64(), first.len.to_f64());
@@ -227,7 +227,7 @@ impl<S: RoundedSpecial> Proof<S> {
         }
     }
 
-    /// A strip in contact.
+    /// Proves a strip in contact.
     ///
     /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets
     /// go in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
@@ -278,10 +278,10 @@ impl<S: RoundedSpecial> Proof<S> {
         Ok(())
     }
 
-    /// The first strip of a flight shows the release that it begins with.
+    /// Proves, in the first strip of a flight, the release that it begins with; returns the time errors of the release.
     ///
-    /// **At a ray**: the stress is below −F on its one side, and the velocity above F on its other.
-    /// **At a root**: by `t̂ + τ` the velocity is above F, where τ is as great as that needs.
+    /// **At a ray**: the stress is below −F on one side of it, and the velocity above F on the other. **At a root**: by
+    /// `t̂ + τ` the velocity is above F; τ is as great as this requires.
     fn released(
         &mut self,
         run: &Follower<'_, S>,
@@ -310,7 +310,7 @@ impl<S: RoundedSpecial> Proof<S> {
         };
         let most = right.abs().max(release.left.map_or(0.0, f64::abs)) + 4.0 * self.slope * late + fast;
         let late_ray = late + 64.0 * self.steps.unit;
-        // One motion has contact and the other flies for as long as they differ by: once, but maybe twice at a root.
+        // One motion has contact while the other flies, for the time error: once at a ray, but maybe twice at a root.
         let times = if release.left.is_some() { 2.0 } else { 4.0 };
         self.left = times * late_ray * most;
         let off = [release.ray.min(self.clock + late), late];
@@ -319,12 +319,12 @@ impl<S: RoundedSpecial> Proof<S> {
         Ok(off)
     }
 
-    /// A strip in flight.
+    /// Proves a strip in flight.
     ///
     /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `τ = (H + |v̂(0,t̂)|)/s` is less than
     /// δ, and `v̂(0,·) > H` before the stretch, except at first while the end has only risen since its release (`v̂_t >
-    /// F`; v is never negative, so what rises does not touch). Then the true end touches the ground in `t̂ ± τ`, once,
-    /// and not before.
+    /// F`; v is never negative, so a rising end does not touch). Then the true end touches the ground in `t̂ ± τ`,
+    /// once, and not before.
     fn flown(
         &mut self,
         run: &Follower<'_, S>,
@@ -343,7 +343,7 @@ impl<S: RoundedSpecial> Proof<S> {
         if let Some(release) = self.release.clone() {
             late = Some((self.released(run, &release, trace, own)?, release.left.is_none()));
         }
-        // As this flight goes on, its height is summed up from what the trace is off by.
+        // The height of this flight sums up the error of the trace.
         self.summed += own * len;
         self.trip += own * len;
         let high = self.height_off(run, time - self.since + self.latest()) + own * (1.0 + len);
@@ -358,7 +358,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let (zero, one) = (trace[0].zero(), trace[0].one());
         let mut from = zero.clone();
         if let Some(([_, late], true)) = late {
-            // It rises faster and faster, and is above F from τ on.
+            // The velocity rises at a growing rate, and is above F from τ on.
             let rate = doubles(&derivative(trace));
             let rate = Part::in_doubles(&self.doubles, &rate);
             let start = at_zero(trace, &zero).to_f64().abs() + own;
@@ -418,7 +418,7 @@ impl<S: RoundedSpecial> Proof<S> {
         Ok(())
     }
 
-    /// So many round trips are going to be leapt over; `least` is no more than the height of the end meanwhile.
+    /// Proves a leap over `trips` round trips; `least` is a lower bound of the height of the end meanwhile.
     pub(super) fn leap(
         &mut self,
         run: &Follower<'_, S>,
@@ -430,7 +430,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let time = run.state.time().to_f64();
         self.drift(run.medium, trips);
         let grown = run.damping().exp();
-        // h′ of what is stored as vibration, and what its height is off by.
+        // Bound of h′ of the stored vibration, and of the error of its height.
         let stray = 4.0 * grown * (grown * (self.even - self.began) + self.means[0] + self.means[1]);
         let defect = self.steps.leap(count, trips, size, stray) + stray;
         self.leapt = self.leapt.max(defect);
@@ -447,9 +447,9 @@ impl<S: RoundedSpecial> Proof<S> {
 }
 
 impl<S: RoundedSpecial> Found<S> {
-    /// What is proved of it, with the bounds that are; where that ends before it does, what is open there.
+    /// Returns the proved part of the result with its proved bounds; if that ends early, with the open question.
     ///
-    /// **Errors**: [`Error::NotDecided`] where nothing is.
+    /// **Errors**: [`Error::NotDecided`] if nothing is proved.
     pub(super) fn proved(mut self, medium: &Medium<S>, data: &Data<S>) -> Result<Self, Error> {
         let Some(proof) = self.proof.take() else { return Ok(self) };
         let (unit, damping) = (proof.steps.unit, 2.0 * medium.kappa.to_f64());
@@ -493,7 +493,7 @@ impl<S: RoundedSpecial> Found<S> {
     }
 }
 
-/// Whether the reason of an ending holds with so much to spare: what it compares are energies and bounds in doubles.
+/// Returns whether the reason of an ending holds with a margin: it compares energies and bounds in doubles.
 fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, data: &Data<S>) -> bool {
     let damping = 2.0 * medium.kappa.to_f64();
     match ending {

@@ -1,8 +1,8 @@
-//! From what is kept back to the field: the cells are marched again from the last state that was kept.
+//! Reconstruction of the field: the cells are marched again from the nearest stored state.
 //!
-//! Kept are the trace at the ground and one state for every round trip; everything between is the same march once more,
-//! with the cuts that are known. A question costs at most two round trips of cells, less where it follows one about a
-//! time nearby, and memory is that of a trace.
+//! The run stores the trace at the ground and one state for every round trip. A query marches again over the cells in
+//! between, with the known cuts. It costs at most two round trips of cells, less after a query about a time nearby, and
+//! the memory is that of a trace.
 
 use super::bounce::Held;
 use super::cell::Cell;
@@ -16,7 +16,7 @@ use super::uncertainty::slack;
 use crate::motion::Side;
 use crate::special::RoundedSpecial;
 
-/// All that the field follows from.
+/// Data from which the field is reconstructed.
 #[derive(Debug)]
 pub(super) struct Record<'a, S> {
     pub(super) medium: &'a Medium<S>,
@@ -28,14 +28,14 @@ pub(super) struct Record<'a, S> {
     pub(super) pool: &'a Pool<S>,
 }
 
-/// A cell on its way past, with the flight whose vibration it holds.
+/// A visited cell, with the flight whose vibration it holds.
 type Passing<'a, 'b, 'c, S> = (&'a Cell<'b, S>, Option<&'c Flight<S>>);
 
-/// `h′`, the rest of `v_t`, and `v_x`, at places.
+/// Function that computes `h′`, the rest of `v_t`, and `v_x` at places.
 type Values<'a, S> = dyn Fn(&[S]) -> Vec<(S, S, S)> + 'a;
 
 impl<S: RoundedSpecial> Record<'_, S> {
-    /// Shows every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
+    /// Visits every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
     fn sweep<'c>(&'c self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, 'c, S>)) {
         if from.is_negative() && self.held.is_none() {
             self.data.march(self.medium, &mut |cell| visit((cell, None)));
@@ -44,7 +44,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let kept = self.checkpoints.partition_point(|kept| kept.index <= first);
         let Some((start, kept)) = kept.checked_sub(1).and_then(|k| Some((k, self.checkpoints.get(k)?))) else { return };
         let mut strips = self.pool.take(start).unwrap_or_else(|| Strips::after(start, kept));
-        // Nothing is marched while the rod is at rest.
+        // A rod at rest is not marched.
         let marched = self.pieces.len() - usize::from(self.pieces.last().is_some_and(|piece| piece.still));
         let until = self.pieces[..marched].partition_point(|piece| piece.from <= *to);
         let mut next = kept.index;
@@ -67,7 +67,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         self.pool.put(strips);
     }
 
-    /// The same from piece `next` on, without keeping anything: flights that are leapt over, and many rays.
+    /// Visits the cells from piece `next` on without keeping them: leaps, and strips with many rays.
     fn sweep_on<'c>(
         &'c self,
         (next, first, until): (usize, usize, usize),
@@ -79,7 +79,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
             ahead.fly(self.medium, self.flights, piece.flight);
             let now = piece.flight.and_then(|k| self.flights.get(k));
             if piece.leap > 0 {
-                // At most two round trips of it are marched.
+                // The march covers at most two round trips of a leap.
                 let skipped = (from.clone() - &piece.from).floor_int().unwrap_or(0).clamp(0, piece.leap);
                 let end = ahead.state.round + piece.leap;
                 let fraction = ahead.state.segments[0].at.clone();
@@ -100,26 +100,26 @@ impl<S: RoundedSpecial> Record<'_, S> {
         }
     }
 
-    /// [`Record::line`] along the whole rod.
+    /// Computes [`Record::line`] along the whole rod.
     pub(super) fn whole_line(&self, t: &S) -> Nodes<S> {
         self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
-    /// [`Record::lines`] on `0 ≤ x ≤ reach`.
+    /// Computes [`Record::lines`] on `0 ≤ x ≤ reach`.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().0
     }
 
-    /// Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next, between all
-    /// rays.
+    /// Computes Gauss–Legendre nodes at time `t` from the ground to the first of `cuts`, and from each to the next,
+    /// between all rays.
     ///
     /// **Accuracy**: that of the cells: between rays the squares of `z_t`, `z_x` grow at most like `e^{4κ|s|}`, for
-    /// which the tables hold enough terms, and the rule is exact to twice its nodes.
+    /// which the tables hold enough terms; the rule with n nodes is exact for 2n terms.
     pub(super) fn lines(&self, t: &S, cuts: &[S]) -> Vec<Line<S>> {
         let zero = t.zero();
         let mut lines = vec![Line::<S>::default(); cuts.len()];
         let Some(reach) = cuts.last() else { return lines };
-        // Between two rays, part by part.
+        // Adds the nodes between two rays, part by part.
         let mut add = |from: &S, to: &S, values: &Values<'_, S>| {
             let first = cuts.partition_point(|cut| cut <= from);
             let ends = cuts[first..].iter().map(|cut| smaller(to.clone(), cut.clone()));
@@ -157,12 +157,12 @@ impl<S: RoundedSpecial> Record<'_, S> {
         lines
     }
 
-    /// Whether the rod is at rest at time `t`, and if so whether in contact.
+    /// Returns whether the rod at rest is in contact, if it is at rest at time `t`.
     fn at_rest(&self, t: &S) -> Option<bool> {
         self.pieces.last().filter(|piece| piece.still && *t > piece.from).map(|piece| piece.contact)
     }
 
-    /// `v_s′(x)`.
+    /// Computes `v_s′(x)`.
     fn static_strain(&self, x: &S) -> S {
         self.data.gravity.clone() * x + &self.data.slope
     }
@@ -172,7 +172,7 @@ impl<S: RoundedSpecial> Record<'_, S> {
         if contact { strain } else { strain - &self.data.slope }
     }
 
-    /// `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell.
+    /// Computes `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell.
     fn inside(&self, (cell, flight): Passing<'_, '_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
         let points: Vec<(S, S)> = places.iter().map(|x| (t.clone() - x, t.clone() + x)).collect();
         let found = cell.at(&self.medium.basis, &points, self.medium.log2_accuracy);
@@ -187,14 +187,14 @@ impl<S: RoundedSpecial> Record<'_, S> {
         found.into_iter().zip(places).map(values).collect()
     }
 
-    /// The same before the first release.
+    /// Computes the same values before the first release.
     fn before(&self, held: &Held<S>, x: &S, t: &S, side: Side) -> (S, S, S) {
         let (p, q, _) = held.invariants(self.data, x, t, side);
         let half = x.ratio(1, 2);
         (x.zero(), (p.clone() + &q) * &half, (q - p) * half + self.static_strain(x))
     }
 
-    /// `v_t` and `v_x` at a point, from the named side in time.
+    /// Computes the limits of `v_t` and `v_x` at a point from the given side in time.
     pub(super) fn at(&self, x: &S, t: &S, side: Side) -> (S, S) {
         if let Some(contact) = self.at_rest(t) {
             return (t.zero(), self.rest_strain(x, contact));
@@ -209,13 +209,13 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let (_, velocity, strain) = self.before(held, x, t, side);
             return (velocity, strain);
         }
-        // The last cell that has begun; where none has, the first.
+        // The last cell that has begun, or the first cell if none has.
         let begun = |corner: &S, at: &S| match side {
             Side::Right => *corner <= at.clone() + &slack,
             Side::Left => *corner < at.clone() - &slack,
         };
         let mut best = None;
-        // One strip earlier for the left limit.
+        // The left limit needs one more strip.
         let from = xi.clone() - &slack - &slack;
         self.sweep(&from, &(xi.clone() + &slack), &mut |(cell, flight)| {
             if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
@@ -227,8 +227,8 @@ impl<S: RoundedSpecial> Record<'_, S> {
         found.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
-    /// `v_t` and `v_x` at every one of `points` for every one of `times`, both in increasing order, from later times:
-    /// what [`Record::at`] gives, in one march for all of them.
+    /// Computes the limits of `v_t` and `v_x` from later times at all `points` and `times`, both in increasing order:
+    /// the values of [`Record::at`], in one march for all of them.
     pub(super) fn grid(&self, points: &[S], times: &[S]) -> Vec<(S, S)> {
         let (Some(first), Some(last), Some(reach)) = (times.first(), times.last(), points.last()) else {
             return Vec::new();
@@ -266,12 +266,12 @@ impl<S: RoundedSpecial> Record<'_, S> {
         values
     }
 
-    /// The flight at time `t`, where it is taken apart.
+    /// Returns the flight at time `t`, if it is separated.
     pub(super) fn flight(&self, t: &S, side: Side) -> Option<&Flight<S>> {
         self.piece(t, side).and_then(|(piece, _)| piece.flight).and_then(|k| self.flights.get(k))
     }
 
-    /// The piece of the trace at time `t`, and where in it: `0 … 1`.
+    /// Returns the piece of the trace at time `t`, and the place in it: `0 … 1`.
     pub(super) fn piece(&self, t: &S, side: Side) -> Option<(&Piece<S>, S)> {
         let slack = slack(t, 8);
         let next = match side {
@@ -283,11 +283,11 @@ impl<S: RoundedSpecial> Record<'_, S> {
         Some((piece, smaller(at.larger(t.zero()), t.one())))
     }
 
-    /// `v(0,t)` and `v_t(0,t)`.
+    /// Computes `v(0,t)` and `v_t(0,t)`.
     pub(super) fn end(&self, t: &S, side: Side) -> (S, S) {
         match self.piece(t, side) {
             Some((piece, _)) if piece.leap > 0 => {
-                // The mean of z vanishes, so v(0,t) is that of h less a mean of z_x.
+                // The mean of z vanishes, so v(0,t) is h less a weighted mean of z_x.
                 let half = t.ratio(1, 2);
                 let lack = self
                     .whole_line(t)

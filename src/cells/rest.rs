@@ -1,8 +1,8 @@
-//! What certainly does not happen any more: a release, an impact, any motion at all.
+//! Proofs that no release, no impact or no motion at all can follow.
 //!
-//! In units: `d` is the deviation from the state at rest, `p`, `q` its invariants, `B` a bound of them on one upward
-//! characteristic. By the sup norm of [`super::cell`] and the reflections `p = ±q` it is a bound of them everywhere
-//! later.
+//! In natural units `d` is the deviation from the state at rest, `p`, `q` are its invariants, `B` is a bound of them on
+//! one upward characteristic. By the sup norm of [`super::cell`] and the reflections `p = ±q`, `B` bounds them at all
+//! later points.
 
 use super::follow::{Follower, Goal};
 use super::march::Medium;
@@ -14,21 +14,21 @@ use crate::motion::Ending;
 use crate::reason::{Reason, StillState};
 use crate::special::RoundedSpecial;
 
-/// A motion is over where it is this often the error that it carries.
+/// Multiple of the accumulated error below which a motion counts as over.
 const OVER: f64 = 3.0;
 
 impl<S: RoundedSpecial> Follower<'_, S> {
-    /// Why no impact can follow the flight, if that is certain. Only where gravity does not pull the end back.
+    /// Returns the reason why no impact can follow, if this is proved; only where gravity does not pull the end back.
     ///
     /// In flight the end swings about a state at height `s = v_s′(0)/2`, stress-free at the ground and with the strain
     /// of its weight `v_x = gx` above (top fixed), or about the centre of mass (top free, `g = 0`), whose height `h`
-    /// tends monotonely to `h + h′/2r`. The deviation `d` has an energy `E` that cannot grow, and `|d(0)| ≤ √ℓ ‖d_x‖`,
-    /// `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d` vanishes, as then
-    /// `d(0) = −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
+    /// tends monotonically to `h + h′/2r`. The deviation `d` has an energy `E` that cannot grow, and `|d(0)| ≤ √ℓ
+    /// ‖d_x‖`, `‖d_x‖ ≤ √(2E)`, with `ℓ = ½` for a fixed top; `ℓ = ⅙` where the mean of `d` vanishes, as then `d(0) =
+    /// −∫(1 − 2x) d_x dx`. No impact follows once `√(2ℓE)` is less than the least height.
     pub(super) fn escapes(&self) -> Option<Ending> {
         let (medium, data) = (self.medium, self.data);
         let slope = medium.slope.to_f64();
-        // Under a free top gravity makes the slope negative.
+        // Gravity makes the slope negative under a free top.
         if slope < 0.0 {
             return None;
         }
@@ -45,7 +45,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let (least, share) = if medium.free_top {
             let rate = 2.0 * sum(&|_, v_t, _| v_t);
             let mean = self.height.to_f64() + 2.0 * sum(&|x, _, v_x| (0.5 - x) * v_x);
-            // h′/2r, where 4κ = 2r.
+            // The rise h′/2r, where 4κ = 2r.
             let rise = rate / (4.0 * medium.kappa.to_f64());
             (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
         } else {
@@ -60,11 +60,11 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         })
     }
 
-    /// Why no release can follow, if that is certain.
+    /// Returns the reason why no release can follow, if this is proved.
     ///
-    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B`
-    /// for ever, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative. The first round trip
-    /// of the contact is followed all the same, for its peak.
+    /// In contact `p = −q` at the ground and `p = ±q` at the top, so `|q| ≤ B` on one characteristic gives `|q| ≤ B` at
+    /// all later times, and with `B < |v_s′(0)|`, `v_s′(0) < 0`, the stress `q + v_s′(0)` stays negative. The run still
+    /// follows the first round trip of the contact, for its peak.
     pub(super) fn stays(&self) -> Option<Ending> {
         let (round, at) = self.landing.as_ref()?;
         let first = &self.state.segments[0].at;
@@ -79,29 +79,29 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         })
     }
 
-    /// The ending of a contact that does not end.
+    /// Returns the ending of a contact that lasts for ever.
     fn held(&self, reason: Reason) -> Ending {
         if self.marks.len() > 1 { Ending::Rest(reason) } else { Ending::NoBounce(reason) }
     }
 
-    /// Bounds of velocities and of displacements from now on, as deviations from the state at rest, if this state is
-    /// clear.
+    /// Bounds velocities and displacements from now on, as deviations from the state at rest, if that state is
+    /// determined.
     ///
-    /// - Pressed on the ground, `v_s′(0) < 0`, in contact and never to leave: `B` and `B/2`, as `d(0) = 0` and
-    ///   `d_x ≤ B` on a rod of length ½.
+    /// - Pressed on the ground, `v_s′(0) < 0`, in contact for ever: `B` and `B/2`, as `d(0) = 0` and `d_x ≤ B` on a rod
+    ///   of length ½.
     /// - Hanging from a fixed top, `v_s′(0) > 0`, in flight: `B` and `B/2` from the top, less than the height of the
     ///   end.
-    /// - Neither, `v_s′(0) = 0`: then `v_s` fits contact and flight, and `B` outlives every event. Under a fixed top
-    ///   displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from a height
-    ///   of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most `B/2r`;
-    ///   the end is at most `B/4` from it, and neither moves faster than `B`, whatever it meets.
+    /// - Neither, `v_s′(0) = 0`: then `v_s` solves both contact and flight, and `B` holds after every event. Under a
+    ///   fixed top displacements are at most `B/2`. Under a free one `(h′ + 2rh)′ = −c²v_x/L` vanishes in flight: from
+    ///   a height of the end now, or in later flights from a contact, in which `|h| ≤ B/4`, the centre moves by at most
+    ///   `B/2r`; the end is at most `B/4` from it, and neither moves faster than `B`, whatever events follow.
     fn left(&self, time: f64) -> Option<(f64, f64)> {
         let Medium { slope, kappa, free_top, .. } = self.medium;
         let value = slope.to_f64();
-        // In a flight that is taken apart h′ tends to zero where there is no gravity.
+        // The rate h′ of a separated flight without gravity tends to zero.
         let mut most = self.state.bound() + self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         if value > 0.0 && !self.contact {
-            // q of the deviation from the hanging rod: q + slope.
+            // q of the deviation from the hanging rod is q + slope.
             let raised = self.state.segments.iter().map(|segment| bound(&self.medium.raised(segment, slope), 0));
             most = raised.fold(0.0, f64::max);
         }
@@ -116,12 +116,12 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         (clear && over).then_some((velocity, far))
     }
 
-    /// Ends a run whose motion is below its own error: the rest of the time belongs to the state at rest.
+    /// Ends a run whose motion is below its own error: the state at rest answers for the rest of the time.
     ///
-    /// `since` is when that was first so. A round trip later the bound holds on whole lines of constant time, not only
-    /// on a characteristic, and the field may be answered from the state at rest.
+    /// `since` is the first time of that condition. A round trip later the bound holds on whole lines of constant time,
+    /// not only on a characteristic, and the state at rest may stand for the field.
     pub(super) fn settle(&mut self, goal: &Goal<S>, since: &mut Option<S>) -> Option<Ending> {
-        // The state at rest is no proof of a time.
+        // The state at rest proves nothing about a given time.
         if self.proof.is_some() && matches!(goal, Goal::Time(_)) {
             return None;
         }

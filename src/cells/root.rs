@@ -3,17 +3,17 @@
 use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, spread};
 use crate::number::Rounded;
 
-/// Intervals shorter than this part of a segment are not cut any further.
+/// Smallest part of a segment that is still halved.
 const SMALLEST: f64 = 1e-300;
 
-/// The first `x` in `0 … 1` where the series turns negative, given that it is not negative at 0; `None` if it does not.
+/// Finds the first `x` in `0 … 1` where a series turns negative, given that it is not negative at 0.
 ///
-/// The interval is halved until a part is settled: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part, the same for the
-/// derivative makes the function monotone there, and then its end decides. Parts are settled from left to right, so
-/// what is found is the first. A part on which `Σ|c_k| ≤ noise` says nothing and is passed over: if the function does
-/// turn negative in it, the next part is negative from its left end on, and that is the answer; the second value says
-/// so, and also where a descent begins within the noise: the root is then where the function is within the noise, not
-/// where it vanishes.
+/// The interval is halved until each part is decided: `|c₀| > Σ_{k≥1}|c_k|` fixes the sign on a part; the same for the
+/// derivative makes the function monotone there, so that its end decides. Parts are decided from left to right, so the
+/// root found is the first. A part with `Σ|c_k| ≤ noise` is undecided and is skipped: if the function turns negative in
+/// it, the next part is negative from its left end on, and that end is the result. The second value is true in this
+/// case, and also where a descent begins within the noise: the function is then within the noise at the result, not
+/// zero.
 pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -> Option<(S, bool)> {
     let first = c.first()?;
     let zero = first.zero();
@@ -31,7 +31,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
         let slope = derivative(&c);
         let (mean, variation) = (slope[0].to_f64(), spread(&slope));
         if mean > variation {
-            // Rising from a value that is not negative, as far as can be told.
+            // The function rises from a value that is not negative within the noise.
             if at_zero(&c, &zero).to_f64() < -noise {
                 return Some((from, true));
             }
@@ -42,7 +42,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
             if start.is_negative() {
                 return Some((from, true));
             }
-            // An end within the noise is left to the next part, and at the end of all to whoever goes on there.
+            // An end within the noise is left to the next part, and at the end of the segment to the caller.
             if at_one(&c, &zero).to_f64() < -noise {
                 let vague = start.to_f64() <= noise;
                 return Some((from + width * descend(&c, &slope), vague));
@@ -61,7 +61,7 @@ pub(super) fn first_descent<S: Rounded>(basis: &Basis<S>, c: &[S], noise: f64) -
     None
 }
 
-/// The root of a decreasing series that is not negative at 0 and negative at 1: Newton's method inside of a bracket.
+/// Computes the root of a decreasing series that is not negative at 0 and negative at 1, by bracketed Newton steps.
 fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
     let (mut low, mut high) = (c[0].zero(), c[0].one());
     let half = c[0].ratio(1, 2);
@@ -85,9 +85,11 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
     x
 }
 
-/// The smallest value on `0 … 1`. **Accuracy**: within `16u Σ|c_k|`: parts are halved until they are monotone, bend one
-/// way, can't fall below what was found by more than that, or are shorter than `√u`, where the ends are within a few
-/// `u` of the least value. Where a part bends upwards its least value is where the slope vanishes, or at an end.
+/// Computes the smallest value on `0 … 1`.
+///
+/// **Accuracy**: within `16u Σ|c_k|`. Parts are halved until they are monotone, convex or concave, cannot fall below
+/// the least value found by more than that, or are shorter than `√u`, where an end is within a few `u` of the least
+/// value. A convex part has its least value at the root of its slope or at an end.
 pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();
@@ -101,7 +103,7 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
             }
         }
         let slope = derivative(&c);
-        // What the part can still fall below the least value found.
+        // Largest amount by which the part can fall below the least value found.
         let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
         if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
             continue;

@@ -1,8 +1,8 @@
-//! Chebyshev series on the unit interval: integration, products with `x`, restriction, and how many terms are needed.
+//! Chebyshev series on the unit interval: integration, products with `x`, restriction, and the number of terms needed.
 
 use crate::number::Rounded;
 
-/// Tables that every series of a solution shares. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
+/// Tables shared by all series of a solution. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
 #[derive(Clone, Debug)]
 pub(super) struct Basis<S> {
     /// Chebyshev nodes in `0 … 1`.
@@ -16,7 +16,7 @@ pub(super) struct Basis<S> {
 }
 
 impl<S: Rounded> Basis<S> {
-    /// Tables for series of up to `size` terms and powers up to `x^terms`.
+    /// Builds the tables for series of up to `size` terms and powers up to `x^terms`.
     pub(super) fn new(like: &S, size: usize, terms: usize) -> Self {
         let size = size.max(4);
         let whole = |n: usize| like.int(i64::try_from(n).unwrap_or(i64::MAX));
@@ -34,7 +34,7 @@ impl<S: Rounded> Basis<S> {
         Basis { nodes, cosines, quarter, powers }
     }
 
-    /// The most terms that a series has.
+    /// Returns the maximum number of terms of a series.
     pub(super) fn size(&self) -> usize {
         self.nodes.len()
     }
@@ -43,7 +43,7 @@ impl<S: Rounded> Basis<S> {
         &self.nodes
     }
 
-    /// The first `terms` coefficients of the interpolant through `values` at the nodes.
+    /// Computes the first `terms` coefficients of the interpolant through `values` at the nodes.
     pub(super) fn through(&self, values: &[S], terms: usize) -> Vec<S> {
         let size = self.size();
         let scale = self.nodes[0].ratio(2, i64::try_from(size).unwrap_or(i64::MAX));
@@ -58,14 +58,14 @@ impl<S: Rounded> Basis<S> {
         (0..terms.min(size)).map(coefficient).collect()
     }
 
-    /// The series on `from ≤ x ≤ to`, as a series on the unit interval.
+    /// Computes the series on `from ≤ x ≤ to`, as a series on the unit interval.
     pub(super) fn restrict(&self, c: &[S], from: &S, to: &S, terms: usize) -> Vec<S> {
         let width = to.clone() - from;
         let values: Vec<S> = self.nodes.iter().map(|x| evaluate(c, &(width.clone() * x + from))).collect();
         self.through(&values, terms)
     }
 
-    /// `∫₀ˣ`, in place; the term that would be one too many is dropped.
+    /// Integrates from 0 to x, in place; drops the term beyond the last one.
     pub(super) fn integrate(&self, c: &mut [S]) {
         let Some(first) = c.first() else { return };
         // 4k·b_k = c_{k−1} − c_{k+1}, with c₀ doubled; b₀ makes the value at x = 0 vanish.
@@ -82,7 +82,7 @@ impl<S: Rounded> Basis<S> {
         c[0] = start;
     }
 
-    /// The series of `e^{rate·x}` with `terms` terms, for `|rate| ≤ 2` or so.
+    /// Computes the series of `e^{rate·x}` with `terms` terms, for `|rate|` up to about 2.
     pub(super) fn exponential(&self, rate: &S, terms: usize) -> Vec<S> {
         let values: Vec<S> = self.nodes.iter().map(|x| (x.clone() * rate).exp()).collect();
         self.through(&values, terms)
@@ -94,7 +94,7 @@ impl<S: Rounded> Basis<S> {
     }
 }
 
-/// The product with `x`, in place; the term that would be one too many is dropped.
+/// Multiplies by `x`, in place; drops the term beyond the last one.
 pub(super) fn times_x<S: Rounded>(c: &mut [S]) {
     let Some(first) = c.first() else { return };
     let (half, quarter) = (first.ratio(1, 2), first.ratio(1, 4));
@@ -108,7 +108,7 @@ pub(super) fn times_x<S: Rounded>(c: &mut [S]) {
     }
 }
 
-/// The value at `x`, by Clenshaw's recurrence.
+/// Evaluates a series at `x`, by Clenshaw's recurrence.
 pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
     let two_u = x.clone() * x.int(4) - x.int(2);
     let (mut b1, mut b2) = (x.zero(), x.zero());
@@ -122,8 +122,8 @@ pub(super) fn evaluate<S: Rounded>(c: &[S], x: &S) -> S {
     }
 }
 
-/// The values at several points as [`evaluate`] has them: the recurrences go side by side, which doubles do several at
-/// once.
+/// Evaluates a series at several points, as [`evaluate`] does; the recurrences run side by side, which lets the
+/// processor vectorise those in doubles.
 pub(super) fn evaluate_all<S: Rounded>(c: &[S], xs: &[S]) -> Vec<S> {
     let Some(first) = c.first() else { return xs.iter().map(S::zero).collect() };
     let mut states: Vec<[S; 3]> = xs.iter().map(|x| [x.clone() * x.int(4) - x.int(2), x.zero(), x.zero()]).collect();
@@ -144,14 +144,14 @@ pub(super) fn at_zero<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
 }
 
-/// `∫₀¹`: an even term of order k has the integral `1/(1 − k²)`.
+/// Computes `∫₀¹`: an even term of order k has the integral `1/(1 − k²)`.
 pub(super) fn integral<S: Rounded>(c: &[S]) -> S {
     let first = &c[0];
     let even = c.iter().zip(0i64..).step_by(2).skip(1);
     even.fold(first.clone(), |sum, (term, k)| sum - term.clone() / first.int(k * k - 1))
 }
 
-/// The derivative: `c′_{k−1} = c′_{k+1} + 4k c_k`, `c′₀` halved.
+/// Computes the derivative: `c′_{k−1} = c′_{k+1} + 4k c_k`, `c′₀` halved.
 pub(super) fn derivative<S: Rounded>(c: &[S]) -> Vec<S> {
     let Some(first) = c.first() else { return Vec::new() };
     let mut d = vec![first.zero(); c.len().max(2) + 1];
@@ -163,17 +163,18 @@ pub(super) fn derivative<S: Rounded>(c: &[S]) -> Vec<S> {
     d
 }
 
-/// `Σ|c_k|` from `k = first` on, as a double: a bound of the series on its interval.
+/// Bounds a series on its interval by `Σ|c_k|` from `k = first` on, as a double.
 pub(super) fn bound<S: Rounded>(c: &[S], first: usize) -> f64 {
     c.iter().skip(first).map(|term| term.to_f64().abs()).sum()
 }
 
-/// How far the series is from its first term at most: `Σ_{k≥1}|c_k|`. In numbers longer than doubles it may cancel that
-/// term to less than the sum rounds, which is counted; in doubles the bounds that it is held against are greater.
+/// Bounds the distance of a series from its first term by `Σ_{k≥1}|c_k|`. In numbers longer than doubles this sum and
+/// the first term may differ by less than the roundings of the sum, which are added; in doubles the bounds it is
+/// compared with are greater.
 pub(super) fn spread<S: Rounded>(c: &[S]) -> f64 {
     let sum = bound(c, 1);
     match c.first() {
-        // A sum of n terms is off by at most n/2 roundings of it, and each term by one of its own.
+        // A sum of n terms has an error of at most n/2 of its roundings, and each term one rounding of its own.
         Some(first) if first.log2_roundoff() < DOUBLE_BITS => {
             sum + (c.len() as f64 + 1.0) * f64::EPSILON * (sum + first.to_f64().abs())
         }
@@ -183,24 +184,24 @@ pub(super) fn spread<S: Rounded>(c: &[S]) -> f64 {
 
 const DOUBLE_BITS: f64 = -60.0;
 
-/// How many Chebyshev terms hold a function that is entire, with `|f(s)| ≤ (a + b|s|) e^{θ|s|}` for every complex `s`,
-/// on `0 ≤ s ≤ 1`, to `2^log2_accuracy`.
+/// Returns the number of Chebyshev terms that represent an entire function with `|f(s)| ≤ (a + b|s|) e^{θ|s|}` for
+/// every complex `s` to `2^log2_accuracy` on `0 ≤ s ≤ 1`.
 ///
-/// On the Bernstein ellipse of parameter `ρ > 1` around the unit interval `|s| ≤ σ = ½ + (ρ + 1/ρ)/4`, hence
-/// `|c_k| ≤ 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and what is left out after `n` terms is at most
-/// `2F ρ^{−n}/(1 − 1/ρ)`. The smallest `n` over a grid of `ρ` is taken: every `ρ` gives a valid bound.
+/// On the Bernstein ellipse of parameter `ρ > 1` around the unit interval `|s| ≤ σ = ½ + (ρ + 1/ρ)/4`, hence `|c_k| ≤
+/// 2F ρ^{−k}` with `F = (a + bσ)e^{θσ}`, and the truncation error after `n` terms is at most `2F ρ^{−n}/(1 − 1/ρ)`. The
+/// result is the smallest `n` over a grid of `ρ`: every `ρ` gives a valid bound.
 pub(super) fn terms_for(a: f64, b: f64, theta: f64, log2_accuracy: f64) -> usize {
     let terms = on_ellipses(a, b, theta).map(|(log2_rho, log2_left)| (log2_left - log2_accuracy) / log2_rho);
     terms.fold(f64::INFINITY, f64::min).ceil().clamp(3.0, 4096.0) as usize
 }
 
-/// What so many Chebyshev terms leave out of such a function.
+/// Bounds the truncation error after `terms` Chebyshev terms of such a function.
 pub(super) fn left_by(terms: usize, a: f64, b: f64, theta: f64) -> f64 {
     let left = on_ellipses(a, b, theta).map(|(log2_rho, log2_left)| log2_left - terms as f64 * log2_rho);
     left.fold(f64::INFINITY, f64::min).exp2()
 }
 
-/// `log₂ρ` and `log₂` of `2F/(1 − 1/ρ)`.
+/// Returns `log₂ρ` and `log₂` of `2F/(1 − 1/ρ)` for a grid of ellipses.
 fn on_ellipses(a: f64, b: f64, theta: f64) -> impl Iterator<Item = (f64, f64)> {
     (1..=80).map(move |j| {
         let log2_rho = f64::from(j) * 0.25;

@@ -1,15 +1,15 @@
-//! Signs of a series on parts of its interval, shown by its coefficients: `|c₀| > Σ_{k≥1}|c_k|`, on halves where the
-//! whole does not tell.
+//! Signs of a series on parts of its interval, proved by its coefficients: `|c₀| > Σ_{k≥1}|c_k|`, on halves where the
+//! whole part is undecided.
 
 use super::series::{Basis, bound};
 use crate::number::Rounded;
 
-/// Parts of a strip that are looked at before a question is left open.
+/// Maximum number of parts of a strip tested before a sign is left open.
 const MOST_PARTS: usize = 400;
-/// Halvings of a strip that are looked at for a stretch around an event.
+/// Maximum number of halvings of a strip in the search for a stretch around an event.
 const MOST_HALVINGS: i32 = 300;
 
-/// The least and the greatest that a series may be, whose coefficients are off by so much of `size`.
+/// Bounds the values of a series from below and above, if its coefficients carry rounding errors relative to `size`.
 pub(super) fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
     let (middle, spread) = (c[0].to_f64(), bound(c, 1));
     let terms = c.len() as f64;
@@ -17,9 +17,9 @@ pub(super) fn range<T: Rounded>(c: &[T], size: f64) -> (f64, f64) {
     (middle - spread - rounding, middle + spread + rounding)
 }
 
-/// A series on parts of its interval. Their ends are numbers `S` of the run, since an event may be closer to the end of
-/// a strip than doubles tell. For a series in doubles they are rounded, which moves its values by `2N²u` of its size:
-/// less than [`range`] counts.
+/// A series restricted to parts of its interval. The ends of a part are numbers `S` of the run, since an event may be
+/// closer to the end of a strip than doubles resolve. A series in doubles rounds them, which changes its values by
+/// `2N²u` of its size: less than [`range`] counts.
 pub(super) struct Part<'a, S, T> {
     basis: &'a Basis<T>,
     whole: &'a [T],
@@ -48,9 +48,9 @@ impl<S: Rounded, T: Rounded> Part<'_, S, T> {
         range(&part, self.size)
     }
 
-    /// Whether it is below `−off` on a part.
+    /// Returns whether the series is proved to be below `−off` on a part.
     pub(super) fn below(&self, part: (S, S), off: f64) -> bool {
-        // Where it surely is not, halves are of no use.
+        // Halving is of no use once some part is proved not to be below.
         let mut not = false;
         settle(part, |from, to| {
             let (low, high) = self.range(from, to);
@@ -59,7 +59,7 @@ impl<S: Rounded, T: Rounded> Part<'_, S, T> {
         }) && !not
     }
 
-    /// A stretch `x ± δ` on which `sign` times it is positive: δ, and the least and the greatest of it there.
+    /// Finds a stretch `x ± δ` on which `sign` times the series is positive; returns δ and its extreme values there.
     pub(super) fn steep(&self, x: &S, sign: f64) -> Option<(f64, f64, f64)> {
         (1..MOST_HALVINGS).find_map(|k| {
             let delta = (-f64::from(k)).exp2();
@@ -74,7 +74,7 @@ impl<S: Rounded, T: Rounded> Part<'_, S, T> {
     }
 }
 
-/// Goes over parts, the earlier first, until each is settled; those that are not are halved.
+/// Tests parts in order of time until each is settled; halves those that are not.
 fn settle<S: Rounded>((from, to): (S, S), mut settled: impl FnMut(&S, &S) -> bool) -> bool {
     let half = from.ratio(1, 2);
     let mut parts = vec![(from, to)];
@@ -93,7 +93,7 @@ fn settle<S: Rounded>((from, to): (S, S), mut settled: impl FnMut(&S, &S) -> boo
     true
 }
 
-/// Whether the end surely does not touch the ground on a part: it is clear of it, or still only rises.
+/// Returns whether the end is proved not to touch the ground on a part: it is clear of it, or has only risen so far.
 pub(super) fn clear<S: Rounded, T: Rounded>(
     (height, trace): (&Part<'_, S, T>, &Part<'_, S, T>),
     part: (S, S),

@@ -1,7 +1,7 @@
-//! The start: from displacement and velocity at `t = 0` to the characteristic that leaves the ground at `t = 0`.
+//! Initial state: from displacement and velocity at `t = 0` to the characteristic that leaves the ground at `t = 0`.
 //!
-//! The rod is continued through its top by reflection of `z = v − v_s`, so the data live on `0 ≤ x ≤ 1` (in `c t₁`).
-//! Between breaks `z_x` and `z_t` are linear in `x`, and the solution that continues such data to the whole plane is
+//! Reflection of `z = v − v_s` at the top continues the rod, so the data live on `0 ≤ x ≤ 1` (in `c t₁`). Between
+//! breaks `z_x` and `z_t` are linear in `x`, and the solution that continues such data to the whole plane is
 //! elementary:
 //!
 //! ```text
@@ -20,10 +20,10 @@ use crate::number::Rounded;
 use crate::problem::{Parameters, Problem, Start, Top};
 use crate::special::RoundedSpecial;
 
-/// What series leave out is so many bits below a rounding, so that both together are hardly more than the rounding.
+/// Number of bits by which the truncation of series lies below a rounding: their sum is hardly more than the rounding.
 const SPARE_BITS: f64 = 4.0;
 
-/// Cells are at most `2/r` wide, so that each round trip takes `(r t₁/2)²` of them: millions here.
+/// Largest damping `R`: cells are at most `2/r` wide, so a round trip takes `(r t₁/2)²` of them, at most a million.
 const MOST_DAMPING: f64 = 2000.0;
 
 /// Linear data on an interval.
@@ -31,9 +31,9 @@ const MOST_DAMPING: f64 = 2000.0;
 pub(super) struct Linear<S> {
     from: S,
     len: S,
-    /// `z_x` there: `b`.
+    /// `z_x` at `from`: `b`.
     strain: S,
-    /// `z_t` there: `a`.
+    /// `z_t` at `from`: `a`.
     velocity: S,
     /// `dz_x/dx`: `d`.
     strain_slope: S,
@@ -42,7 +42,7 @@ pub(super) struct Linear<S> {
 }
 
 impl<S: Rounded> Linear<S> {
-    /// The mirror image about `x = ½`; `z` even or odd.
+    /// Returns the mirror image about `x = ½` for even or odd `z`.
     fn mirrored(&self, even: bool) -> Self {
         let sign = |value: S| if even { value } else { -value };
         let strain = self.strain.clone() + self.strain_slope.clone() * &self.len;
@@ -57,7 +57,7 @@ impl<S: Rounded> Linear<S> {
         }
     }
 
-    /// Whether `next` continues this one.
+    /// Returns whether `next` continues these data linearly.
     fn continues_in(&self, next: &Self) -> bool {
         self.strain.clone() + self.strain_slope.clone() * &self.len == next.strain
             && self.velocity.clone() + self.velocity_slope.clone() * &self.len == next.velocity
@@ -65,7 +65,7 @@ impl<S: Rounded> Linear<S> {
             && self.velocity_slope == next.velocity_slope
     }
 
-    /// The part that begins `offset` later and is `len` long.
+    /// Returns the part of length `len` that begins at `offset`.
     fn part(&self, offset: &S, len: S) -> Self {
         Linear {
             from: self.from.clone() + offset,
@@ -76,7 +76,7 @@ impl<S: Rounded> Linear<S> {
         }
     }
 
-    /// `z_t` and `z_x` of the continued solution at `x = from + offset` and time `t`.
+    /// Computes `z_t` and `z_x` of the continued solution at `x = from + offset` and time `t`.
     fn at(&self, damping: &S, offset: &S, t: &S) -> (S, S) {
         let decay = (damping.clone() * t * t.int(-2)).exp();
         let tau = t.clone() * phi_one(&(damping.clone() * t * t.int(-2)));
@@ -87,13 +87,13 @@ impl<S: Rounded> Linear<S> {
     }
 }
 
-/// The nearest multiple of two roundings of 1, for a place in `0 … 1`: sums and differences of such are exact.
+/// Rounds a place in `0 … 1` to the nearest multiple of two roundings of 1; sums and differences of such are exact.
 pub(super) fn on_grid<S: Rounded>(place: S) -> S {
     let one = place.one();
     place + &one - &one
 }
 
-/// `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
+/// Computes `φ₁(z) = (eᶻ − 1)/z = Σ zᵏ/(k+1)!` for `|z| ≤ 2`, without a division by `z`.
 fn phi_one<S: Rounded>(z: &S) -> S {
     let (mut sum, mut term) = (z.one(), z.one());
     for k in 2..10_000 {
@@ -107,10 +107,10 @@ fn phi_one<S: Rounded>(z: &S) -> S {
     sum
 }
 
-/// The start in dimensionless form.
+/// Initial data in dimensionless form.
 #[derive(Clone, Debug)]
 pub(super) struct Data<S> {
-    /// `t₁`, `V = max(|data|, g t₁)` or 1 where all of these vanish, and those of the problem.
+    /// `t₁`, `V = max(|data|, g t₁)` or 1 if all of these vanish, and the scales of the problem.
     pub(super) units: Scales<S>,
     /// `V t₁`.
     pub(super) displacement: S,
@@ -120,29 +120,28 @@ pub(super) struct Data<S> {
     pub(super) gravity: S,
     /// `v_s′(0)`.
     pub(super) slope: S,
-    /// The data in the units of the problem.
+    /// Initial data in the units of the problem.
     pub(super) given: AtStart<S>,
     /// `v(0,0)`.
     pub(super) ground: S,
     /// Whether the rod starts undeformed, with one velocity.
     pub(super) rigid: bool,
-    /// The data, whole rod only.
+    /// Dimensionless data on the whole rod, without its mirror image.
     half: Vec<Linear<S>>,
-    /// The greatest that goes into the dimensionless data, before differences of displacements are taken.
+    /// Bound of the terms in the dimensionless data, before differences of displacements are taken.
     pub(super) most: f64,
-    /// The shortest part of the rod between breaks, as a part of `c t₁`.
+    /// Length of the shortest part of the rod between breaks, as a fraction of `c t₁`.
     pub(super) shortest: f64,
 }
 
 impl<S: Rounded> Data<S> {
-    /// The data of `problem`.
+    /// Computes the dimensionless data of `problem`.
     ///
     /// **Accuracy**: a few roundings.
     pub(super) fn of(problem: &Problem, parameters: &Parameters<S>, free_top: bool) -> Self {
         let time = parameters.round_trip();
         let zero = time.zero();
         let given = AtStart::of(problem, parameters);
-        // V.
         let gravity_speed = parameters.critical_speed();
         let mut scale = gravity_speed.clone();
         let mut raise = |candidate: S| {
@@ -162,7 +161,7 @@ impl<S: Rounded> Data<S> {
         }
         let gravity = gravity_speed / &scale;
         let displacement = scale.clone() * &time;
-        // v_s = g x²/2 + slope·x, stress-free or at its given height at x = ½.
+        // The static state is v_s = g x²/2 + slope·x, stress-free or at its given height at x = ½.
         let scaled = |end: Option<&(S, S)>| end.map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement);
         let (ground, last) = (scaled(given.displacement.first()), scaled(given.displacement.last()));
         let slope = if free_top {
@@ -195,12 +194,12 @@ impl<S: Rounded> Data<S> {
         Data { units, displacement, damping, gravity, slope, given, ground, rigid, half, most, shortest }
     }
 
-    /// `v_t(0⁺, 0)`.
+    /// Returns `v_t(0⁺, 0)`.
     pub(super) fn end_velocity(&self) -> S {
         self.half.first().map_or_else(|| self.slope.zero(), |piece| piece.velocity.clone())
     }
 
-    /// Marches from `ξ = −1` to `ξ = 0`. `visit` sees every cell; those beyond `x = ½` are mirror images.
+    /// Marches from `ξ = −1` to `ξ = 0`; `visit` receives every cell, and those beyond `x = ½` are mirror images.
     pub(super) fn march(&self, medium: &Medium<S>, visit: &mut dyn FnMut(&Cell<'_, S>)) -> State<S> {
         let zero = self.slope.zero();
         let mirror = self.half.iter().rev().map(|piece| piece.mirrored(medium.free_top));
@@ -243,7 +242,7 @@ impl<S: Rounded> Data<S> {
     }
 }
 
-/// The medium and the data of `problem`, for `digits` digits, with segments `shorten` times shorter than need be.
+/// Builds the medium and the data of `problem` for `digits` digits, with segments `shorten` times shorter than needed.
 ///
 /// **Errors**: [`Error::DampingTooStrong`], [`Error::Irrational`].
 pub(super) fn medium<S: RoundedSpecial>(

@@ -1,7 +1,7 @@
-//! Strips of cells that one question has marched, kept for the next one: questions about times in order take one march.
+//! Cached strips of cells: a query keeps the strips it has marched, so that queries in order of time need one march.
 //!
-//! Strips are kept as they are marched from their checkpoint, so that a question meets the same cells, bit for bit,
-//! whatever was asked before it.
+//! The strips are those marched from their checkpoint, so that a query finds the same cells, bit for bit, whatever
+//! queries came before it.
 
 use std::num::NonZero;
 use std::sync::{Arc, LazyLock, Mutex};
@@ -13,7 +13,7 @@ use super::piece::{Checkpoint, Piece};
 use crate::special::RoundedSpecial;
 use crate::threads::locked;
 
-/// A cell, and the data that come into it.
+/// A cell that owns its incoming data.
 #[derive(Clone, Debug)]
 pub(super) struct Kept<S> {
     corner: (S, S),
@@ -38,21 +38,21 @@ impl<S: Clone> Kept<S> {
     }
 }
 
-/// The strips after a checkpoint, one for each piece, as far as they have been asked for.
+/// The strips after a checkpoint, one for each piece, up to the last one queried.
 #[derive(Clone, Debug)]
 pub(super) struct Strips<S> {
-    /// Which checkpoint.
+    /// Index of the checkpoint.
     start: usize,
     strips: Vec<Vec<Kept<S>>>,
-    /// How many coefficients are kept.
+    /// Number of coefficients kept.
     pub(super) size: usize,
-    /// What comes after them.
+    /// State after the last strip.
     pub(super) state: State<S>,
     pub(super) flight: Option<usize>,
     pub(super) ground: S,
 }
 
-/// The most coefficients that strips keep, 2 MB in doubles: some 50 rays over two round trips.
+/// Maximum number of coefficients kept, 2 MB in doubles: some 50 rays over two round trips.
 pub(super) const MOST_KEPT: usize = 1 << 18;
 
 impl<S: RoundedSpecial> Strips<S> {
@@ -61,7 +61,7 @@ impl<S: RoundedSpecial> Strips<S> {
         Strips { start, strips: Vec::new(), size: 0, state, flight, ground }
     }
 
-    /// What comes after them, alone.
+    /// Returns the state after the last strip, without the strips.
     pub(super) fn ahead(&self) -> Self {
         let Strips { start, flight, .. } = *self;
         let (state, ground) = (self.state.clone(), self.ground.clone());
@@ -72,7 +72,7 @@ impl<S: RoundedSpecial> Strips<S> {
         self.strips.len()
     }
 
-    /// Takes the vibration that is held to `flight`.
+    /// Converts the state to the vibration about `flight`, or to the whole motion.
     pub(super) fn fly(&mut self, medium: &Medium<S>, flights: &[Flight<S>], flight: Option<usize>) {
         if flight != self.flight {
             let of = |flight: Option<usize>| flight.and_then(|k| flights.get(k));
@@ -81,7 +81,7 @@ impl<S: RoundedSpecial> Strips<S> {
         }
     }
 
-    /// Marches over the next piece, and shows its cells.
+    /// Marches over the next piece and passes its cells to `visit`.
     pub(super) fn strip(&mut self, medium: &Medium<S>, piece: &Piece<S>, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         if piece.cut {
             medium.cut_first(&mut self.state, &piece.len, Default::default());
@@ -89,7 +89,7 @@ impl<S: RoundedSpecial> Strips<S> {
         medium.strip(&mut self.state, piece.contact, visit);
     }
 
-    /// Marches over the next piece, and keeps its cells.
+    /// Marches over the next piece and keeps its cells.
     pub(super) fn keep(&mut self, medium: &Medium<S>, flights: &[Flight<S>], piece: &Piece<S>) {
         let mut cells = Vec::with_capacity(self.state.segments.len() + 2);
         self.fly(medium, flights, piece.flight);
@@ -98,14 +98,14 @@ impl<S: RoundedSpecial> Strips<S> {
         self.strips.push(cells);
     }
 
-    /// Shows the cells of a strip that is kept.
+    /// Passes the cells of a kept strip to `visit`.
     pub(super) fn show(&self, strip: usize, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         self.strips[strip].iter().for_each(|kept| visit(&kept.cell()));
     }
 }
 
-/// What was asked for last: each question takes the strips that it needs, and puts them back. The nodes of a line along
-/// the whole rod serve all that is asked about one time.
+/// Cache of recent queries: each query takes the strips it needs and puts them back. The nodes along the whole rod at
+/// one time serve all queries about that time.
 #[derive(Debug)]
 pub(super) struct Pool<S> {
     strips: Mutex<Vec<Strips<S>>>,
@@ -117,31 +117,31 @@ pub(super) struct Pool<S> {
 pub(super) struct Node<S> {
     pub(super) weight: S,
     pub(super) x: S,
-    /// `h′` of the flight that the vibration is taken apart from; zero without one.
+    /// Velocity `h′` of the centre of mass in a separated flight; zero otherwise.
     pub(super) rigid: S,
-    /// The rest of `v_t`.
+    /// Remainder of `v_t`.
     pub(super) motion: S,
     /// `v_x`.
     pub(super) strain: S,
 }
 
 impl<S: RoundedSpecial> Node<S> {
-    /// `v_t`.
+    /// Returns `v_t`.
     pub(super) fn velocity(&self) -> S {
         self.motion.clone() + &self.rigid
     }
 }
 
-/// The nodes along a part of the rod at a time, and how many parts of it lie between rays.
+/// The nodes along a part of the rod at a time, and the number of its parts between rays.
 pub(super) type Line<S> = (Vec<Node<S>>, usize);
 
 /// The nodes along the whole rod at a time.
 pub(super) type Nodes<S> = Arc<Vec<Node<S>>>;
 
-/// Each core goes from one checkpoint to the next.
+/// Maximum number of cache entries: two for each core, since a core marches from one checkpoint to the next.
 static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
 
-/// Puts `item` last, and drops the first where there are too many.
+/// Appends `item`, and removes the first item of a full list.
 fn push<T>(list: &Mutex<Vec<T>>, item: T) {
     let mut all = locked(list);
     if all.len() >= *MOST {
@@ -156,7 +156,7 @@ impl<S> Default for Pool<S> {
     }
 }
 
-/// A clone starts empty.
+/// A clone has an empty cache.
 impl<S> Clone for Pool<S> {
     fn clone(&self) -> Self {
         Pool::default()
@@ -164,7 +164,7 @@ impl<S> Clone for Pool<S> {
 }
 
 impl<S: PartialEq> Pool<S> {
-    /// The strips after checkpoint `start`, if they are kept.
+    /// Takes the strips after checkpoint `start` out of the cache, if they are there.
     pub(super) fn take(&self, start: usize) -> Option<Strips<S>> {
         let mut all = locked(&self.strips);
         all.iter().position(|strips| strips.start == start).map(|k| all.remove(k))
@@ -174,7 +174,7 @@ impl<S: PartialEq> Pool<S> {
         push(&self.strips, strips);
     }
 
-    /// The nodes at `time`: those that are kept, or those that `find` gives.
+    /// Returns the nodes at `time`, from the cache or from `find`.
     pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Nodes<S>
     where
         S: Clone,

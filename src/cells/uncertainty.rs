@@ -1,14 +1,14 @@
-//! How far values may be off between events, and numbers that carry such bounds.
+//! Error bounds of the values between events, and numbers that carry them.
 
 use crate::motion::Event;
 use crate::number::{Estimate, Rounded, Scalar};
 
-/// What either account says of an error.
+/// Error in each of the two accounts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Off {
-    /// The account that takes `v` as one.
+    /// Error in the account at equal times, which treats `v` as a whole.
     pub(super) fixed: f64,
-    /// The account of flights that are taken apart.
+    /// Error in the account of separated flights.
     pub(super) apart: f64,
 }
 
@@ -18,26 +18,26 @@ impl Off {
     }
 }
 
-/// How far the values of a run may be off between two events, in natural scales, away from rays that are off in time.
+/// Error bounds of the values between two events, in natural scales, away from rays that are displaced in time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Uncertainty {
-    /// Displacements, in `V t₁`, as far as the events are in time.
+    /// Bound for displacements, in `V t₁`, apart from the time error of events.
     pub(super) rise: f64,
-    /// Velocities and `c v_x`, in `V`, as far as the events are in time.
+    /// Bound for velocities and `c v_x`, in `V`, apart from the time error of events.
     pub(super) speed: f64,
-    /// `h′`, in `V`, as far as the events are in time.
+    /// Bound for `h′`, in `V`, apart from the time error of events.
     pub(super) rate: f64,
-    /// How early or late the events may be, in `t₁`.
+    /// Bound for the time error of the events, in `t₁`.
     pub(super) late: f64,
-    /// `|dv_t/dt|` between rays, in `V/t₁`: what lateness makes of velocities.
+    /// Greatest `|dv_t/dt|` between rays, in `V/t₁`: the factor from time errors to velocity errors.
     pub(super) slope: f64,
-    /// The most of `|v_t|` and `|c v_x|`, in `V`: what lateness makes of displacements and of integrals along the rod.
+    /// Greatest `|v_t|` and `|c v_x|`, in `V`: the factor from time errors to errors of displacements and integrals.
     pub(super) most: f64,
-    /// The most of `v_t ± c v_x` about the centre of mass, in `V`: what a ray that is off in time makes of energies.
+    /// Greatest `|v_t ± c v_x|` about the centre of mass, in `V`: the factor from displaced rays to errors of energies.
     pub(super) peak: f64,
-    /// `Σ` of the jumps of `v_t ± c v_x` at rays, in `V`; of a proof alone.
+    /// Sum of the jumps of `v_t ± c v_x` at rays, in `V`; only in a proof.
     pub(super) jumps: f64,
-    /// How far rays may be off, in `t₁`: what the limits next to them, and peaks, are off by is that times the slope.
+    /// Bound for the displacement of rays, in `t₁`; times the slope, it bounds the error of one-sided limits and peaks.
     pub(super) rays: f64,
 }
 
@@ -57,26 +57,26 @@ impl Uncertainty {
     }
 }
 
-/// So many roundings of a time, or of a round trip: how close to a ray or a lattice time it is taken to be on it.
+/// Returns the distance from a ray or lattice time, in so many roundings of `t` or a round trip, that counts as zero.
 pub(super) fn slack<S: Rounded>(t: &S, roundings: i64) -> S {
     (t.magnitude() + t.one()) * &t.roundoff() * &t.int(roundings)
 }
 
-/// `value` within `bound`.
+/// Returns `value` with the error bound `bound`.
 pub(super) fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
 }
 
-/// `value` with so much more in its bound.
+/// Returns `value` with `bound` added to its error bound.
 pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
     Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
 }
 
-/// In roundings of its time, how far the time of an event is off for a spelled one to stand for it.
+/// Largest error of an event's time, in roundings, for which a time given as text may stand for the event.
 const MOST_ROUNDINGS: f64 = 64.0;
 
-/// The time that is asked about: that of the nearest event, where roundings alone set it apart, and the event is where
-/// it is meant to be or the time was computed.
+/// Returns the time of the nearest event if `time` differs from it by roundings alone and either the event is known
+/// that well or the time was computed; otherwise returns `time`.
 pub(super) fn meant<'a, S: Rounded>(events: &'a [Event<Estimate<S>>], time: &'a Estimate<S>) -> &'a Estimate<S> {
     let next = events.partition_point(|event| event.t.value() < time.value());
     let near = events[next.saturating_sub(1)..].iter().take(2).map(|event| &event.t);

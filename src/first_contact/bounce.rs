@@ -1,4 +1,4 @@
-//! How the contact ends: the bounce time `t_b`, the first root or jump of the stress, or the reason why there is none.
+//! End of the contact: the bounce time `t_b`, the first root or jump of the stress, or the reason why there is none.
 
 use super::cells::{Kernels, Search};
 use super::field::FirstContact;
@@ -6,22 +6,21 @@ use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
-/// Cells `(k t₁, (k+1) t₁)` that are searched.
+/// Number of cells `(k t₁, (k+1) t₁)` that are searched.
 const MOST_CELLS: i64 = 256;
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// `t_b` (1.10): the end of the first contact.
+    /// Computes `t_b` (1.10): the end of the first contact.
     ///
     /// **Source**: Theorem 1, with (2.32) in closed form: `t_b = t₁` where `μ (2 − I₀(R)) > μ₀ (I₀(R) + I₁(R))`.
-    /// Without damping Corollary 1 says all. Later cells are searched one by one on a Chebyshev sum whose rest is
-    /// bounded, see [`Doubt`] for what can stand in the way. "Never" is shown in one of two ways. For `R ≥ π`: the
-    /// kernel `H_r` is positive, because its lowest mode, overdamped, exceeds the sum of all others from `t₁` on. For
-    /// `R < π`: at some lattice time `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann invariant
-    /// of the transient cannot grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress wins at all
-    /// later times.
+    /// Without damping Corollary 1 gives the complete result. Later cells are searched one by one on a Chebyshev sum
+    /// with a bounded truncation error; [`Doubt`] lists the obstacles. "Never" is proved in one of two ways. For `R ≥
+    /// π`: the kernel `H_r` is positive, because its lowest mode, overdamped, exceeds the sum of all others from `t₁`
+    /// on. For `R < π`: at some lattice time `|v_t ∓ c(v_x − v_s′)| < gL/c` throughout the rod; this largest Riemann
+    /// invariant of the transient cannot grow, since `(∂_t ± c∂_x) p_± = −r (p₊ + p₋)`, and so the static stress
+    /// exceeds it at all later times.
     ///
-    /// **Accuracy**: *within its own bound*. No root is reported that is not bracketed by signs beyond the bounds of
-    /// the stress.
+    /// **Accuracy**: *within its own bound*. Every root returned is bracketed by signs beyond the bounds of the stress.
     ///
     /// ```
     /// # use dalembert::{Estimate, Number, Parameters, Problem};
@@ -33,17 +32,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn bounce(&self) -> Bounce<N> {
-        self.search(&Search { contact: self, route: None, kernels: None })
+        self.search(&Search { contact: self, kernels: None })
     }
 
-    /// The same for one of many speeds of one damping, which share its `kernels`.
+    /// Computes `t_b` likewise for one of many speeds of one damping, which share its `kernels`.
     pub fn bounce_sharing(&self, kernels: &Kernels<N>) -> Bounce<N> {
-        self.search(&Search { contact: self, route: None, kernels: Some(kernels) })
-    }
-
-    /// The same with `e^{−rt} H_r` and `e^{−rt} G_r/t₁` from another route, after τ round trips of which k have passed.
-    pub fn bounce_by(&self, route: &dyn Fn(&N, i64) -> [N; 2]) -> Bounce<N> {
-        self.search(&Search { contact: self, route: Some(route), kernels: None })
+        self.search(&Search { contact: self, kernels: Some(kernels) })
     }
 
     fn search(&self, search: &Search<'_, N>) -> Bounce<N> {
@@ -62,8 +56,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
             let trips = self.lattice(k);
             Bounce::At { time: trips.exact.clone() * &self.round_trip, trips, kind: BounceKind::Jump }
         };
-        // By far the most frequent answer.
-        if search.force(&mu.one(), 1).negative() == Ok(true) {
+        // The most frequent result by far.
+        if self.force(&mu.one(), 1).negative() == Ok(true) {
             return jump(1);
         }
         let first = match self.lowest_mode(search) {
@@ -71,7 +65,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             Err(answer) => return *answer,
         };
         for k in first..=MOST_CELLS {
-            let after = search.force(&mu.int(k), k);
+            let after = self.force(&mu.int(k), k);
             if after.negative() == Ok(true) {
                 return jump(k);
             }
@@ -91,7 +85,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         undecided(MOST_CELLS + 1, Doubt::NoneFound(MOST_CELLS))
     }
 
-    /// Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
+    /// Applies Corollary 1, which also settles `μ = μ₀`, where the stress is zero just after `t₁` and rises from there.
     fn undamped_bounce(&self) -> Bounce<N> {
         let (mu, mu0, t1) = (&self.rod.speed, self.rod.gravity.clone() * &self.round_trip, &self.round_trip);
         let Ok(order) = mu.compare(&mu0) else {
@@ -106,24 +100,23 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
         let mut time = t1.clone();
         if order.is_eq() {
-            // What is equal within a bound is released later by what the bound leaves open.
+            // If both are equal within a bound, the release is later by the part that the bound leaves open.
             time = time.widened(&((mu.clone() - mu0) / &self.rod.gravity));
         }
         Bounce::At { time, trips: self.lattice(1), kind: BounceKind::Jump }
     }
 
-    /// What the lowest mode settles at once: "never" for `R ≥ π`, and otherwise the first cell that need be searched.
+    /// Tests the lowest mode: the result is "never" for `R ≥ π`, otherwise the first cell that has to be searched.
     ///
     /// `H_r = 4 Σ S_n`, `S_n = sin(Ω_n τ)/Ω_n`, `Ω_n² = ω_n² − R²`, `ω_n = (2n+1)π`, `τ = t/t₁`. Overdamped modes are
-    /// positive. For `ω_n ≥ 2R`, `|S_n − sin(ω_nτ)/ω_n| ≤ (R²/2Ω_n)(τ/Ω_n + 1/Ω_n²)`, and
-    /// `4 Σ_{all} sin(ω_nτ)/ω_n = ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`,
-    /// `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between are at most τ and `1/Ω_n`. All others together are at most
-    /// `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one look at τ = 1 is enough for ever; for `R < π` it is concave
-    /// up to `π/Ω_0`, so a look at τ = 1 and at τ = k is enough for all between. Late, modes up to `R²τ/4`, which have
-    /// fallen behind, are bounded by their sizes too: from k to k + 1 the lowest is at least the lesser of both ends,
-    /// and all others at most what they are at k + 1. The doubles here stand against margins of one part in 10⁹: r and
-    /// π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶ nothing depends on s. Before,
-    /// `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
+    /// positive. For `ω_n ≥ 2R`, `|S_n − sin(ω_nτ)/ω_n| ≤ (R²/2Ω_n)(τ/Ω_n + 1/Ω_n²)`, and `4 Σ_{all} sin(ω_nτ)/ω_n =
+    /// ±1`, with `Ω_n² ≥ ¾ω_n²`, `Σ_{n≥N} ω_n⁻² ≤ ω_N⁻² + 1/2πω_N`, `Σ_{n≥N} ω_n⁻³ ≤ ω_N⁻³ + 1/4πω_N²`. Those between
+    /// are at most τ and `1/Ω_n`. All others together are at most `b₀ + b₁τ`. For `R ≥ π`, `S_0` is convex, so one test
+    /// at τ = 1 suffices for all later times; for `R < π` it is concave up to `π/Ω_0`, so tests at τ = 1 and at τ = k
+    /// suffice for all between. Late, modes up to `R²τ/4`, which lag behind, are bounded by their sizes too: from k to
+    /// k + 1 the lowest is at least the lesser of both ends, and all others at most their values at k + 1. The doubles
+    /// here face margins of one part in 10⁹: r and π are known to 10⁻¹⁶, so is R − π to `10⁻¹⁶/s²`, and below s = 10⁻⁶
+    /// nothing depends on s. Before, `H_r = I₀ > 0`. As long as H_r > 0, G_r > 0.
     fn lowest_mode(&self, search: &Search<'_, N>) -> Result<i64, Box<Bounce<N>>> {
         use std::f64::consts::PI;
         let answer = |bounce| Err(Box::new(bounce));
@@ -135,11 +128,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
         };
         let r = self.damping.near().0;
         let s = (apart * &(self.damping.clone() + &pi)).near().0.abs().sqrt();
-        // `b₀` and `b₁` with the modes below `limit`, at least 2R, by their sizes.
+        // The coefficients b₀ and b₁, with the modes below `limit`, at least 2R, bounded by their sizes.
         let bounds = |limit: f64| {
             let (mut others, mut growth, mut square_wave) = (0.0, 0.0, 1.0 + 4.0 / PI);
             let mut omega = 3.0 * PI;
-            // With R beyond 3·10⁶, sinh(s)/s overflows long before the modes in question, R/π of them, matter.
+            // Beyond R = 3·10⁶, sinh(s)/s overflows long before the modes in question, R/π of them, matter.
             while omega < limit && omega < 2e7 {
                 square_wave += 4.0 / omega;
                 let below = omega * omega - r * r;

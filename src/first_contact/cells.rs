@@ -1,4 +1,4 @@
-//! One cell between two lattice times: has the transient died away, and where is the first root of the stress.
+//! One cell between two lattice times: whether the transient has died away, and the first root of the stress.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -10,27 +10,22 @@ use super::outcome::{Bounce, BounceKind};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 
-/// The shares of the force after τ round trips, of which k have passed, by a route of its own.
-type Route<'a, N> = &'a dyn Fn(&N, i64) -> [N; 2];
-
-/// The force on the ground, where it comes from, and what is searched for in it.
+/// A search for the first root of the force on the ground.
 pub(super) struct Search<'a, N> {
     pub(super) contact: &'a FirstContact<N>,
-    /// The rays where there is none.
-    pub(super) route: Option<Route<'a, N>>,
     pub(super) kernels: Option<&'a Kernels<N>>,
 }
 
-/// Lists that are worked out once, by what they belong to.
+/// Lists that are computed once, by their keys.
 type Known<K, T> = RefCell<BTreeMap<K, Rc<[T]>>>;
 
-/// What the search for the bounce asks of the rays of one damping, each worked out once for many speeds: the motion is
-/// linear in `μ` and `g`.
+/// Sums over the rays that the search for the bounce needs for one damping, each computed once for many speeds: the
+/// motion is linear in `μ` and `g`.
 #[derive(Debug)]
 pub struct Kernels<N> {
-    /// The shares of the force at the nodes of a cell, by the cell and how many they are.
+    /// Shares of the force at the nodes of a cell, by the cell and the number of nodes.
     cells: Known<(i64, usize), Shares<N>>,
-    /// The shares of `v_t` and `c v_x`, the static state taken from it, at lattice times.
+    /// Shares of `v_t` and `c v_x`, less the static state, at lattice times.
     lattice: Known<i64, [Shares<N>; 2]>,
 }
 
@@ -40,7 +35,7 @@ impl<N> Default for Kernels<N> {
     }
 }
 
-/// What a table holds for `key`, worked out where it does not.
+/// Returns the entry of a table for `key`, computing it if it is missing.
 fn known<K: Ord, T>(table: &Known<K, T>, key: K, find: impl FnOnce() -> Rc<[T]>) -> Rc<[T]> {
     let held = table.borrow().get(&key).cloned();
     held.unwrap_or_else(|| {
@@ -54,23 +49,23 @@ fn known<K: Ord, T>(table: &Known<K, T>, key: K, find: impl FnOnce() -> Rc<[T]>)
 pub(super) struct Interpolant<N> {
     pub(super) scale: N,
     pub(super) sum: Vec<f64>,
-    /// Includes what the rounding of the sum's own evaluation adds, see [`first_root`] for derivatives.
+    /// Error bound, including the rounding in the evaluation of the sum; [`first_root`] uses it for derivatives too.
     pub(super) error: f64,
 }
 
-/// A part of a cell that holds the first root of the stress, and no other.
+/// A part of a cell with exactly one root of the stress, the first.
 pub(super) struct Bracket<N> {
-    /// The cell, by the round trips before it.
+    /// Index of the cell: the number of round trips before it.
     cell: i64,
-    /// Its ends, as numbers of round trips.
+    /// Ends of the part, in round trips.
     from: N,
     to: N,
-    /// The force falls at least so fast in each round trip.
+    /// Lower bound of the fall of the force per round trip.
     slope: N,
 }
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// Whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
+    /// Tests whether, at `k t₁`, the transient is below the static stress everywhere in the rod: then it stays so.
     pub(super) fn settled(&self, k: i64, kernels: Option<&Kernels<N>>) -> Option<NoBounceReason> {
         if self.weightless {
             return None;
@@ -80,18 +75,17 @@ impl<N: BoundedSpecial> FirstContact<N> {
         (largest < share * (1.0 - 1e-9)).then_some(NoBounceReason::SettlesUnderWeight { trips: k, part })
     }
 
-    /// `gL/c` over `μ + μ₀`.
+    /// Computes `gL/c` over `μ + μ₀`.
     pub(super) fn static_share(&self) -> f64 {
         (self.critical.clone() / self.total_speed()).near().0 / 2.0
     }
 
-    /// A bound of `|v_t ∓ c(v_x − v_s′)|/(μ + μ₀)` at `k t₁`, and so at all later times; `None` where that is more than
-    /// the static share `gL/c` of it, or not known.
+    /// Bounds `|v_t ∓ c(v_x − v_s′)|/(μ + μ₀)` at `k t₁`, and so at all later times; `None` if the bound exceeds the
+    /// static share `gL/c`, or is unknown.
     ///
     /// At a lattice time no ray is inside the rod, so both invariants are analytic in a; with 25 Chebyshev points the
-    /// interpolant is off by at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and it is nowhere larger than
-    /// the sum of its coefficients' magnitudes. Errors of the values add up to no more than 3.1 times the greatest of
-    /// them.
+    /// error of the interpolant is at most `4M·8^{−24}/7`, M from [`FirstContact::amplitude`], and its size is at most
+    /// the sum of its coefficients' magnitudes. Errors of the values add up to at most 3.1 times the greatest of them.
     pub(super) fn transient(&self, k: i64, kernels: Option<&Kernels<N>>) -> Option<f64> {
         const NODES: usize = 24;
         let trips = self.damping.int(k);
@@ -99,7 +93,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let sample = |j: usize| {
             let node = (std::f64::consts::PI * j as f64 / NODES as f64).cos();
             let a = trips.double((0.25 + 0.25 * node).clamp(0.0, 0.5));
-            // The limit from inside at the ground: the ray that comes down has arrived, the one it starts has not.
+            // Limit from inside at the ground: the downward ray has arrived, the upward ray that it starts has not.
             let [_, rate, slope] = self.field_shares(&a, &trips, [k, k], &free);
             [rate, Shares { impact: slope.impact, weight: slope.weight - (a - trips.ratio(1, 2)) }]
         };
@@ -118,7 +112,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
             upward.push(up);
             downward.push(down);
         }
-        // The largest value and the largest slope of an interpolant, by its coefficients.
+        // Greatest value and greatest slope of an interpolant, by its coefficients.
         let size = |values: &[f64]| {
             let sum = coefficients(values);
             let steep: f64 = (0u32..).zip(&sum).map(|(n, c)| f64::from(n * n) * c.abs()).sum();
@@ -134,33 +128,22 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some(up.max(down) + interpolation + 3.1 * error + doubles)
     }
 
-    /// The place `x` of `[−1,1]` in the cell after k round trips.
+    /// Converts the place `x` of `[−1,1]` in the cell after k round trips to round trips.
     pub(super) fn inside(&self, k: i64, x: f64) -> N {
         (self.damping.int(k) + (self.damping.double(x) + self.damping.one()) / self.damping.int(2)).middle()
     }
 
-    /// What presses on the ground: `−c v_x/(μ + μ₀)`, positive in contact, with `k` returned rays.
+    /// Computes the force on the ground, `−c v_x/(μ + μ₀)`, positive in contact, with `k` returned rays.
     pub(super) fn force(&self, trips: &N, k: i64) -> N {
         self.weighted(&self.ground(trips, k)) / self.total_speed()
     }
 }
 
 impl<N: BoundedSpecial> Search<'_, N> {
-    /// What presses on the ground, see [`FirstContact::force`].
-    pub(super) fn force(&self, trips: &N, k: i64) -> N {
-        self.contact.weighted(&self.shares(trips, k)) / self.contact.total_speed()
-    }
-
-    fn shares(&self, trips: &N, k: i64) -> Shares<N> {
-        let Some(route) = self.route else { return self.contact.ground(trips, k) };
-        let [impact, weight] = route(trips, k);
-        Shares { impact, weight }
-    }
-
-    /// The force at the n + 1 Chebyshev points of a cell, from its end to its beginning.
+    /// Computes the force at the n + 1 Chebyshev points of a cell, from its end to its beginning.
     fn at_nodes(&self, k: i64, n: usize) -> Vec<N> {
         let place = |j: usize| self.contact.inside(k, (std::f64::consts::PI * j as f64 / n as f64).cos());
-        let find = || (0..=n).map(|j| self.shares(&place(j), k)).collect();
+        let find = || (0..=n).map(|j| self.contact.ground(&place(j), k)).collect();
         let shares: Rc<[_]> = match self.kernels {
             Some(kernels) => known(&kernels.cells, (k, n), find),
             None => find(),
@@ -169,23 +152,23 @@ impl<N: BoundedSpecial> Search<'_, N> {
         shares.iter().map(|shares| self.contact.weighted(shares) / &total).collect()
     }
 
-    /// The force in `(k t₁, (k+1) t₁)` as a Chebyshev sum in doubles, or why there is none.
+    /// Computes the force in `(k t₁, (k+1) t₁)` as a Chebyshev sum in doubles, or returns the reason why this fails.
     ///
-    /// Chebyshev interpolation in n + 1 points is off by at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k + 2`
-    /// stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds at
-    /// most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
+    /// The error of Chebyshev interpolation in n + 1 points is at most `4Mρ⁻ⁿ/(ρ−1)`. The ellipse with `ρ + 1/ρ = 4k +
+    /// 2` stays in Re τ ≥ 0, where `|e^{−Rτ}I₀(R√(τ²−j²))| ≤ 1`, because `(Re √(τ²−j²))² ≤ (Re τ)²`; so each ray adds
+    /// at most 1 to the impact's share and, integrated from j, at most 2k + 1 to the weight's: `M ≤ (2k+1)²`.
     ///
-    /// The rest is rounding, with `u = 2⁻⁵³`, for values at most V and coefficients c:
+    /// The remaining error is rounding, with `u = 2⁻⁵³`, for values at most V and coefficients c:
     /// - the nodes are off by `10⁻¹⁵`, the cosines in the coefficients too; each coefficient by
     ///   `2V (10⁻¹⁵·1.5 + (n+3)u)`;
-    /// - a value, which is known to `rounding`, is turned into a double: `2uV` more;
+    /// - a value, which is known to `rounding`, is converted to a double: `2uV` more;
     /// - an error made at index k of Clenshaw's recurrence has the weight `T_k`, at most 1, in its result, and the
     ///   recurrence's terms are at most `Σ (j+1)|c_j|`: together `12 u (n+1) Σ (j+1)|c_j|`. In the slope the weights
     ///   are at most `n²` and the terms `Σ (j+1)³|c_j|`; divided by the `4(n+1)²` that [`first_root`] allows slopes,
     ///   that is less than `4 u Σ (j+1)³|c_j|`.
     pub(super) fn interpolant(&self, k: i64) -> Result<Interpolant<N>, Doubt> {
         let zero = self.contact.damping.zero();
-        // Any exact number will do for a scale.
+        // Any exact number is valid as a scale.
         let probes = self.at_nodes(k, 2).into_iter().rev();
         let scale = probes.fold(zero, |sum, probe| sum + probe.magnitude()).middle();
         if !(scale.positive() == Ok(true) && scale.is_finite()) {
@@ -195,7 +178,7 @@ impl<N: BoundedSpecial> Search<'_, N> {
         let rho = width + (width * width - 1.0).sqrt();
         let log_bound = 2.0 * width.ln() - scale.ln().near().0 + (4.0 / (rho - 1.0)).ln();
         let n = ((log_bound + 35.0) / rho.ln()).ceil().clamp(8.0, 4000.0) as usize;
-        // Speeds that ask for about as many share their nodes.
+        // Speeds that need about as many nodes share them.
         let n = if self.kernels.is_some() { n.next_multiple_of(8) } else { n };
         let mut values = Vec::with_capacity(n + 1);
         let mut rounding = 0.0f64;
@@ -219,13 +202,14 @@ impl<N: BoundedSpecial> Search<'_, N> {
         Ok(Interpolant { error: interpolation + 6.3 * places + coefficients + recurrence, scale, sum })
     }
 
-    /// The first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` where there
+    /// Finds the first root inside `(k t₁, (k+1) t₁)`, where the stress is compressive at the left end; `None` if there
     /// is none.
     pub(super) fn cell(&self, k: i64) -> Result<Option<Bracket<N>>, Doubt> {
         let Interpolant { scale, sum, error } = self.interpolant(k)?;
         let at = |x: f64| self.contact.inside(k, x);
-        let sign =
-            |x: f64| self.force(&at(x), k).sign().ok().filter(|order| order.is_ne()).map(std::cmp::Ordering::is_gt);
+        let sign = |x: f64| {
+            self.contact.force(&at(x), k).sign().ok().filter(|order| order.is_ne()).map(std::cmp::Ordering::is_gt)
+        };
         match first_root(&sum, error, sign) {
             FirstRoot::None => Ok(None),
             FirstRoot::Unclear(x) => Err(Doubt::NearZero(at(x).near().0)),
@@ -236,11 +220,11 @@ impl<N: BoundedSpecial> Search<'_, N> {
         }
     }
 
-    /// The root in a bracket: the Illinois variant of regula falsi, in exact numbers of round trips, until the force
-    /// there has no sign. In the bracket it falls at least as fast as `slope`: the root is no farther than `|f|/slope`.
+    /// Computes the root in a bracket: the Illinois variant of regula falsi, in exact numbers of round trips, until the
+    /// sign of the force is undecided. The force falls at least as fast as `slope`, so the root is within `|f|/slope`.
     pub(super) fn refine(&self, bracket: Bracket<N>) -> Bounce<N> {
         let Bracket { cell: k, from: mut a, to: mut b, slope } = bracket;
-        let force = |x: &N| self.force(x, k);
+        let force = |x: &N| self.contact.force(x, k);
         let (mut fa, found) = (force(&a).middle(), force(&b));
         let mut fb = found.middle();
         let mut best = (b.clone(), found);

@@ -5,16 +5,16 @@ use crate::number::Scalar;
 use crate::problem::Parameters;
 use crate::special::{BoundedSpecial, Ray};
 
-/// The rod that hit the ground undeformed at `t = 0` with uniform velocity `−μ`, while the contact lasts.
+/// The rod that hit the ground undeformed at `t = 0` with uniform velocity `−μ`, during the contact.
 ///
-/// **Source**: (2.19)–(2.28), (3.38), (3.39), with the integrals done term by term.
+/// **Source**: (2.19)–(2.28), (3.38), (3.39), with the integrals evaluated term by term.
 ///
 /// **Units**: any consistent units.
 ///
 /// **Accuracy**: *within its own bound*: estimates carry the magnitudes of all terms times the roundings in each,
 /// enclosures their ends. Where `r t` is large and `R < π` the terms cancel, and the bound shows it. A time that is a
-/// lattice time `k t₁` within its bound is taken for that, a point that a ray is reaching for one on the ray. What is
-/// not known, because an enclosure does not tell which rays have arrived, has no finite bound.
+/// lattice time `k t₁` within its bound is taken for that, a point that a ray is reaching for one on the ray. A value
+/// has no finite bound if an enclosure leaves open which rays have arrived.
 ///
 /// ```
 /// # use dalembert::{Estimate, Number, Parameters, Problem, Side};
@@ -28,10 +28,10 @@ use crate::special::{BoundedSpecial, Ray};
 /// ```
 #[derive(Clone, Debug)]
 pub struct FirstContact<N> {
-    /// As given: enclosures with the exact numbers inside, which decide comparisons.
+    /// Parameters as given: enclosures with the exact numbers inside, which decide comparisons.
     pub(super) rod: Parameters<N>,
     pub(super) round_trip: N,
-    /// `μ`, for sums, as all that follow.
+    /// `μ`, as a number for sums, like all fields below.
     pub(super) speed: N,
     /// `μ₀`.
     pub(super) critical: N,
@@ -44,18 +44,18 @@ pub struct FirstContact<N> {
 /// A time of the first contact in round trips.
 #[derive(Clone, Debug)]
 pub struct Trips<N> {
-    /// `τ = t/t₁`, with an exact number inside where one is known.
+    /// `τ = t/t₁`, with the exact number inside if it is known.
     pub(super) exact: N,
-    /// The same for sums.
+    /// `τ` as a number for sums.
     pub(super) number: N,
-    /// How many round trips have passed.
+    /// Number of round trips that have passed.
     pub(super) passed: i64,
-    /// Whether the last of them just has: `τ` is that number.
+    /// Whether the last of them has just passed: `τ` is that number.
     pub(super) on_lattice: bool,
 }
 
 impl<N> Trips<N> {
-    /// `k` where the time is `k t₁`.
+    /// Returns `k` if the time is `k t₁`.
     pub fn lattice(&self) -> Option<i64> {
         self.on_lattice.then_some(self.passed)
     }
@@ -65,7 +65,7 @@ impl<N> Trips<N> {
     }
 }
 
-/// The solutions for `μ = 1, g = 0` and for `μ = 0, μ₀ = 1`.
+/// Solutions for `μ = 1, g = 0` and for `μ = 0, μ₀ = 1`.
 #[derive(Clone, Debug)]
 pub(super) struct Shares<N> {
     pub(super) impact: N,
@@ -80,7 +80,7 @@ impl<N: Scalar> Shares<N> {
 
 const MOST_RAYS: i64 = 1 << 20;
 
-/// Adds `(−1)^j term`.
+/// Adds `(−1)^j term` to `sum`.
 fn alternate<N: Scalar>(sum: &mut N, j: i64, term: &N) {
     *sum = if j % 2 == 0 { sum.clone() + term } else { sum.clone() - term };
 }
@@ -90,7 +90,7 @@ pub(super) fn unknown<N: Scalar>(like: &N) -> N {
 }
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// The first contact of a rod with these parameters.
+    /// Builds the first contact of a rod with these parameters.
     pub fn new(rod: &Parameters<N>) -> Self {
         let round_trip = rod.round_trip();
         let critical = rod.gravity.clone() * &round_trip;
@@ -105,17 +105,17 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
     }
 
-    /// The parameters.
+    /// Returns the parameters.
     pub fn rod(&self) -> &Parameters<N> {
         &self.rod
     }
 
-    /// `t₁ = 2L/c`.
+    /// Returns `t₁ = 2L/c`.
     pub fn round_trip(&self) -> N {
         self.round_trip.clone()
     }
 
-    /// `t/t₁`; `None` where it cannot be said how many rays have returned.
+    /// Computes `t/t₁`; `None` if the number of returned rays is undecided.
     #[inline]
     pub fn trips(&self, time: &N) -> Option<Trips<N>> {
         let exact = time.clone() / &self.round_trip;
@@ -126,25 +126,25 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Some(Trips { exact, number, passed, on_lattice })
     }
 
-    /// The k-th lattice time, in round trips.
+    /// Returns the k-th lattice time, in round trips.
     pub(super) fn lattice(&self, k: i64) -> Trips<N> {
         let exact = self.round_trip.int(k);
         Trips { number: exact.clone().without_exact(), exact, passed: k, on_lattice: true }
     }
 
-    /// `μ + μ₀`: a bound of `|v_t|` and `|c v_x|`. With `z = v − v_s`, `|z_t ± c z_x|` is at most `μ + μ₀/2` at the
-    /// start and never grows, and `|c v_s′| ≤ μ₀/2`.
+    /// Computes `μ + μ₀`, a bound of `|v_t|` and `|c v_x|`. With `z = v − v_s`, `|z_t ± c z_x|` is at most `μ + μ₀/2`
+    /// at the start and never grows, and `|c v_s′| ≤ μ₀/2`.
     pub(super) fn total_speed(&self) -> N {
         self.speed.clone() + &self.critical
     }
 
-    /// `μ impact + μ₀ weight`.
+    /// Computes `μ impact + μ₀ weight`.
     pub(super) fn weighted(&self, shares: &Shares<N>) -> N {
         let impact = shares.impact.clone() * &self.speed;
         if self.weightless { impact } else { impact + shares.weight.clone() * &self.critical }
     }
 
-    /// `e^{−rt} H_r` and `e^{−rt} G_r/t₁` with the first `k` returning rays: `v_x(0,t) = −(μ · + μ₀ ·)/c`.
+    /// Computes `e^{−rt} H_r` and `e^{−rt} G_r/t₁` with the first `k` returning rays: `v_x(0,t) = −(μ · + μ₀ ·)/c`.
     pub(super) fn ground(&self, trips: &N, k: i64) -> Shares<N> {
         let z = self.damping.clone() * trips;
         let start = z.in_scaled(0);
@@ -158,7 +158,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Shares { impact: shares.impact + returned.impact * &two, weight: shares.weight + returned.weight * &two }
     }
 
-    /// The returning rays, once. Apart, because the first round trip is the most frequent and needs none.
+    /// Sums the returning rays once; apart, as the first round trip is the most frequent and has none.
     #[inline(never)]
     fn returned(&self, trips: &N, k: i64) -> Shares<N> {
         let mut returned = Shares { impact: trips.zero(), weight: trips.zero() };
@@ -175,7 +175,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         returned
     }
 
-    /// `v_x(0,t) = e^{−rt} Ψ_r(t)`: the stress at the ground divided by the modulus.
+    /// Computes `v_x(0,t) = e^{−rt} Ψ_r(t)`: the stress at the ground divided by the modulus.
     ///
     /// **Source**: (2.28).
     pub fn strain(&self, time: &N, side: Side) -> N {
@@ -186,13 +186,13 @@ impl<N: BoundedSpecial> FirstContact<N> {
         self.stress_in_cell(&trips.number, trips.returned(side))
     }
 
-    /// The stress with `k` returned rays.
+    /// Computes the stress with `k` returned rays.
     pub(super) fn stress_in_cell(&self, trips: &N, k: i64) -> N {
         -(self.weighted(&self.ground(trips, k)) * &self.slowness)
     }
 
-    /// `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with so many rays arrived upwards and
-    /// downwards.
+    /// Computes `V`, `V_t`, `V_x` at the travel time `a` from the ground, `0 ≤ a ≤ 1/2`, with the numbers `arrived` of
+    /// upward and downward rays that have arrived.
     pub(super) fn field_shares(&self, a: &N, trips: &N, arrived: [i64; 2], free: &[Shares<N>; 2]) -> [Shares<N>; 3] {
         let r = &self.damping;
         let [mut value, mut rate] = free.clone();
@@ -210,10 +210,10 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 let [odd, even, u2, force, rise] = sums.sums;
                 alternate(&mut value.impact, j, &odd);
                 alternate(&mut value.weight, j, &u2);
-                // ∂_t U − R U, for both parts.
+                // The difference ∂_t U − R U, for both parts.
                 alternate(&mut rate.impact, j, &(even * &half_square + &sums.start - odd * r));
                 alternate(&mut rate.weight, j, &(rise - u2 * r));
-                // ∂_a U has the sign of the ray's direction.
+                // The derivative ∂_a U has the sign of the ray's direction.
                 let turn = if down { j } else { j + 1 };
                 alternate(&mut slope.impact, turn, &sums.start);
                 alternate(&mut slope.weight, turn, &force);
@@ -222,7 +222,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [value, rate, slope]
     }
 
-    /// Free fall at `t/t₁`, which all points of the rod have in common: `v/t₁` and `v_t`.
+    /// Computes the free fall at `t/t₁`, common to all points of the rod: `v/t₁` and `v_t`.
     pub(super) fn free_fall(&self, trips: &N) -> [Shares<N>; 2] {
         let fall = -(self.damping.int(2) * &self.damping * trips);
         let (fallen, dropped) = (-(fall.phi1() * trips), -(fall.phi2() * &trips.square()));
@@ -230,7 +230,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [Shares { impact: fallen, weight: dropped }, rate]
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    /// Computes `v`, `v_t`, `v_x` at `(x,t)`.
     ///
     /// **Source**: (2.22)–(2.24).
     pub fn field(&self, point: &N, time: &N, side: Side) -> Field<N> {
@@ -241,7 +241,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     pub(super) fn field_at(&self, point: &N, trips: &Trips<N>, side: Side) -> Field<N> {
         let top = point.compare(&self.rod.length).is_ok_and(std::cmp::Ordering::is_eq);
         let a = if top { point.ratio(1, 2) } else { point.clone() / &self.rod.length / point.int(2) };
-        // The j-th ray upwards arrives after j + a round trips, the j-th downwards after j + 1 − a.
+        // The j-th upward ray arrives after j + a round trips, the j-th downward ray after j + 1 − a.
         let count = |reach: N| {
             let whole = reach.floor_int()?;
             let just = side == Side::Left && reach.compare(&reach.int(whole)).ok()?.is_eq();
@@ -261,12 +261,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
         }
     }
 
-    /// `log₂` of a bound of `|v_t|/μ` and `c|v_x|/μ` from τ round trips on, where a rod without weight has faded so far
-    /// that nothing but this bound is asked of it: the rays cancel, and numbers that tell when the stress is zero have
-    /// twice the bits by which it has faded.
+    /// Computes `log₂` of a bound of `|v_t|/μ` and `c|v_x|/μ` from τ round trips on, if a rod without weight has faded
+    /// so far that only this bound matters: the rays cancel, and numbers that tell when the stress is zero have twice
+    /// the bits by which it has faded.
     ///
-    /// For `g = 0`, `W = e^{Rτ} v` obeys `W_ττ − W_xx = R² W` in lengths `c t₁`, so `W_τ ± W_x`, which pass both ends
-    /// without growing, are at most what they were at first, μ, and `R² ∫ sup|W|`. For `R < π` no mode of W grows
+    /// For `g = 0`, `W = e^{Rτ} v` obeys `W_ττ − W_xx = R² W` in lengths `c t₁`, so `W_τ ± W_x`, which are reflected at
+    /// both ends without growing, are at most their initial value μ plus `R² ∫ sup|W|`. For `R < π` no mode of W grows
     /// faster than τ, as `Ω_n² = ω_n² − R² > 0`, and for n ≥ 1 `Ω_n ≥ π√((2n+1)² − 1)`: with coefficients
     /// `4μ/((2n+1)π)` at first, `sup|W| ≤ 2μ(τ+1)`. So `|v_τ ± v_x| ≤ e^{−Rτ}(sup|W_τ ± W_x| + R sup|W|) ≤ e^{−Rτ} μ (1
     /// + R(τ+1))²`, which falls from `R(τ+1) = 1` on.
@@ -276,12 +276,12 @@ impl<N: BoundedSpecial> FirstContact<N> {
         if !self.weightless || r >= std::f64::consts::PI || growth < 2.0 {
             return None;
         }
-        // A thousandth for the roundings of R and τ.
+        // A thousandth less, for the roundings of R and τ.
         let bound = 2.0 * growth.log2() - 0.999 * r * tau * std::f64::consts::LOG2_E;
         (bound <= (0.25 * self.damping.log2_roundoff()).min(FADED_BITS)).then_some(bound)
     }
 
-    /// A bound of `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
+    /// Bounds `v_t`, `c v_x` and `v_t − h′` where the travel time a is complex, at most `δ = beyond` from the rod.
     ///
     /// Let X, Y be `|ξ|`, `|η|` of one ray. The coefficients of every ψ_n are positive, so `|ψ_n(ξ,η)| ≤ ψ_n(X,Y)`, and
     /// `(R/2)ⁿ ψ_n(X,Y) = qⁿ I_n(z)` with `q² = X/Y`, `z² = R²XY`. Let `A = e^{−Rτ} Σ_{n≥0} qⁿI_n`; then A is at most
@@ -299,7 +299,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// - by `2n I_n = z(I_{n−1} − I_{n+1}) ≤ z I_{n−1}`, the weight's `(2/R) Σ n qⁿ I_n` in `c v_x` is at most XA, and
     ///   `(2/R) Σ n² qⁿ I_n ≤ X(1 + RX/2)A`; in `v_t` no coefficient exceeds `n² + ½`: at most `X(3/2 + RX/2)A`.
     ///
-    /// No more than 2τ + 2 rays have arrived, free fall is at most μ + μ₀τ, and h′ is a mean of the real `v_t`.
+    /// At most 2τ + 2 rays have arrived, free fall is at most μ + μ₀τ, and h′ is a mean of the real `v_t`.
     pub(super) fn amplitude(&self, tau: f64, beyond: f64, mu: f64, mu0: f64) -> f64 {
         let (r, s) = (self.damping.to_f64(), tau + beyond);
         let each = 2.0 * mu + 2.0 * mu0 * s * (1.0 + r * s);
@@ -309,7 +309,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         ((4.0 * tau + 6.0) * each * (r * growth).exp()).max(1e-150)
     }
 
-    /// `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    /// Computes `h(t)` and `h′(t) = P/L` of the centre of mass, relative to its place in the undeformed rod on the
+    /// ground.
     ///
     /// **Source**: (3.38), (3.39).
     pub fn centre(&self, time: &N) -> (N, N) {
@@ -322,7 +323,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         ((self.weighted(&height) * &self.round_trip).without_exact(), self.weighted(&rate))
     }
 
-    /// `h/t₁` and `h′`, with `k` returned rays.
+    /// Computes `h/t₁` and `h′`, with `k` returned rays.
     pub(super) fn centre_shares(&self, trips: &N, k: i64) -> [Shares<N>; 2] {
         let r = &self.damping;
         let [mut height, mut rate] = self.free_fall(trips);
@@ -347,7 +348,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     }
 }
 
-/// `log₂` of what a motion is at most of which nothing but a bound is asked.
+/// `log₂` of the size below which only a bound of the motion matters.
 const FADED_BITS: f64 = -128.0;
 
 fn nowhere<N: Scalar>(like: &N) -> Field<N> {

@@ -1,21 +1,20 @@
-//! First sign change of a smooth function on `[−1,1]`, from its Chebyshev coefficients and a bound of what they leave
-//! out.
+//! First sign change of a smooth function on `[−1,1]`, from its Chebyshev coefficients and a bound of their truncation.
 
-/// What is known of the first sign change from `+` to `−`.
+/// Result of the search for the first sign change from `+` to `−`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FirstRoot {
-    /// There is none: the function is positive, but for its ends.
+    /// No sign change: the function is positive, except perhaps at its ends.
     None,
-    /// Exactly one root in `[lo, hi]`, none before it, and the slope is at most `−slope` throughout.
+    /// Exactly one root in `[lo, hi]`, none before it, and a slope of at most `−slope` throughout.
     Between { lo: f64, hi: f64, slope: f64 },
-    /// Something near this place cannot be told from zero.
+    /// A place near which the function is not separated from zero.
     Unclear(f64),
 }
 
 /// Sign at a point: `Some(true)` above zero, `Some(false)` below, `None` unknown.
 pub(super) type Sign = Option<bool>;
 
-/// Chebyshev coefficients of the polynomial through `values` at `cos(πj/n)`, j = 0 … n.
+/// Computes the Chebyshev coefficients of the polynomial through `values` at `cos(πj/n)`, j = 0 … n.
 pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
     let n = values.len().saturating_sub(1).max(1);
     let step = std::f64::consts::PI / n as f64;
@@ -25,7 +24,7 @@ pub(super) fn coefficients(values: &[f64]) -> Vec<f64> {
     (0..values.len()).map(|k| (0..values.len()).map(|j| term(k, j)).sum::<f64>() * 2.0 / n as f64 * ends(k)).collect()
 }
 
-/// The Chebyshev coefficients of the derivative: `d_{k−1} = d_{k+1} + 2k c_k`, the first one halved.
+/// Computes the Chebyshev coefficients of the derivative: `d_{k−1} = d_{k+1} + 2k c_k`, the first one halved.
 pub(super) fn derivative(sum: &[f64]) -> Vec<f64> {
     let mut result = vec![0.0; sum.len() + 1];
     for k in (1..sum.len()).rev() {
@@ -36,7 +35,7 @@ pub(super) fn derivative(sum: &[f64]) -> Vec<f64> {
     result
 }
 
-/// Clenshaw's sum and its derivative.
+/// Computes Clenshaw's sum and its derivative.
 pub(super) fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     let (mut b1, mut b2, mut d1, mut d2) = (0.0, 0.0, 0.0, 0.0);
     for &c in coefficients.iter().skip(1).rev() {
@@ -47,19 +46,19 @@ pub(super) fn evaluate(coefficients: &[f64], x: f64) -> (f64, f64) {
     (coefficients.first().copied().unwrap_or(0.0) + x * b1 - b2, b1 + x * d1 - d2)
 }
 
-/// The first sign change of a function whose distance from the Chebyshev sum is at most `error`, given a better
-/// `sign` for places where the sum alone does not tell.
+/// Finds the first sign change of a function whose distance from the Chebyshev sum is at most `error`; `sign` gives the
+/// sign more accurately where the sum alone leaves it open.
 ///
 /// `B = Σ |c_n| n²(n²−1)/3` bounds the sum's second derivative. On an interval of width w the sum stays above its
-/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2, less what the slopes of function
-/// and sum differ by, `4(n+1)²·error`. That holds because the difference has two parts, whose bounds add up to
-/// `error`. The one of rounded values is a polynomial of degree n, and Markov's inequality gives its slope n² times its
-/// size. The other, of a function that is at most M on the ellipse ρ ≥ 5.8, is `Σ_{k>n} a_k (T_k − T_m)` with the alias
-/// m ≤ n of k and `|a_k| ≤ 2Mρ^{−k}`: at most `4Mρ^{−n}/(ρ−1) = e`, and for n ≥ 8 its slope is at most
-/// `4M Σ_{k>n} k² ρ^{−k} ≤ 4M(n+1)² ρ^{−n−1}/(1 − 1.27/5.8) < 1.3(n+1)² e`.
+/// lesser end minus B w²/8, and its slope keeps its sign where |f′(middle)| > B w/2, less the difference of the slopes
+/// of function and sum, at most `4(n+1)²·error`. This holds because the difference has two parts, whose bounds add up
+/// to `error`. The part of rounded values is a polynomial of degree n, and by Markov's inequality its slope is n² times
+/// its size. The other, of a function that is at most M on the ellipse ρ ≥ 5.8, is `Σ_{k>n} a_k (T_k − T_m)` with the
+/// alias m ≤ n of k and `|a_k| ≤ 2Mρ^{−k}`: at most `4Mρ^{−n}/(ρ−1) = e`, and for n ≥ 8 its slope is at most `4M
+/// Σ_{k>n} k² ρ^{−k} ≤ 4M(n+1)² ρ^{−n−1}/(1 − 1.27/5.8) < 1.3(n+1)² e`.
 ///
-/// Intervals are taken from the left, each begins with a plus, and none is left without proof, so no earlier root is
-/// missed. The one that holds the root is cut until the slope is known within a factor of two.
+/// Intervals are treated from the left. Each begins with a plus, and none is skipped without proof, so no earlier root
+/// is missed. The interval with the root is cut until the slope is known within a factor of two.
 pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) -> FirstRoot {
     let bend =
         (0u32..).zip(sum).map(|(n, c)| (f64::from(n).powi(4) - f64::from(n).powi(2)) * c.abs() / 3.0).sum::<f64>()
@@ -84,7 +83,7 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
             match known(hi) {
                 Some(true) => continue,
                 Some(false) => {
-                    // Cut until the slope is at least half of what it is in the middle.
+                    // Cuts the interval until the slope is at least half of its middle value.
                     let (mut a, mut b, mut least) = (lo, hi, slope);
                     for _ in 0..40 {
                         let mid = 0.5 * (a + b);
@@ -101,14 +100,14 @@ pub(super) fn first_root(sum: &[f64], error: f64, sign: impl Fn(f64) -> Sign) ->
                     }
                     return FirstRoot::Between { lo: a, hi: b, slope: least };
                 }
-                // The function falls towards something that cannot be told from zero.
+                // The function falls towards a value that is not separated from zero.
                 None => {}
             }
         }
         if width < 1e-9 {
             return FirstRoot::Unclear(lo);
         }
-        // A cut that is no plus holds a root to its left, and the left part is taken first.
+        // A cut where the function is not positive has a root to its left, and the left part is treated first.
         let cut = if known(0.5 * (lo + hi)).is_some() { 0.5 * (lo + hi) } else { lo + 0.381_966 * width };
         stack.push((cut, hi));
         stack.push((lo, cut));

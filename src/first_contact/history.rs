@@ -16,16 +16,16 @@ use crate::problem::{Parameters, Problem, Run};
 use crate::reason::{Reason, Warning};
 use crate::special::BoundedSpecial;
 
-/// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or as far as it
-/// is followed.
+/// The first contact of a uniform start under a free top, damped or not, from the impact to the bounce, or to the end
+/// of the closed forms used.
 ///
-/// **Source**: [`FirstContact`]; Theorem 1 for its end. The bounce is the first sign change of the stress, with none
-/// before it missed: a jump at `k t₁`, whose number k is exact, or a root between signs beyond their bounds.
+/// **Source**: [`FirstContact`]; Theorem 1 for its end. The bounce is the first sign change of the stress, with a proof
+/// that none comes before it: a jump at `k t₁`, whose number k is exact, or a root between signs beyond their bounds.
 ///
 /// **Units**: those of the problem.
 ///
 /// **Accuracy**: *within its own bound*: estimates in [`Estimate`](crate::number::Estimate), enclosures in intervals.
-/// The history ends with the contact, because the flight that follows is only known as far as no impact ends it: see
+/// The history ends with the contact, because the flight that follows is only valid until an impact ends it: see
 /// [`Rebound::flight`].
 ///
 /// ```
@@ -40,17 +40,17 @@ use crate::special::BoundedSpecial;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Nothing but the end is worked out before it is asked for.
+/// All values except the end are computed on demand.
 #[derive(Clone, Debug)]
 pub struct ContactHistory<N> {
     contact: FirstContact<N>,
     end: N,
     ending: Ending,
-    /// As far as the closed forms are followed: to the end, or to rest.
+    /// Time up to which the closed forms are used: the end, or rest.
     followed: Trips<N>,
-    /// What the stress does at the end, where that is the bounce.
+    /// Behaviour of the stress at the end, if that is the bounce.
     release: Option<BounceKind>,
-    /// After so many round trips a contact without end is at rest.
+    /// Number of round trips after which a contact without end is at rest.
     rest: Option<i64>,
     rebound: OnceLock<Box<Rebound<N>>>,
     course: OnceLock<Box<Course<N>>>,
@@ -60,16 +60,16 @@ pub struct ContactHistory<N> {
 enum Moment<'a, N> {
     Bounce(BounceKind),
     Contact(Trips<N>),
-    /// A contact without end in which nothing moves any more.
+    /// A time at which a contact without end is at rest.
     Rest(StaticState<'a, N>),
 }
 
-/// A contact without end is followed for so many round trips where no time is asked for, and for so many at most, or
-/// beyond them if it is at rest by then.
+/// Round trips for which a contact without end is followed: the number if no time is requested, and the maximum, which
+/// does not apply if the rod is at rest by then.
 const SHOWN_TRIPS: i64 = 8;
 const MOST_TRIPS: i64 = 256;
 
-/// That a comparison of enclosures is open.
+/// Converts an undecided comparison of enclosures into an error.
 fn open<T>(what: &'static str, like: &impl Scalar, found: Result<T, Open>) -> Result<T, Error> {
     found.map_err(|_| Error::not_decided(what, like.bits()))
 }
@@ -79,9 +79,9 @@ fn trips_at<N: BoundedSpecial>(contact: &FirstContact<N>, time: &N) -> Result<Tr
 }
 
 impl<N: BoundedSpecial> ContactHistory<N> {
-    /// The first contact of `problem`, up to the time that is asked for.
+    /// Solves the first contact of `problem`, up to the requested time.
     ///
-    /// **Errors**: [`Error::NoClosedForm`]; [`Error::NotDecided`] where more bits may settle how the contact ends.
+    /// **Errors**: [`Error::NoClosedForm`]; [`Error::NotDecided`] if more bits may decide how the contact ends.
     pub fn solve(problem: &Problem, precision: &N::Precision) -> Result<Self, Error> {
         if !problem.has_closed_form() {
             return Err(Error::NoClosedForm);
@@ -98,9 +98,9 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         Self::new(contact, bounce, asked)
     }
 
-    /// The first contact that ends with `bounce`, up to the time that is `asked` for.
+    /// Builds the first contact that ends with `bounce`, up to the requested time `asked`.
     ///
-    /// **Errors**: [`Error::NotDecided`] where an enclosure does not tell which of the two comes first.
+    /// **Errors**: [`Error::NotDecided`] if an enclosure leaves open which of the two comes first.
     pub fn new(contact: FirstContact<N>, bounce: Bounce<N>, asked: Option<N>) -> Result<Self, Error> {
         let (until, ending) = match bounce {
             Bounce::At { time, trips, kind } => match &asked {
@@ -149,7 +149,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         }];
         if let (Some(kind), Some(rebound)) = (self.release, self.rebound()) {
             let end_velocity = match kind {
-                // The rod that were glued on would be pulled: that stress is what the end leaves with.
+                // The stress of a rod still held to the ground would be tensile: it gives the velocity of the end.
                 BounceKind::Jump => {
                     match (self.contact.stress_at(&self.followed, Side::Right) * &rod.wave_speed).without_exact() {
                         none if none.vanishes() == Ok(true) => zero.clone().widened(&none),
@@ -176,7 +176,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         Course { events, contacts, ..Course::new(self.end.clone(), self.ending.clone()) }
     }
 
-    /// `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated, over the contact.
+    /// Computes `−c² ∫ v_x dt = P(t) − P(0) + 2rL h(t) + gLt`, (3.36) integrated, over the contact.
     fn whole_impulse(&self) -> N {
         let rod = &self.contact.rod;
         let (centre, velocity) = match (self.rebound(), self.rest) {
@@ -188,17 +188,17 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         (gained * &rod.length).without_exact()
     }
 
-    /// The closed forms behind it, which hold while the contact lasts.
+    /// Returns the closed forms behind the history, which hold during the contact.
     pub fn form(&self) -> &FirstContact<N> {
         &self.contact
     }
 
-    /// What the stress does at the bounce, and k where that is at `k t₁`; `None` where there is none.
+    /// Returns the behaviour of the stress at the bounce, and k if that is at `k t₁`; `None` if there is no bounce.
     pub fn bounce(&self) -> Option<(BounceKind, Option<i64>)> {
         self.release.map(|kind| (kind, self.followed.lattice()))
     }
 
-    /// The motion of the centre of mass after the bounce; `None` where there is none.
+    /// Returns the motion of the centre of mass after the bounce; `None` if there is no bounce.
     pub fn rebound(&self) -> Option<&Rebound<N>> {
         self.release?;
         Some(self.rebound.get_or_init(|| {
@@ -225,7 +225,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         Ok(Moment::Contact(trips_at(&self.contact, time)?))
     }
 
-    /// Whether that is the state just before the impact.
+    /// Returns whether the state is the one just before the impact.
     fn before_impact(time: &N, side: Side) -> bool {
         side == Side::Left && time.vanishes() == Ok(true)
     }
@@ -284,7 +284,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
             return Ok(time.zero());
         }
         Ok(match self.moment(time)? {
-            // A root, or the limit before the jump.
+            // The stress at a root, or its limit before the jump.
             Moment::Bounce(BounceKind::Jump) if side == Side::Left => {
                 self.contact.stress_at(&self.followed, Side::Left)
             }
@@ -304,7 +304,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
                 _ => [time.zero(), time.zero()],
             });
         }
-        // Undeformed, and as fast as it is given: no ray is there yet.
+        // The rod is undeformed and has its given velocity: no ray is in it yet.
         if pair == Pair::Centre && time.vanishes() == Ok(true) {
             return Ok([time.zero(), -self.contact.rod.speed.clone()]);
         }
@@ -357,7 +357,7 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         }
     }
 
-    /// **Errors**: `None` also where these bits do not tell whether the centre of mass rises.
+    /// **Errors**: `None` also if these bits leave open whether the centre of mass rises.
     fn highest(&self, release: usize) -> Option<(N, N)> {
         self.rebound().filter(|_| release == 1)?.highest()
     }
@@ -365,12 +365,12 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
     fn scales(&self) -> Scales<N> {
         let rod = &self.contact.rod;
         let critical = rod.gravity.clone() * &self.contact.round_trip;
-        // Either is a scale where it cannot be told which is greater.
+        // Either is a scale if it is undecided which is greater.
         let velocity = if rod.speed.near().0 >= critical.near().0 { rod.speed.clone() } else { critical };
         Scales { time: self.contact.round_trip(), velocity, ..Scales::of(rod) }
     }
 
-    /// Zero: every number holds its own.
+    /// Returns zero: every number carries its own bound.
     fn error_estimate(&self) -> N {
         self.end.zero()
     }

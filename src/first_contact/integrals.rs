@@ -1,5 +1,5 @@
-//! Integrals along the rod during the first contact, by Gauss–Legendre between points and rays: energies, `E_z` as a
-//! sum of squares, and moments over the cells of a grid.
+//! Integrals along the rod during the first contact, by Gauss–Legendre rules between points and rays: energies, `E_z`
+//! as a sum of squares, and moments over the cells of a grid.
 
 use std::cmp::Ordering;
 
@@ -9,44 +9,44 @@ use crate::motion::{Energy, Side, moments};
 use crate::number::Scalar;
 use crate::special::BoundedSpecial;
 
-/// One node: weight in `∫ da`, `v_t − h′`, `c v_x`.
+/// A quadrature node: weight in `∫ da`, `v_t − h′`, `c v_x`.
 struct Node<N> {
     weight: N,
     deviation: N,
     strain: N,
 }
 
-/// A stretch of the rod between two rays, and how many rays have arrived there upwards and downwards.
+/// A stretch of the rod between two rays, and the numbers of upward and downward rays that have arrived there.
 struct Stretch<N> {
     from: N,
     to: N,
     arrived: [i64; 2],
 }
 
-/// Bernstein ellipses that are tried.
+/// Parameters of the Bernstein ellipses that are tried.
 const RADII: [f64; 11] = [1.1, 1.25, 1.5, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
 
-/// Most nodes between two rays; only damping far beyond `r t₁ = 100` could ask for more.
+/// Maximum number of nodes between two rays; only damping far beyond `r t₁ = 100` could need more.
 const MOST_NODES: usize = 4000;
-/// `log₂` of the part of its natural size that `E_z` is first taken to be.
+/// First guess of `E_z`, as `log₂` relative to its natural size.
 const FIRST_SIZE: f64 = -12.0;
-/// `log₂` of the least part that nodes are added for.
+/// Smallest size for which nodes are added, as `log₂` relative to the natural size.
 const LEAST_SIZE: f64 = -960.0;
-/// Numbers up to this length take the sums without cancellation at the first return; longer ones have bits to spare.
+/// Longest numbers that use the sums without cancellation at the first return; longer ones have bits to spare.
 const MOST_BITS_WITHOUT_CANCELLATION: u32 = 64;
 
-/// The rule leaves at most this part of a roundoff of `μ + μ₀`, as `log₂`.
+/// Largest error of the rule, relative to a roundoff of `μ + μ₀`, as `log₂`.
 const LEFT: f64 = -6.0;
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// `E`, `E_h`, `E_z` at a time of the contact.
+    /// Computes `E`, `E_h`, `E_z` at a time of the contact.
     ///
     /// **Source**: (3.54), (3.61)–(3.63), with `E_z = ½∫((v_t − h′)² + c²v_x²)dx`, so that `E_z ≪ E` keeps its digits.
     ///
-    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. In doubles, at `t₁` and `R ≤ 1`, the
-    /// parts of `v_t` and `v_x` that do not depend on x are left out before they are added up, and `E_z` is relatively
-    /// accurate however small; at other times its error is that of `v_t` and `v_x`, which are known to a part of
-    /// `μ + μ₀`.
+    /// **Accuracy**: *within its own bound*, which includes rounding and quadrature. In doubles, at `t₁` and `R ≤ 1`,
+    /// the parts of `v_t` and `v_x` that do not depend on x are omitted before the summation, and `E_z` is relatively
+    /// accurate however small; at other times its error is that of `v_t` and `v_x`, whose accuracy is relative to `μ +
+    /// μ₀`.
     ///
     /// ```
     /// # use dalembert::{Estimate, Parameters};
@@ -72,7 +72,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Energy { total: translational.clone() + &vibrational, translational, vibrational }
     }
 
-    /// The kinetic energy `L h′²/2 + ½ ∫ (v_t − h′)² dx` and the strain energy, the parts of one sum.
+    /// Computes the kinetic energy `L h′²/2 + ½ ∫ (v_t − h′)² dx` and the strain energy, the parts of one sum.
     pub(super) fn energy_parts_at(&self, trips: &Trips<N>) -> [N; 2] {
         let (_, velocity) = self.centre_at(trips);
         let whole = velocity.square() * &self.rod.length / velocity.int(2);
@@ -80,9 +80,9 @@ impl<N: BoundedSpecial> FirstContact<N> {
         [whole + part(&|node| node.deviation.square()), part(&|node| node.strain.square())]
     }
 
-    /// `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of its natural
-    /// size, and once more where what these leave is more than the rounding errors. The impact finds the rod
-    /// undeformed.
+    /// Computes `E_z`, or the part of it that `square` takes of a node: with the number of nodes for a small part of
+    /// its natural size, and once more if the quadrature error exceeds the rounding errors. The rod is undeformed at
+    /// the impact.
     fn vibrational(&self, trips: &Trips<N>, square: &dyn Fn(&Node<N>) -> N) -> N {
         if trips.lattice() == Some(0) {
             return self.damping.zero();
@@ -101,22 +101,22 @@ impl<N: BoundedSpecial> FirstContact<N> {
             more if more > n => (self.integrate(trips, more, square), self::rest(&ellipses, more)),
             _ => (value, rest),
         };
-        // A part in a thousand more is for the doubles in it.
+        // A thousandth more, for the doubles in it.
         let two = self.damping.int(2);
         value.widened(&(two.ln() * &two.double(rest + 1e-3)).exp())
     }
 
-    /// `log₂` of the bound of what n nodes leave between two rays, without nodes, and of what each node takes off, for
-    /// some ρ.
+    /// Computes, for some ρ, `log₂` of the factor in the quadrature error between two rays, and by how much each node
+    /// lowers it.
     ///
-    /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w. Both
-    /// stretches together are less than `5 L A² ρ^{−2n}/(1 − ρ⁻²)` off.
+    /// The error of n nodes on an interval of half-width w is less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds
+    /// the integrand on the Bernstein ellipse ρ, which reaches `δ = (ρ − 1/ρ)w/2` beyond an interval of half-width w.
+    /// The error of both stretches together is less than `5 L A² ρ^{−2n}/(1 − ρ⁻²)`.
     fn ellipses(&self, trips: &Trips<N>) -> Vec<[f64; 2]> {
         let tau = trips.number.to_f64();
         let (mu, mu0, length) = (self.speed.to_f64(), self.critical.to_f64(), self.rod.length.to_f64());
         let bound = |rho: f64| {
-            // No ray has come farther than a = τ, and where none has been the integrand does not depend on a.
+            // No ray has come farther than a = τ, and the integrand does not depend on a beyond it.
             let beyond = (rho - 1.0 / rho) / 2.0 * (tau / 2.0).min(0.25);
             let amplitude = self.amplitude(tau, beyond, mu, mu0);
             [2.0 * amplitude.log2() + (5.0 * length / (1.0 - 1.0 / (rho * rho))).log2(), 2.0 * rho.log2()]
@@ -124,7 +124,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         RADII.map(bound).to_vec()
     }
 
-    /// The integral with n nodes between two rays.
+    /// Computes the integral with n nodes between two rays.
     fn integrate(&self, trips: &Trips<N>, n: usize, square: &dyn Fn(&Node<N>) -> N) -> N {
         let rule = self.damping.gauss_legendre(n);
         let mut sum = self.damping.zero();
@@ -143,15 +143,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 sum = sum + square(&node) * &node.weight;
             }
         }
-        // v_t − h′ is at most twice what v_t and c v_x are.
+        // The size of v_t − h′ is at most twice that of v_t and c v_x.
         let square = self.total_speed().square() * &doubt.int(5);
-        // dx = c t₁ da = 2L da.
+        // The lengths are dx = c t₁ da = 2L da.
         ((sum.widened(&(doubt * square))) * &self.rod.length).without_exact()
     }
 
-    /// The stretches between the rays in the rod, of which there are one upwards and one downwards but at lattice
-    /// times. What lies above them is at most as long as the second number: where a ray is not told from the top, they
-    /// end at the ray.
+    /// Returns the stretches between the rays in the rod; except at lattice times there is one ray upwards and one
+    /// downwards. If a ray is not separated from the top, the stretches end at the ray, and the second number bounds
+    /// the length above them.
     fn stretches(&self, trips: &Trips<N>) -> (Vec<Stretch<N>>, N) {
         let (k, zero, half) = (trips.passed, self.damping.zero(), self.damping.ratio(1, 2));
         if trips.on_lattice {
@@ -181,11 +181,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
         places.into_iter().map(node).collect()
     }
 
-    /// At `t₁`, for R ≤ 1: the impact's share without what is the same along the rod.
+    /// Samples the nodes at `t₁`, for R ≤ 1: the impact's share without the constant part along the rod.
     ///
-    /// Two rays are there, `ξ = 1 ∓ a` and `ξ + η = 2`. In powers of R, `∂_tU₁ − RU₁ = 1 − Rξ + R²ξ/2 + T₃(ξ)`, and
-    /// the first three add up to a constant; `T₃` is of order R³, `I₀ − 1` of order R². What is left has no
-    /// cancellation but its own zeros.
+    /// Two rays are there, `ξ = 1 ∓ a` and `ξ + η = 2`. In powers of R, `∂_tU₁ − RU₁ = 1 − Rξ + R²ξ/2 + T₃(ξ)`, and the
+    /// first three add up to a constant; `T₃` is of order R³, `I₀ − 1` of order R². The remainder has no cancellation
+    /// except at its own zeros.
     fn sample_first_return(&self, places: Vec<(N, N)>) -> Vec<Node<N>> {
         let one = self.damping.one();
         let [_, centre] = self.centre_shares(&one, 0);
@@ -207,7 +207,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         places.into_iter().zip(rest).map(node).collect()
     }
 
-    /// `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, and those left out are less than the last one.
+    /// Computes `I₀(R√(1−a²)) − 1`, for R ≤ 1: terms fall at least fourfold, and the last one bounds the remainder.
     fn bessel_rest(&self, a: &N) -> N {
         let square = (a.one() - a) * &(a.one() + a) * &self.damping.square() / a.int(4);
         let terms = (-a.log2_roundoff() / 4.0) as i64 + 2;
@@ -220,15 +220,15 @@ impl<N: BoundedSpecial> FirstContact<N> {
         sum.widened(&term)
     }
 
-    /// `T₃(a) = Σ_{p≥3} (R/2)^p Σ_{n+2m=p} ±{1,2} ξ^{n+m}η^m/(m!(n+m)!)`, with `ξ = 1 − a`, `η = 1 + a`.
+    /// Computes `T₃(a) = Σ_{p≥3} (R/2)^p Σ_{n+2m=p} ±{1,2} ξ^{n+m}η^m/(m!(n+m)!)`, with `ξ = 1 − a`, `η = 1 + a`.
     ///
-    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; those left out are at most
-    /// `2^{−bits−8}` of `R³/6`, and each order is one polynomial in ξ, η by Horner in η/ξ-free form.
+    /// The terms of order p are at most `R^p/p!` together, since `Σ_ℤ qⁿIₙ = e^R`; the remainder is at most
+    /// `2^{−bits−8}` of `R³/6`, and each order is one polynomial in ξ and η, in a form without the quotient η/ξ.
     fn third_order(&self, a: &N) -> N {
         let (xi, eta) = (a.one() - a, a.one() + a);
         let half = self.damping.clone() / a.int(2);
         let reach = self.damping.to_f64().max(1e-30);
-        // x[k] = (Rξ/2)^k/k!, y[k] = (Rη/2)^k/k!: the term is x[n+m] y[m].
+        // The factors are x[k] = (Rξ/2)^k/k!, y[k] = (Rη/2)^k/k!, and the term is x[n+m] y[m].
         let (step_x, step_y) = (half.clone() * &xi, half * &eta);
         let goal = a.log2_roundoff() - 8.0;
         let (mut orders, mut log) = (3i64, 0.0f64);
@@ -259,11 +259,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
         sum.widened(&cube)
     }
 
-    /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, for `f` = `v`, `v_t`,
-    /// `v_x`.
+    /// Computes `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, for `f` = `v`,
+    /// `v_t`, `v_x`.
     ///
-    /// **Accuracy**: *within its own bound*, which holds rounding and quadrature. Where a ray is not told from a point
-    /// of the grid, or from the top, a cell ends at the ray, and what lies between is at most
+    /// **Accuracy**: *within its own bound*, which includes rounding and quadrature. If a ray is not separated from a
+    /// point of the grid or from the top, a cell ends at the ray, and the part between is at most
     /// [`FirstContact::total_speed`] times their distance.
     pub(super) fn moments_at(&self, points: &[N], trips: &Trips<N>) -> Vec<moments::Moments<N>> {
         let (stretches, _) = self.stretches(trips);
@@ -296,11 +296,11 @@ impl<N: BoundedSpecial> FirstContact<N> {
         moments::of_sums(sums.collect(), points, zero.clone())
     }
 
-    /// A rule for intervals of this half-width at most, and what it leaves of `v_t` and `c v_x` for each length.
+    /// Returns the error of a rule in `v_t` and `c v_x` per length, and the rule, for half-widths up to `half`.
     ///
-    /// n nodes on an interval of half-width w leave less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds the
-    /// integrand on the Bernstein ellipse ρ. There a place relative to a cell that holds the interval, which is between
-    /// 0 and 1 inside, is at most ρ; the integrands hold its square at most.
+    /// The error of n nodes on an interval of half-width w is less than `(64/15) w M ρ^{−2n}/(1 − ρ⁻²)`, where M bounds
+    /// the integrand on the Bernstein ellipse ρ. There a place relative to a cell that holds the interval, which is
+    /// between 0 and 1 inside, is at most ρ; the integrands contain its square at most.
     fn rule(&self, trips: &Trips<N>, half: f64) -> (N, Vec<(N, N)>) {
         let tau = trips.number.to_f64();
         let (mu, mu0) = (self.speed.to_f64(), self.critical.to_f64());
@@ -310,14 +310,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
             [amplitude.log2() + factor.log2(), 2.0 * rho.log2()]
         });
         let n = nodes(&ellipses, self.damping.log2_roundoff() + LEFT + (mu + mu0).log2());
-        // A part in a thousand more is for the doubles in it.
+        // A thousandth more, for the doubles in it.
         let two = self.damping.int(2);
         let left = (two.ln() * &two.double(rest(&ellipses, n) + 1e-3)).exp();
         (left, self.damping.gauss_legendre(n))
     }
 }
 
-/// The parts of `from … to` between rays, and how far these may miss an end, where a ray is not told from it.
+/// Returns the parts of `from … to` between rays, and the possible miss of an end not separated from a ray.
 fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<N>>, N) {
     let mut doubt = from.zero();
     let (Some(lower), Some(upper)) = (stretches.first(), stretches.last()) else { return (Vec::new(), doubt) };
@@ -342,13 +342,13 @@ fn parts<N: Scalar>(stretches: &[Stretch<N>], from: &N, to: &N) -> (Vec<Stretch<
     (parts, doubt)
 }
 
-/// The number of nodes that leave less than `2^goal`.
+/// Returns the number of nodes whose error is less than `2^goal`.
 fn nodes(ellipses: &[[f64; 2]], goal: f64) -> usize {
     let best = ellipses.iter().map(|[log, step]| (log - goal) / step).fold(f64::INFINITY, f64::min);
     best.ceil().clamp(2.0, MOST_NODES as f64) as usize
 }
 
-/// `log₂` of what n nodes leave.
+/// Computes `log₂` of the error bound of n nodes.
 fn rest(ellipses: &[[f64; 2]], n: usize) -> f64 {
     ellipses.iter().map(|[log, step]| log - n as f64 * step).fold(f64::INFINITY, f64::min)
 }

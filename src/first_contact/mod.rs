@@ -1,9 +1,8 @@
-//! The first contact in closed form: stress, bounce, motion, energy and field as the paper has them, in numbers that
-//! carry their bound, estimates or enclosures.
+//! The first contact in closed form: stress, bounce, motion, energy and field by the formulas of the paper, in numbers
+//! that carry an error bound, estimates or enclosures.
 //!
-//! Everything is a sum over the rays that have arrived, with time in units of the round trip `t₁`: what remains of the
-//! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is a value like any
-//! other.
+//! Each quantity is a sum over the rays that have arrived, with time in units of the round trip `t₁`. The remaining
+//! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is not a special case.
 
 mod bounce;
 mod cells;

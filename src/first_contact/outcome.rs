@@ -1,36 +1,36 @@
-//! What the search for the end of the contact answers.
+//! Result of the search for the end of the contact.
 
 use super::field::Trips;
 use crate::reason::{Doubt, NoBounceReason};
 
-/// How the contact ends.
+/// The end of the contact.
 #[derive(Clone, Debug)]
 pub enum Bounce<N> {
-    /// The ground lets go.
+    /// A release.
     At {
         /// `t_b`.
         time: N,
-        /// The same in round trips.
+        /// `t_b` in round trips.
         trips: Trips<N>,
-        /// At a jump of the stress or at a root.
+        /// Behaviour of the stress at the bounce.
         kind: BounceKind,
     },
     /// The stress never becomes tensile.
     Never(NoBounceReason),
-    /// Neither could be shown.
+    /// An undecided search.
     Undecided {
-        /// Up to here there is no bounce.
+        /// Time up to which there is no bounce.
         until: N,
-        /// What stands in the way.
+        /// Obstacle to a decision.
         why: Doubt,
     },
 }
 
-/// What the stress does at the bounce.
+/// Behaviour of the stress at the bounce.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BounceKind {
-    /// It jumps to a tensile value at a lattice time `k t₁`.
+    /// The stress jumps to a tensile value at a lattice time `k t₁`.
     Jump,
-    /// It rises through zero.
+    /// The stress rises through zero.
     Root,
 }

@@ -7,42 +7,42 @@ use crate::motion::Side;
 use crate::number::Scalar;
 use crate::special::{BoundedSpecial, Ray};
 
-/// Where the force may exceed a given one.
+/// Part of a cell on which the force may exceed a given one.
 enum Excess<N> {
-    /// Nowhere.
+    /// The force exceeds it nowhere.
     None,
-    /// Where it may, it rises towards the end.
+    /// The force rises towards the end on this part.
     AtEnd,
-    /// Where it may, it falls from the beginning.
+    /// The force falls from the beginning on this part.
     AtStart,
-    /// Around so many round trips, where its second derivative, by round trips, is at most `−bend`.
+    /// The force has a summit around `at`, in round trips, where its second derivative by these is at most `−bend`.
     Inside {
-        /// An approximation.
+        /// Approximate place of the summit.
         at: N,
-        /// Where the bound holds.
+        /// Ends of the part on which the bound of the second derivative holds.
         between: [N; 2],
         bend: N,
     },
-    /// Not known; but it is at most this.
+    /// The part is unknown, but this bounds the force.
     AtMost(N),
 }
 
-/// Pieces that a cell is cut into.
+/// Number of pieces that a cell is cut into.
 const PIECES: usize = 128;
-/// Cells that are looked at one by one.
+/// Maximum number of cells examined one by one.
 const MOST_CELLS: i64 = 32;
-/// Steps towards a place where the force is greatest.
+/// Maximum number of Newton steps towards a summit of the force.
 const MOST_STEPS: usize = 60;
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// The most compressive `v_x(0,·)` up to `end`.
+    /// Computes the most compressive `v_x(0,·)` up to `end`.
     ///
-    /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell only its ends can be
-    /// it: there `−c v_x = e^{−rt}(μ I₀ + g t (I₀ + I₁))` has the derivative `e^{−rt} I₀ (g − μ r (1 − I₁/I₀))`, which
-    /// rises with `I₁/I₀` and so has at most one zero, a minimum. In later cells the force is bounded by its Chebyshev
-    /// sum; what is left where it may be greatest either rises or falls throughout, or is bent by at least κ: then it
-    /// is at most `f(τ) + f′(τ)²/2κ` for any τ. After some cells the static stress and what is left of the transient
-    /// bound it. Where all of that fails, it is at most `μ + g t₁`, and the bound is wide.
+    /// Without gravity it is `−μ/c` at the start: `|v_t ∓ c v_x|` cannot grow. In the first cell it is at one of the
+    /// ends: there `−c v_x = e^{−rt}(μ I₀ + g t (I₀ + I₁))` has the derivative `e^{−rt} I₀ (g − μ r (1 − I₁/I₀))`,
+    /// which rises with `I₁/I₀` and so has at most one zero, a minimum. In later cells the Chebyshev sum bounds the
+    /// force. On the remaining part, where it may be greatest, it either rises or falls throughout, or its second
+    /// derivative is at most −κ: then it is at most `f(τ) + f′(τ)²/2κ` for any τ. After some cells the static stress
+    /// and a bound of the transient bound it. If all of that fails, it is at most `μ + g t₁`, and the bound is wide.
     pub(super) fn peak(&self, end: &Trips<N>) -> N {
         if self.weightless {
             return self.stress_at(&self.lattice(0), Side::Right);
@@ -76,7 +76,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
                 Excess::Inside { at, between: [from, to], bend } => {
                     let (place, value) = self.summit_near(&at, &bend, k);
                     let before = |a: &N, b: &N| b.below(a) == Ok(false);
-                    // An end that cuts the summit off leaves its height as a bound only.
+                    // If an end cuts the summit off, the height of the summit is only a bound.
                     if !(before(&from, &place) && before(&place, &to)) {
                         at_most(greater(most, self.force(&stop.number, k)), &one)
                     } else if before(&place, &stop.number) && before(&one.int(k), &place) {
@@ -91,7 +91,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         -(most * &self.total_speed() / &self.rod.wave_speed).without_exact()
     }
 
-    /// Where between `k t₁` and the place `to` of `[−1,1]` in its cell the force exceeds `known`, if anywhere.
+    /// Finds the part between `k t₁` and the place `to` of `[−1,1]` in its cell on which the force exceeds `known`.
     ///
     /// With the Chebyshev sum p, `|f − p| ≤ e`: on a piece of width w the sum is at most its greater end plus `B₂w²/8`,
     /// its slope is that of the middle within `B₂w/2`, its second derivative that of the middle within `B₃w/2`, where
@@ -99,7 +99,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
     /// `4(n+1)²e`, as in the search for the first root; their second derivatives, by Markov's inequality and the same
     /// series with k⁴ for k², by `4(n+1)⁴e`.
     fn excess(&self, k: i64, to: f64, known: &N) -> Excess<N> {
-        let search = Search { contact: self, route: None, kernels: None };
+        let search = Search { contact: self, kernels: None };
         let Ok(Interpolant { scale, sum, error }) = search.interpolant(k) else {
             return Excess::AtMost(known.one());
         };
@@ -112,7 +112,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
         let second = weighted(|n| n * n * (n * n - 1.0) / 3.0);
         let third = weighted(|n| n * n * (n * n - 1.0) * (n * n - 4.0).abs() / 15.0);
         let size = (sum.len() * sum.len()) as f64 * 4.0 * error;
-        // A little more, so that no rounding leaves the end out.
+        // A slightly greater width, so that rounding does not exclude the end.
         let width = (to + 1.0) / PIECES as f64 * (1.0 + 1e-12);
         let place = |i: usize| -1.0 + width * i as f64;
         let value = |x: f64| evaluate(&sum, x).0;
@@ -150,8 +150,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         Excess::AtMost(scale.double(most * (1.0 + 1e-12)) * &scale)
     }
 
-    /// A place near a summit and the height of the summit, from the slope there, which Newton's method with the secant
-    /// makes small.
+    /// Computes a place near a summit, and the height of the summit from the slope there; Newton's method with the
+    /// secant makes this slope small.
     fn summit_near(&self, at: &N, bend: &N, k: i64) -> (N, N) {
         let mut place = at.middle();
         let mut slope = self.force_rate(&place, k);
@@ -174,8 +174,8 @@ impl<N: BoundedSpecial> FirstContact<N> {
         (place, value.widened(&above))
     }
 
-    /// The derivative of [`FirstContact::force`] by round trips inside of a cell: with `(e^{−rt}G_r)′ = e^{−rt}H_r`,
-    /// and for each ray `∂_ξψ₀ + ∂_ηψ₀ = (R²/4)(η/ξ + 1) ψ₁ = (R²/2)(τ/ξ) ψ₁`.
+    /// Computes the derivative of [`FirstContact::force`] by round trips inside a cell: with `(e^{−rt}G_r)′ =
+    /// e^{−rt}H_r`, and for each ray `∂_ξψ₀ + ∂_ηψ₀ = (R²/4)(η/ξ + 1) ψ₁ = (R²/2)(τ/ξ) ψ₁`.
     fn force_rate(&self, trips: &N, k: i64) -> N {
         let (r, half_square) = (&self.damping, self.damping.square() / self.damping.int(2));
         let (mut kernel, mut rate) = (r.zero(), r.zero());
@@ -189,14 +189,14 @@ impl<N: BoundedSpecial> FirstContact<N> {
         (rate * &self.speed + kernel * &self.critical) / self.total_speed()
     }
 
-    /// Half the static share of the force and a bound of the transient from `k t₁` on: no later force is greater.
+    /// Bounds all forces from `k t₁` on by half the static share of the force plus a bound of the transient.
     fn most_after(&self, k: i64) -> Option<N> {
         let share = self.critical.clone() / self.total_speed() / self.critical.int(2);
         Some(share.double(self.transient(k, None)?) + &share)
     }
 }
 
-/// The greater of two numbers: `(a + b + |a − b|)/2` where it is not known which it is.
+/// Returns the greater of two numbers: `(a + b + |a − b|)/2` if their order is unknown.
 fn greater<N: Scalar>(a: N, b: N) -> N {
     match a.compare(&b) {
         Ok(std::cmp::Ordering::Less) => b,
@@ -205,7 +205,7 @@ fn greater<N: Scalar>(a: N, b: N) -> N {
     }
 }
 
-/// A number that is at least `a`, and at most `a` or `bound`.
+/// Returns a number that is at least `a`, and at most `a` or `bound`.
 fn at_most<N: Scalar>(a: N, bound: &N) -> N {
     let more = bound.clone() - &a;
     if more.positive() == Ok(false) { a } else { a.widened(&more) }

@@ -4,21 +4,21 @@ use super::field::{FirstContact, Trips};
 use crate::motion::{Side, StressPiece};
 use crate::special::BoundedSpecial;
 
-/// More terms than this are not taken: what they would add is a width.
+/// Maximum number of terms; the truncation error widens the first coefficient.
 const MOST_TERMS: usize = 4000;
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// `v_x(0,·)` from 0 to `end`, one piece for each round trip.
+    /// Computes `v_x(0,·)` from 0 to `end`, one piece for each round trip.
     pub(super) fn pieces(&self, end: &Trips<N>) -> Vec<StressPiece<N>> {
         let last = if end.on_lattice { end.passed - 1 } else { end.passed };
         (0..=last).map(|k| self.piece(k, if k == last { end.clone() } else { self.lattice(k + 1) })).collect()
     }
 
-    /// The coefficients are those of the polynomial through n + 1 Chebyshev points; what it leaves out, `4Mρ⁻ⁿ/(ρ−1)`,
-    /// and terms that are zero within their bounds widen the first. Later cells have `M ≤ (2k+1)²` on
-    /// `ρ + 1/ρ = 4k + 2`, see the search for the bounce; a shorter piece with the same left end has its ellipse inside
-    /// of that one. In the first, `e^{−Rτ}I₀(Rτ)` and `e^{−Rτ}I₁(Rτ)` are at most `e^{2Rd}` where `Re τ ≥ −d`: with ρ ≤
-    /// 6 and half-width 1/2, `d = ((ρ + 1/ρ)/2 − 1)/2`, `|τ| < 2.1`.
+    /// Computes one piece. The coefficients are those of the polynomial through n + 1 Chebyshev points; its truncation
+    /// error, `4Mρ⁻ⁿ/(ρ−1)`, and terms that are zero within their bounds widen the first. Later cells have `M ≤
+    /// (2k+1)²` on `ρ + 1/ρ = 4k + 2`, see the search for the bounce; a shorter piece with the same left end has its
+    /// ellipse inside of that one. In the first, `e^{−Rτ}I₀(Rτ)` and `e^{−Rτ}I₁(Rτ)` are at most `e^{2Rd}` where `Re τ
+    /// ≥ −d`: with ρ ≤ 6 and half-width 1/2, `d = ((ρ + 1/ρ)/2 − 1)/2`, `|τ| < 2.1`.
     fn piece(&self, k: i64, to: Trips<N>) -> StressPiece<N> {
         let one = self.damping.one();
         let digits = -one.log2_roundoff() * std::f64::consts::LN_2;

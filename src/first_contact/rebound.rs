@@ -1,4 +1,4 @@
-//! After the bounce: the free flight of the centre of mass and the coefficients of restitution.
+//! The free flight of the centre of mass after the bounce, and the coefficients of restitution.
 
 use super::field::FirstContact;
 use crate::number::Bounded;
@@ -32,7 +32,7 @@ pub struct Rebound<N> {
 }
 
 impl<N: BoundedSpecial> FirstContact<N> {
-    /// What follows when the ground lets go at `time`.
+    /// Computes the motion of the centre of mass after a release at `time`.
     pub fn rebound(&self, time: &N) -> Rebound<N> {
         let (centre, velocity) = self.centre(time);
         Rebound { time: time.clone(), centre, velocity, rod: self.rod.clone() }
@@ -40,7 +40,7 @@ impl<N: BoundedSpecial> FirstContact<N> {
 }
 
 impl<N: BoundedSpecial> Rebound<N> {
-    /// `h(t)` and `h′(t)` in flight.
+    /// Computes `h(t)` and `h′(t)` in flight.
     ///
     /// **Source**: (3.43), (3.44), with `φ₁` and `φ₂` for the quotients by `2r` and `4r²`.
     ///
@@ -55,13 +55,13 @@ impl<N: BoundedSpecial> Rebound<N> {
         (height, fall.exp() * speed - slowed * g)
     }
 
-    /// `t*` and `h_max = h(t*)`: the top of the flight, provided that no impact comes first.
+    /// Computes `t*` and `h_max = h(t*)`: the top of the flight, provided that no impact comes first.
     ///
     /// **Source**: Remark 2, with `λ` and `λ₂` for the quotients by `2r` and `4r²`.
     ///
     /// **Accuracy**: *within its own bound*.
     ///
-    /// **Errors**: `None` where `g = 0` and where the centre does not rise or may not.
+    /// **Errors**: `None` if `g = 0`, and if the centre does not rise or may not.
     pub fn highest(&self) -> Option<(N, N)> {
         let (start, speed, g) = (&self.centre, &self.velocity, &self.rod.gravity);
         if g.vanishes() != Ok(false) || speed.positive() != Ok(true) {
@@ -73,21 +73,21 @@ impl<N: BoundedSpecial> Rebound<N> {
         Some((self.time.clone() + log_mean(&drag) * &rise, height))
     }
 
-    /// `e_P = −P(t_b)/P(0) = h¹/μ`: the momentum coefficient of restitution.
+    /// Computes `e_P = −P(t_b)/P(0) = h¹/μ`: the momentum coefficient of restitution.
     ///
     /// **Source**: section 4.1.
     ///
-    /// **Errors**: `None` where `μ = 0`.
+    /// **Errors**: `None` if `μ = 0`.
     pub fn momentum_restitution(&self) -> Option<N> {
         (self.rod.speed.vanishes() != Ok(true)).then(|| self.velocity.clone() / &self.rod.speed)
     }
 
-    /// `e_E² = E_h(t_b)/E_h(0)`: the square of the energy coefficient of restitution.
+    /// Computes `e_E² = E_h(t_b)/E_h(0)`: the square of the energy coefficient of restitution.
     ///
     /// **Source**: (4.71). For `t_b = t₁` and `μ → ∞`, `e_E` tends to `2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}`, not to the
     /// `e^{−R}` of (4.75).
     ///
-    /// **Errors**: `None` where `E_h(t_b) < 0`, where the paper leaves it undefined, and where `μ = 0`.
+    /// **Errors**: `None` if `E_h(t_b) < 0`, where the paper leaves it undefined, and if `μ = 0`.
     pub fn energy_restitution_squared(&self) -> Option<N> {
         let mu = &self.rod.speed;
         if mu.vanishes() == Ok(true) {
@@ -99,7 +99,7 @@ impl<N: BoundedSpecial> Rebound<N> {
     }
 }
 
-/// (3.63).
+/// Computes the translational energy (3.63).
 pub(super) fn translational<N: Bounded>(rod: &Parameters<N>, centre: &N, velocity: &N) -> N {
     let kinetic = velocity.square() / velocity.int(2);
     ((kinetic + centre.clone() * &rod.gravity) * &rod.length).without_exact()

@@ -1,4 +1,4 @@
-//! The rod at rest on the ground under a free top, and when a contact without end has become that.
+//! The rod at rest on the ground under a free top, and the time from which a contact without end is at rest.
 
 use crate::error::Error;
 use crate::motion::moments::{Moments, of_stretches};
@@ -6,14 +6,14 @@ use crate::motion::{Energy, Field, Stretch};
 use crate::number::Scalar;
 use crate::problem::Parameters;
 
-/// `v_s = (g/2c²)(x² − 2Lx)`: what a contact that never ends tends to, with what is left of the transient by
-/// [`faded_after`] as a bound.
+/// `v_s = (g/2c²)(x² − 2Lx)`: the limit of a contact that never ends, with the bound of the remaining transient from
+/// [`faded_after`].
 #[derive(Clone, Debug)]
 pub(super) struct StaticState<'a, N> {
     rod: &'a Parameters<N>,
     /// `g/c²`.
     curvature: N,
-    /// What is left in velocities: a roundoff of `μ + g t₁`.
+    /// Bound of the remaining transient in velocities: a roundoff of `μ + g t₁`.
     left: N,
 }
 
@@ -24,12 +24,12 @@ impl<'a, N: Scalar> StaticState<'a, N> {
         StaticState { rod, curvature, left }
     }
 
-    /// What is left in displacements, from the strain along the rod.
+    /// Bounds the remaining transient in displacements, from the strain along the rod.
     fn left_height(&self) -> N {
         self.left.clone() * &self.rod.length / &self.rod.wave_speed
     }
 
-    /// `v_s`, zero, `v_s′`.
+    /// Returns `v_s`, zero, `v_s′`.
     pub(super) fn field(&self, x: &N) -> Field<N> {
         let length = &self.rod.length;
         let strain = (x.clone() - length) * &self.curvature;
@@ -66,15 +66,15 @@ impl<'a, N: Scalar> StaticState<'a, N> {
         Ok(cells)
     }
 
-    /// `h = −gL²/3c²`, and zero.
+    /// Returns `h = −gL²/3c²`, and zero.
     pub(super) fn centre(&self) -> (N, N) {
         let x = &self.rod.length;
         let height = x.square() * &self.curvature * x.ratio(-1, 3);
         (height.widened(&self.left_height()), x.zero().widened(&self.left))
     }
 
-    /// `E_h = gLh`, `E_z = g²L³/6c²`; a transient of velocity and `c` times strain δ adds at most `L (gL/c + δ) δ` to
-    /// the second and `L δ²/2` to the first.
+    /// Computes `E_h = gLh`, `E_z = g²L³/6c²`; a transient of velocity and `c` times strain δ adds at most `L (gL/c +
+    /// δ) δ` to the second and `L δ²/2` to the first.
     pub(super) fn energy(&self) -> Energy<N> {
         let Parameters { length, gravity, .. } = self.rod;
         let left = self.left.square() * length;
@@ -83,7 +83,7 @@ impl<'a, N: Scalar> StaticState<'a, N> {
         Energy { total: translational.clone() + &vibrational, translational, vibrational }
     }
 
-    /// The kinetic energy, which is that of the transient, and `E_z`, which is the strain energy with the transient.
+    /// Computes the kinetic energy, that of the transient, and the strain energy: `E_z` with the transient.
     pub(super) fn energy_parts(&self) -> [N; 2] {
         let Parameters { length, gravity, wave_speed, .. } = self.rod;
         let left = self.left.square() * length;
@@ -93,8 +93,8 @@ impl<'a, N: Scalar> StaticState<'a, N> {
     }
 }
 
-/// The first of `most` round trips after which a contact that lasts from the start on deviates from the static state by
-/// less than the roundoff of `max(μ, g t₁)`, in velocities and `c` times strains, for ever.
+/// Finds the first of `most` round trips after which a contact that lasts from the start on deviates from the static
+/// state by less than the roundoff of `max(μ, g t₁)`, in velocities and `c` times strains, at all later times.
 ///
 /// With `R = r t₁`, `τ = t/t₁`, `V = max(μ, g t₁)`; `z = v − v_s` has `p = z_t − c z_x`, `q = z_t + c z_x`.
 ///
@@ -105,11 +105,11 @@ impl<'a, N: Scalar> StaticState<'a, N> {
 /// `E(0) = ½(μ²L + g²L³/3c²) ≤ 0.55 L V²`.
 ///
 /// *Maximum.* Along a characteristic `p′ = −rp − rq`, and `(c/2)∫q² dt ≤ E` over one crossing of the rod, by the energy
-/// that flows through that line; reflections change signs only. Followed from `t/2`, in at most `τ + 2` crossings of
-/// `t₁/2`, from `|p|, |q| ≤ μ + gL/c ≤ 1.5 V`, which never grow:
-/// `|p|/V ≤ 1.5 e^{−Rτ/2} + 0.53 R (τ+2) (1 + max(√3, 1.5Rτ)) e^{−ρt/2}`.
+/// that flows through that line; reflections change signs only. A path from `t/2` on has at most `τ + 2` crossings of
+/// `t₁/2`, and starts from `|p|, |q| ≤ μ + gL/c ≤ 1.5 V`, which never grow: `|p|/V ≤ 1.5 e^{−Rτ/2} + 0.53 R (τ+2) (1 +
+/// max(√3, 1.5Rτ)) e^{−ρt/2}`.
 ///
-/// The right side falls once it is below the roundoff: each of its factors `τ e^{−ρt/4}` does for `ρt > 4`.
+/// The right side falls once it is below the roundoff: each of its factors `τ e^{−ρt/4}` falls for `ρt > 4`.
 pub(super) fn faded_after<N: Scalar>(rod: &Parameters<N>, most: i64) -> Option<i64> {
     use std::f64::consts::{LN_2, PI};
     let damping = (rod.damping.clone() * rod.round_trip()).to_f64();

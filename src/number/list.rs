@@ -1,30 +1,35 @@
-//! Lists of numbers as the command line has them: one grammar for times, points and the values of a sweep.
+//! Lists of numbers in the grammar of the command line: times, points and the values of a sweep.
 
 use std::ops::Range;
 
 use super::{Number, NumberError, Scalar, rational, short};
 
-/// The most values that one range may hold.
+/// Largest number of values of one range.
 const MOST: u32 = 10_000_000;
 
-/// Numbers, or equally spaced ones that are worked out when they are needed.
+/// Numbers as they are written, or equally spaced ones that are computed when they are needed.
 #[derive(Clone, Debug)]
 pub enum List {
+    /// Single numbers.
     Numbers(Vec<Number>),
-    /// So many numbers from one to another, both included.
+    /// The given count of equally spaced numbers from one to another, both included.
     Range(Number, Number, u32),
-    /// So many multiples of a step, from 0 on.
+    /// The given count of multiples of a step, from 0 on.
     Steps(Number, u32),
 }
 
 impl List {
-    /// The numbers that `0.1,1/3` or `0..2:5` spells.
+    /// Reads `0.1,1/3` or `0..2:5`.
+    ///
+    /// **Errors**: a message with the grammar.
     pub fn equally_spaced(text: &str) -> Result<List, String> {
         Ok(List::read(text, false)?.0)
     }
 
-    /// The numbers that `V1,V2,…`, `A..B:N` or, only where a `geometric` progression makes sense, `A..B:N:log` spells,
-    /// and whether it is such a progression.
+    /// Reads `V1,V2,…`, `A..B:N` or, if `geometric`, `A..B:N:log`. Returns the list, and whether it is a geometric
+    /// progression.
+    ///
+    /// **Errors**: a message with the grammar.
     pub fn read(text: &str, geometric: bool) -> Result<(List, bool), String> {
         let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
         let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
@@ -46,7 +51,9 @@ impl List {
         Ok((List::Range(from, to, count), log))
     }
 
-    /// The multiples of `step` from 0 to `to`.
+    /// Returns the multiples of `step` from 0 to `to`.
+    ///
+    /// **Errors**: a message for a step that is not above 0, an end below 0, and too many steps.
     pub fn steps(step: &Number, to: &Number) -> Result<List, String> {
         if step.to_f64() <= 0.0 || to.to_f64() < 0.0 {
             return Err(format!("found steps of {step} up to {to}, expected a step above 0 and an end from 0 on"));
@@ -64,6 +71,8 @@ impl List {
         }
     }
 
+    /// Returns the number of numbers.
+    #[allow(clippy::len_without_is_empty, reason = "no list that was read is empty")]
     pub fn len(&self) -> usize {
         match self {
             List::Numbers(numbers) => numbers.len(),
@@ -71,6 +80,7 @@ impl List {
         }
     }
 
+    /// Returns the greatest number; `None` for an empty list.
     pub fn greatest(&self) -> Option<Number> {
         match self {
             List::Numbers(numbers) => numbers.iter().rev().max_by(|a, b| a.compare(b)).cloned(),
@@ -81,6 +91,7 @@ impl List {
         }
     }
 
+    /// Returns the least number; `None` for an empty list.
     pub fn least(&self) -> Option<Number> {
         match self {
             List::Numbers(numbers) => numbers.iter().min_by(|a, b| a.compare(b)).cloned(),
@@ -89,11 +100,12 @@ impl List {
         }
     }
 
+    /// Returns all numbers in the number system `S`: see [`List::lift_part`].
     pub fn lift<S: Scalar>(&self, precision: &S::Precision) -> Vec<S> {
         self.lift_part(0..self.len(), precision)
     }
 
-    /// The numbers of a part of the list.
+    /// Returns the numbers of a part of the list in the number system `S`.
     ///
     /// **Accuracy**: *correctly rounded* where the fraction of integers that each is has both below 2⁵³; otherwise
     /// within three roundings. The ends of a range are met exactly: the last is where the history ends.
@@ -118,7 +130,7 @@ impl List {
         part.map(|k| at(k as i64)).collect()
     }
 
-    /// All numbers as they would be written; `None` where one is too long to be read again.
+    /// Returns all numbers as they are written; `None` where one is too long to be read again.
     pub fn numbers(&self) -> Option<Vec<Number>> {
         match self {
             List::Numbers(numbers) => Some(numbers.clone()),
@@ -126,7 +138,7 @@ impl List {
         }
     }
 
-    /// `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.
+    /// Returns `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.
     fn integers(&self) -> Option<[i64; 3]> {
         let last = self.len() as i128 - 1;
         let (from, to, divisor) = match self {
@@ -145,7 +157,7 @@ impl List {
     }
 }
 
-/// Numerator and denominator; `None` where they are 2⁵³ or more.
+/// Returns numerator and denominator; `None` where they are 2⁵³ or more.
 fn small(number: &Number) -> Option<[i128; 2]> {
     let (p, q) = rational::parts(&number.to_rational());
     let parts = [i128::try_from(&p).ok()?, i128::try_from(&q).ok()?];

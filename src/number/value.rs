@@ -243,6 +243,11 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// Returns the bound whose `log₂` is `log2`: −∞ for an exact number.
+    pub fn from_log2(log2: f64) -> Self {
+        Bound { log2 }
+    }
+
     /// Returns the bound as a double: zero where it is below the least one.
     pub fn to_f64(self) -> f64 {
         self.log2.exp2()

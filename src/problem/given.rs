@@ -1,16 +1,16 @@
-//! What a user gave: values by their path, and a number with the limits that it is held to.
+//! Values as a user gave them, and the limits that they are held to.
 
 use std::collections::BTreeMap;
 
 use super::written::has_unit;
-use super::{ProblemError, ProblemErrorKind as Kind, Written};
+use super::{Parameter, ProblemError, ProblemErrorKind as Kind, Written};
 use crate::number::{Number, NumberError};
 
 /// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
 pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
 
-/// Values by their path in a scene file.
-pub(crate) type ByPath<T> = BTreeMap<&'static str, T>;
+/// Values by their parameter.
+pub(crate) type ByParameter<T> = BTreeMap<Parameter, T>;
 
 /// A value that is a number, with what messages about it need.
 pub(crate) struct Given<'a> {

@@ -3,15 +3,18 @@
 mod builder;
 mod definition;
 pub(crate) mod given;
+mod parameter;
 mod parameters;
 pub(crate) mod profile;
 pub(crate) mod validate;
 mod vary;
+mod warnings;
 pub(crate) mod written;
 
 pub use crate::error::{ProblemError, ProblemErrorKind};
 pub use builder::Builder;
 pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
+pub use parameter::Parameter;
 pub use parameters::{Dimensionless, Parameters};
-pub use vary::Parameter;
+
 pub use written::Written;

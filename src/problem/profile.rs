@@ -2,16 +2,16 @@
 
 use std::cmp::Ordering;
 
-use super::given::{ByPath, Given, UNITS, range, within};
+use super::given::{ByParameter, Given, UNITS, range, within};
 use super::written::short;
-use super::{ProblemError, ProblemErrorKind as Kind, Profile, Written};
+use super::{Parameter, ProblemError, ProblemErrorKind as Kind, Profile, Written};
 use crate::number::Number;
 
 const MAX_POINTS: usize = 100_000;
 /// Least distance of two points of a profile, in lengths of the rod.
 const MIN_SPACING: f64 = 1e-12;
 
-/// What a list of points looks like.
+/// The form of a list of points, in words.
 pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such as [[0, 0], [1, -1]]";
 
 /// A list of points `(x, value)` that is not checked.
@@ -19,9 +19,11 @@ pub(crate) type Points = Vec<(Written, Written)>;
 
 /// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
 /// is zero.
-pub(super) fn check(given: &ByPath<Points>, length: &Number) -> Result<Profile, ProblemError> {
-    let read = |key| given.get(&*format!("start.{key}")).map_or(Ok(Vec::new()), |points| read(key, points, length));
-    Ok(Profile { displacement: read("displacement")?, velocity: read("velocity")? })
+pub(super) fn check(given: &ByParameter<Points>, length: &Number) -> Result<Profile, ProblemError> {
+    let read = |parameter: Parameter| {
+        given.get(&parameter).map_or(Ok(Vec::new()), |points| read(parameter.name(), points, length))
+    };
+    Ok(Profile { displacement: read(Parameter::Displacement(None))?, velocity: read(Parameter::Velocity(None))? })
 }
 
 /// Whether each list of a profile that was put together by hand is empty or reaches over the whole rod.

@@ -1,12 +1,14 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
-use super::given::{ByPath, Given, UNITS, range, within};
+use super::given::{ByParameter, Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
-use super::{Material, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written};
+use super::{
+    Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written,
+};
 use crate::number::Number;
 
-pub(super) const IMPACT: &[&str] = &["impact.speed", "impact.gap", "impact.drop_height"];
+pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap, Parameter::DropHeight];
 
 const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
@@ -15,25 +17,25 @@ const MAX_IMPACTS: u32 = 10_000_000;
 /// A fall is followed trip by trip, like every flight that ends in a touch.
 const MAX_FALL: f64 = 1e6;
 
-/// The values of a problem before any check, by their path in a scene file.
+/// The values of a problem before any check.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Draft {
     /// Whether messages use the keys of a scene file; otherwise the setters of the builder.
     pub(crate) from_scene: bool,
-    /// By the paths of [`Builder::NUMBERS`](super::Builder::NUMBERS).
-    pub(crate) numbers: ByPath<Written>,
-    /// `start.displacement` and `start.velocity`.
-    pub(crate) profiles: ByPath<Points>,
+    /// Parameters that are one number.
+    pub(crate) numbers: ByParameter<Written>,
+    /// Displacement and velocity at the start.
+    pub(crate) profiles: ByParameter<Points>,
     pub(crate) top: Option<Top>,
 }
 
 impl Draft {
     /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
     pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
-        let length = self.required("rod.length", "a length")?;
+        let length = self.required(Parameter::Length, "a length")?;
         let material = self.material()?;
-        let damping = self.non_negative("rod.damping", "a damping")?;
-        let gravity = self.non_negative("gravity.acceleration", "an acceleration")?;
+        let damping = self.non_negative(Parameter::Damping, "a damping")?;
+        let gravity = self.non_negative(Parameter::Gravity, "an acceleration")?;
         let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
         let (top, damping_number) = (self.top.unwrap_or_default(), number(&damping));
         let rod = Rod { length: length.number.clone(), material, damping: damping_number, top };
@@ -54,27 +56,28 @@ impl Draft {
 
     fn material(&self) -> Result<Material, ProblemError> {
         const EITHER: &str = "wave_speed, or a material: modulus and density";
-        let first = ["rod.modulus", "rod.density", "rod.area"].into_iter().find(|path| self.has(path));
-        match (self.positive("rod.wave_speed", "a wave speed")?, first) {
+        let first =
+            [Parameter::Modulus, Parameter::Density, Parameter::Area].into_iter().find(|other| self.has(*other));
+        match (self.positive(Parameter::WaveSpeed, "a wave speed")?, first) {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
-            (Some(_), Some(path)) => {
-                let found = format!("{} as well as wave_speed", self.name(path));
-                return Err(ProblemError::new(Kind::Contradiction, path, found, format!("either {EITHER}")));
+            (Some(_), Some(other)) => {
+                let found = format!("{} as well as wave_speed", self.name(other));
+                return Err(ProblemError::new(Kind::Contradiction, other.path(), found, format!("either {EITHER}")));
             }
             (None, None) => return Err(ProblemError::new(Kind::Missing, "rod", "no wave speed", EITHER)),
             (None, Some(_)) => {}
         }
-        let modulus = self.required("rod.modulus", "a modulus")?.number.clone();
-        let density = self.required("rod.density", "a density")?.number.clone();
-        let area = self.positive("rod.area", "an area")?.map(|area| area.number.clone());
+        let modulus = self.required(Parameter::Modulus, "a modulus")?.number.clone();
+        let density = self.required(Parameter::Density, "a density")?.number.clone();
+        let area = self.positive(Parameter::Area, "an area")?.map(|area| area.number.clone());
         Ok(Material::Elastic { modulus, density, area })
     }
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
     fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
-        let impact = IMPACT.iter().any(|path| self.has(path));
+        let impact = IMPACT.iter().any(|parameter| self.has(*parameter));
         match (impact, !self.profiles.is_empty()) {
-            (true, false) => match self.non_negative("impact.gap", "a gap")? {
+            (true, false) => match self.non_negative(Parameter::Gap, "a gap")? {
                 Some(gap) => self.above(&gap, t1, g),
                 None => self.impact(t1, g).map(Start::Uniform),
             },
@@ -100,24 +103,29 @@ impl Draft {
 
     /// A start above the ground.
     fn above(&self, gap: &Given<'_>, t1: f64, g: f64) -> Result<Start, ProblemError> {
-        let key = self.name("impact.speed");
-        if self.has("impact.drop_height") {
+        let key = self.name(Parameter::ImpactSpeed);
+        if self.has(Parameter::DropHeight) {
             let (found, expected) = (
                 "gap as well as drop_height",
                 format!("gap with {key}; a rod dropped from rest at t = 0 has {key} = 0"),
             );
-            return Err(ProblemError::new(Kind::Contradiction, "impact.gap", found, expected));
+            return Err(ProblemError::new(Kind::Contradiction, Parameter::Gap.path(), found, expected));
         }
-        if !self.has("impact.speed") {
+        if !self.has(Parameter::ImpactSpeed) {
             let expected = format!("{key} at t = 0 as well; zero for a rod dropped from rest");
-            return Err(ProblemError::new(Kind::Missing, "impact.gap", format!("gap without {key}"), expected));
+            return Err(ProblemError::new(
+                Kind::Missing,
+                Parameter::Gap.path(),
+                format!("gap without {key}"),
+                expected,
+            ));
         }
-        let speed = match self.non_negative("impact.speed", "a speed")? {
+        let speed = match self.non_negative(Parameter::ImpactSpeed, "a speed")? {
             None if g == 0.0 => {
                 let gravity = self.word("[gravity] with an acceleration above zero", "a gravity above zero");
                 let expected = format!("a speed above zero, or {gravity}: otherwise nothing moves");
                 let found = format!("{key} = 0 without gravity");
-                return Err(ProblemError::new(Kind::OutOfRange, "impact.speed", found, expected));
+                return Err(ProblemError::new(Kind::OutOfRange, Parameter::ImpactSpeed.path(), found, expected));
             }
             given => given.map_or(Number::from(0), |given| given.number.clone()),
         };
@@ -137,9 +145,9 @@ impl Draft {
     }
 
     fn impact(&self, t1: f64, g: f64) -> Result<Speed, ProblemError> {
-        let key = self.name("impact.speed");
-        let given = self.positive("impact.speed", "an impact speed")?;
-        let height = self.positive("impact.drop_height", "a drop height")?;
+        let key = self.name(Parameter::ImpactSpeed);
+        let given = self.positive(Parameter::ImpactSpeed, "an impact speed")?;
+        let height = self.positive(Parameter::DropHeight, "a drop height")?;
         let (given, speed) = match (given, height) {
             (Some(given), None) => (Speed::Given(given.number.clone()), given),
             (None, Some(height)) if g > 0.0 => (Speed::DropHeight(height.number.clone()), height),
@@ -147,12 +155,12 @@ impl Draft {
                 let gravity = self.word("[gravity] with an acceleration", "a gravity");
                 let expected = format!("{gravity} above zero, or {key} in place of drop_height");
                 let found = "drop_height without gravity";
-                return Err(ProblemError::new(Kind::Missing, "impact.drop_height", found, expected));
+                return Err(ProblemError::new(Kind::Missing, Parameter::DropHeight.path(), found, expected));
             }
             (Some(_), Some(_)) => {
                 let (found, expected) =
                     (format!("drop_height as well as {key}"), format!("either {key} or drop_height"));
-                return Err(ProblemError::new(Kind::Contradiction, "impact.drop_height", found, expected));
+                return Err(ProblemError::new(Kind::Contradiction, Parameter::DropHeight.path(), found, expected));
             }
         };
         let value = given.value(g);
@@ -164,10 +172,10 @@ impl Draft {
     }
 
     fn run(&self, t1: f64) -> Result<Run, ProblemError> {
-        if let Some(time) = self.positive("run.time", "a time")? {
-            if self.has("run.impacts") {
+        if let Some(time) = self.positive(Parameter::Time, "a time")? {
+            if self.has(Parameter::Impacts) {
                 let (found, expected) = ("impacts as well as time", "either time or impacts");
-                return Err(ProblemError::new(Kind::Contradiction, "run.impacts", found, expected));
+                return Err(ProblemError::new(Kind::Contradiction, Parameter::Impacts.path(), found, expected));
             }
             let round_trips = time.number.to_f64() / t1;
             if round_trips > MAX_ROUND_TRIPS {
@@ -177,55 +185,59 @@ impl Draft {
             }
             return Ok(Run::Time(time.number.clone()));
         }
-        let Some(impacts) = self.numbers.get("run.impacts") else { return Ok(Run::Impacts(1)) };
+        let Some(impacts) = self.numbers.get(&Parameter::Impacts) else { return Ok(Run::Impacts(1)) };
         let whole = impacts.number.as_ref().ok().and_then(|number| number.to_string().parse().ok());
         whole.filter(|n| (1..=MAX_IMPACTS).contains(n)).map(Run::Impacts).ok_or_else(|| {
             let expected = format!("a whole number from 1 to {MAX_IMPACTS}");
-            ProblemError::new(Kind::OutOfRange, "run.impacts", format!("impacts = {}", impacts.shown), expected)
+            ProblemError::new(
+                Kind::OutOfRange,
+                Parameter::Impacts.path(),
+                format!("impacts = {}", impacts.shown),
+                expected,
+            )
         })
     }
 
-    pub(super) fn has(&self, path: &str) -> bool {
-        self.numbers.contains_key(path)
+    pub(super) fn has(&self, parameter: Parameter) -> bool {
+        self.numbers.contains_key(&parameter)
     }
 
-    fn given(&self, path: &'static str) -> Result<Option<Given<'_>>, ProblemError> {
-        self.numbers.get(path).map(|written| Given::new(path, self.name(path), written)).transpose()
+    fn given(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
+        self.numbers
+            .get(&parameter)
+            .map(|written| Given::new(parameter.path(), self.name(parameter), written))
+            .transpose()
     }
 
     /// A value above zero, if it is given.
-    fn positive(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
-        self.given(path)?.map(|given| given.positive(what)).transpose()
+    fn positive(&self, parameter: Parameter, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        self.given(parameter)?.map(|given| given.positive(what)).transpose()
     }
 
-    fn required(&self, path: &'static str, what: &str) -> Result<Given<'_>, ProblemError> {
-        self.positive(path, what)?.ok_or_else(|| {
-            let (found, expected) = (format!("no {}", self.name(path)), format!("{what} above zero"));
+    fn required(&self, parameter: Parameter, what: &str) -> Result<Given<'_>, ProblemError> {
+        self.positive(parameter, what)?.ok_or_else(|| {
+            let (found, expected) = (format!("no {}", self.name(parameter)), format!("{what} above zero"));
             ProblemError::new(Kind::Missing, "rod", found, expected)
         })
     }
 
     /// A value that is not negative, if it is given and not zero.
-    fn non_negative(&self, path: &'static str, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
-        let Some(given) = self.given(path)? else { return Ok(None) };
+    fn non_negative(&self, parameter: Parameter, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+        let Some(given) = self.given(parameter)? else { return Ok(None) };
         let x = given.number.to_f64();
         if x < 0.0 {
             return Err(given.error(Kind::OutOfRange, "", format!("{what} of zero or more")));
         }
         // A damping is held to the range of r t₁ alone: weak ones are asked for on purpose.
-        if x > 0.0 && path != "rod.damping" && !within(x, UNITS) {
+        if x > 0.0 && parameter != Parameter::Damping && !within(x, UNITS) {
             return Err(given.error(Kind::OutOfRange, "", format!("zero or {what} {}", range(UNITS))));
         }
         Ok(Some(given).filter(|_| x > 0.0))
     }
 
-    /// The name of a value in messages.
-    fn name(&self, path: &'static str) -> &'static str {
-        match path {
-            "gravity.acceleration" => self.word("acceleration", "gravity"),
-            "impact.speed" => self.word("speed", "impact_speed"),
-            _ => path.rsplit('.').next().unwrap_or(path),
-        }
+    /// The name of a parameter in messages.
+    fn name(&self, parameter: Parameter) -> &'static str {
+        if self.from_scene { parameter.table_and_key().1 } else { parameter.name() }
     }
 
     fn word(&self, scene: &'static str, builder: &'static str) -> &'static str {

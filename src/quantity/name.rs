@@ -7,16 +7,16 @@ use super::table::{Needs, Quantity};
 use crate::names::UnknownName;
 use Quantity::*;
 
-/// Quantities that are asked for together, by the name of the group.
-const GROUPS: [(&str, &[Quantity]); 5] = [
-    ("end", &[EndDisplacement, EndVelocity]),
-    ("top", &[TopDisplacement, TopVelocity]),
-    ("centre", &[Centre, CentreVelocity]),
-    ("energy", &[Energy, TranslationalEnergy, VibrationalEnergy]),
-    ("field", &[PointDisplacement, PointVelocity, PointStrain, PointStress]),
-];
-
 impl Quantity {
+    /// Quantities that are asked for together, by the name of the group.
+    pub const GROUPS: [(&'static str, &'static [Quantity]); 5] = [
+        ("end", &[EndDisplacement, EndVelocity]),
+        ("top", &[TopDisplacement, TopVelocity]),
+        ("centre", &[Centre, CentreVelocity]),
+        ("energy", &[Energy, TranslationalEnergy, VibrationalEnergy]),
+        ("field", &[PointDisplacement, PointVelocity, PointStrain, PointStress]),
+    ];
+
     /// Returns the quantities of the group of this name: `end`, `top`, `centre`, `energy` or `field`.
     ///
     /// ```
@@ -25,7 +25,7 @@ impl Quantity {
     /// assert_eq!(end, [Quantity::EndDisplacement, Quantity::EndVelocity]);
     /// ```
     pub fn group(name: &str) -> Option<&'static [Quantity]> {
-        GROUPS.iter().find(|(known, _)| *known == name).map(|(_, quantities)| *quantities)
+        Quantity::GROUPS.iter().find(|(known, _)| *known == name).map(|(_, quantities)| *quantities)
     }
 }
 
@@ -45,7 +45,7 @@ impl Needs {
     /// ```
     pub fn list(self, names: &str) -> Result<Vec<Quantity>, UnknownName> {
         let is_group = |quantities: &[Quantity]| quantities.iter().all(|quantity| quantity.needs() == self);
-        let groups = || GROUPS.iter().filter(|(_, quantities)| is_group(quantities));
+        let groups = || Quantity::GROUPS.iter().filter(|(_, quantities)| is_group(quantities));
         let mut list = Vec::new();
         for name in names.split(',').map(str::trim) {
             match groups().find(|(known, _)| *known == name) {

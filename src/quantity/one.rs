@@ -22,7 +22,7 @@ pub struct One {
     pub side: Side,
 }
 
-/// Why there is no number.
+/// The reason why there is no number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     /// Whether that is left undecided, and not known.
@@ -36,7 +36,7 @@ impl Missing {
     }
 }
 
-/// How far an event may be from the time that it is next to.
+/// Largest distance of an event from the time that it is asked next to.
 const NEXT: f64 = 0.25;
 
 impl Quantity {

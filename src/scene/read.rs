@@ -1,4 +1,4 @@
-//! From the text of a scene to a problem: TOML types and keys, and the place of whatever is wrong.
+//! The reader of scenes: TOML types and keys, and the place of each error.
 
 use std::ops::Range;
 
@@ -14,23 +14,26 @@ use crate::problem::given::{Given, within};
 use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::Draft;
 use crate::problem::written::{has_unit, short};
-use crate::problem::{Builder, Material, Problem, ProblemError, ProblemErrorKind as Kind, Top};
+use crate::problem::{Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Top};
 use crate::quantity::UnitSystem;
 
-/// Every table with its keys; the first is the scene itself.
-const TABLES: [(&str, &[&str]); 6] = [
-    ("", &["title", "units", "rod", "impact", "gravity", "start", "run", "target"]),
-    ("rod", &["length", "wave_speed", "modulus", "density", "area", "damping", "top"]),
-    ("impact", &["speed", "gap", "drop_height"]),
-    ("gravity", &["acceleration"]),
-    ("start", &["displacement", "velocity"]),
-    ("run", &["time", "impacts", "accuracy"]),
-];
+/// The keys of the scene itself.
+const TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "gravity", "start", "run", "target"];
+
+/// The tables whose keys are parameters.
+const TABLES: [&str; 5] = ["rod", "impact", "gravity", "start", "run"];
+
+/// Returns the keys of a table of parameters.
+fn keys(table: &str) -> Vec<&'static str> {
+    let parameters = Parameter::ALL.iter().map(|parameter| parameter.table_and_key());
+    let keys = parameters.filter(|(of, _)| *of == table).map(|(_, key)| key);
+    keys.chain((table == "run").then_some("accuracy")).collect()
+}
 
 const MAX_BYTES: usize = 16 << 20;
 const ACCURACY: (f64, f64) = (1e-300, 0.1);
 
-/// What a person wrote, checked: a problem in exact numbers, and the line that each value stands on.
+/// A scene file, checked: a problem in exact numbers, and the line that each value stands on.
 ///
 /// **Accuracy**: *exact*; a number is the rational that its text spells.
 ///
@@ -110,7 +113,7 @@ pub struct Scene {
     pub title: Option<String>,
     /// `units`: what the numbers are in; SI where nothing is said. It names what is printed and changes no number.
     pub units: UnitSystem,
-    /// What is to be solved.
+    /// The problem to solve.
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
     pub accuracy: Option<f64>,
@@ -153,7 +156,7 @@ impl Scene {
     }
 }
 
-/// What the TOML reader says, with its place; a number with a unit and a bare fraction are recognised.
+/// Returns the error of the TOML reader, with its place; a number with a unit and a bare fraction are recognised.
 fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let value = value_around(source, span.start);
@@ -168,7 +171,7 @@ fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     SceneError::new(source, span, Kind::Syntax, format!("text that is not TOML ({found})"), expected)
 }
 
-/// From the last `=`, `,` or `[` of the line before `at` to the end of that value.
+/// Returns the value around `at`: from the last `=`, `,` or `[` of the line before it.
 fn value_around(source: &str, at: usize) -> Range<usize> {
     let start = source.get(..at).and_then(|before| before.rfind(['=', ',', '[', '\n'])).map_or(0, |found| found + 1);
     let value = &source[start..];
@@ -179,8 +182,9 @@ fn value_around(source: &str, at: usize) -> Range<usize> {
 
 impl<'a> Reader<'a> {
     fn scene(&self) -> Result<Scene, SceneError> {
-        for (name, known) in TABLES {
-            self.check_keys(name, known)?;
+        self.check_keys("", TOP_KEYS)?;
+        for table in TABLES {
+            self.check_keys(table, &keys(table))?;
         }
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
@@ -198,7 +202,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Refuses a table that is none, has an unknown key, or lacks what it is there for.
-    fn check_keys(&self, name: &str, known: &'static [&'static str]) -> Result<(), SceneError> {
+    fn check_keys(&self, name: &str, known: &[&'static str]) -> Result<(), SceneError> {
         let (table, shown, span) = match (name, self.get(name)) {
             ("", _) => (self.document, "the scene".to_string(), 0..0),
             ("rod", None) => {
@@ -232,14 +236,14 @@ impl<'a> Reader<'a> {
             return Err(self.wrong_type(value, "impacts", "a whole number"));
         }
         let mut draft = Draft { from_scene: true, top: self.top()?, ..Draft::default() };
-        for (_, path) in Builder::NUMBERS {
-            if let Some(number) = self.number(path)? {
-                draft.numbers.insert(path, number);
+        for parameter in Parameter::numbers() {
+            if let Some(number) = self.number(parameter.path())? {
+                draft.numbers.insert(parameter, number);
             }
         }
-        for path in ["start.displacement", "start.velocity"] {
-            if let Some(points) = self.points(path)? {
-                draft.profiles.insert(path, points);
+        for list in [Parameter::Displacement(None), Parameter::Velocity(None)] {
+            if let Some(points) = self.points(list.path())? {
+                draft.profiles.insert(list, points);
             }
         }
         Ok(draft)

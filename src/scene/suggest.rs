@@ -1,30 +1,29 @@
-//! What a person may have meant by a word that no scene has.
+//! Suggestions for words that no scene has.
 
 use crate::names::nearest;
+use crate::problem::Parameter;
 
-/// Common words for a key, in lower case.
+/// Words for the keys that are no parameters, in lower case.
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("title", &["name", "description"]),
     ("rod", &["bar", "beam", "material", "geometry"]),
     ("impact", &["drop", "collision"]),
     ("start", &["initial", "initial_conditions"]),
     ("run", &["simulation", "solver"]),
-    ("rod.length", &["l", "size"]),
-    ("rod.wave_speed", &["c", "c0", "sound_speed", "speed_of_sound", "wave_velocity"]),
-    ("rod.modulus", &["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus", "stiffness"]),
-    ("rod.density", &["rho", "ρ", "mass_density"]),
-    ("rod.area", &["a", "s", "cross_section", "section"]),
-    ("rod.damping", &["r", "damping_ratio", "friction", "viscosity"]),
-    ("rod.top", &["clamped", "fixed", "fixed_top", "end", "boundary", "support"]),
-    ("impact.speed", &["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"]),
-    ("impact.gap", &["clearance", "distance", "initial_gap", "jeu", "d0"]),
-    ("impact.drop_height", &["h", "height", "fall_height"]),
-    ("gravity.acceleration", &["g"]),
-    ("start.displacement", &["u", "v", "deformation", "position"]),
-    ("run.time", &["t", "t_end", "end_time", "duration", "until"]),
-    ("run.impacts", &["n", "bounces", "contacts", "hits"]),
     ("run.accuracy", &["tolerance", "tol", "precision"]),
 ];
+
+/// Keys for damping of the material, which is not solved.
+const MATERIAL_DAMPING: &[&str] =
+    &["viscosity", "rayleigh_beta", "kelvin_voigt", "beta", "material_damping", "loss_factor", "eta"];
+
+/// Returns what a message expects in place of a key that is refused by name.
+pub(super) fn refused(key: &str) -> Option<&'static str> {
+    MATERIAL_DAMPING.contains(&&*key.to_lowercase().replace('-', "_")).then_some(
+        "damping, the drag 2r v_t on the whole rod (Rayleigh α = 2r); damping of the material (Kelvin–Voigt, Rayleigh \
+         β) has no characteristics and is not solved",
+    )
+}
 
 const FIXED: &[&str] = &["clamped", "held", "built-in", "built in", "rigid", "pinned", "dirichlet"];
 const FREE: &[&str] = &["open", "loose", "unclamped", "neumann"];
@@ -41,7 +40,9 @@ pub(super) fn key(key: &str, table: &str, known: &[&'static str]) -> Option<Stri
     };
     // The table itself comes before others.
     let is_here = |path: &str| path.rsplit_once('.').map_or("", |(table, _)| table) == table;
-    let found = SYNONYMS.iter().filter(meant).map(|(path, _)| *path);
+    let parameters = Parameter::ALL.iter().map(|parameter| (parameter.path(), parameter.synonyms()));
+    let known: Vec<(&str, &[&str])> = SYNONYMS.iter().copied().chain(parameters).collect();
+    let found = known.iter().filter(meant).map(|(path, _)| *path);
     let path = found.clone().find(|path| is_here(path)).or_else(|| found.clone().next())?;
     Some(match path.split_once('.') {
         Some((other, key)) if other != table => format!("{key} in [{other}]"),

@@ -1,4 +1,5 @@
-//! The answer, in the numbers that were asked for and without their type.
+//! The answer in `Value`s, for every number system.
+#![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
 use super::ladder::Target;
@@ -8,25 +9,26 @@ use super::question::{Numbers, Observer, Question, unobserved};
 use super::solution::{ExactnessEnd, Solution, Visitor};
 use super::typed::TypedHistory;
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, Field, Scales, Side, StressPiece, straight};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, straight};
 use crate::number::{IntoValue, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
-    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Undefined, UnitSystem, Units, flights,
+    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
+    flights,
 };
 use crate::reason::Warning;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, as [`Value`]s.
 ///
 /// All times are absolute and in the units of the problem. A time or a point is a number as it is written: `2`,
-/// `"1/3"`, `0.1` (which is 1/10). A time outside of `0 … end()` is [`Error::TimeOutside`], or [`Error::BeyondEnd`] and
-/// [`Error::BeyondExactness`] where the history ends for a reason of its own; a point outside of the rod is
+/// `"1/3"`, `0.1` (which is 1/10). A time outside `0 … end()` is [`Error::TimeOutside`], or [`Error::BeyondEnd`] and
+/// [`Error::BeyondExactness`] if the history ends for a reason of its own; a point outside the rod is
 /// [`Error::PointOutside`].
 ///
-/// [`History::typed`] has the same answers in one number system, for those who compute with them.
+/// [`History::typed`] returns the same answers in one number system, for further computations.
 ///
-/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
-/// that were asked for.
+/// **Accuracy**: that of the [`Plan`]. An answer is computed again with more bits if the current ones do not leave the
+/// requested digits.
 ///
 /// ```
 /// use dalembert::{Problem, Value};
@@ -44,7 +46,7 @@ pub struct History {
     units: Units,
 }
 
-/// Evaluates `$body` for the typed history inside `$history`, whatever its numbers.
+/// Evaluates `$body` for the typed history inside `$history`, in any number system.
 macro_rules! typed {
     ($history:expr, $typed:ident => $body:expr) => {
         match &$history.solution {
@@ -56,20 +58,24 @@ macro_rules! typed {
     };
 }
 
-/// Values of quantities by row; in place of a value that there is not, the reason.
+/// Values of quantities by row; a missing value is replaced by the reason.
 pub type Rows = Vec<Vec<Result<Value, Undefined>>>;
 
 /// All lists of a history, settled together.
 #[derive(Debug)]
 pub struct Listing {
-    /// A row for each impact and release, of [`Listing::EVENTS`].
+    /// Kind of each event.
+    pub kinds: Vec<EventKind>,
+    /// A row for each impact and release, of [`Table::Events`].
     pub events: Rows,
-    /// A row for each contact, of [`Listing::CONTACTS`].
+    /// A row for each contact, of [`Table::Contacts`].
     pub contacts: Rows,
-    /// A row for each flight, of [`Listing::FLIGHTS`].
+    /// A row for each flight, of [`Table::Flights`].
     pub flights: Rows,
-    /// The stress at the ground; empty where it was not asked for.
+    /// The stress at the ground; empty if it was not requested.
     pub stress: Vec<StressPiece<Value>>,
+    /// A row for each piece of the stress, of [`Table::Stress`].
+    pub pieces: Rows,
     /// Whether a piece of the stress was curved, before it was replaced by straight ones.
     pub is_curved: bool,
 }
@@ -77,34 +83,10 @@ pub struct Listing {
 /// Form of the stress at the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StressForm {
-    /// Straight pieces, off by at most this part of the greatest stress.
+    /// Linear pieces with an error of at most this fraction of the greatest stress.
     Straight(f64),
     /// Pieces with the coefficients of their Chebyshev series.
     Series,
-}
-
-impl Listing {
-    /// Quantities of an event.
-    pub const EVENTS: [Quantity; 4] =
-        [Quantity::EventTime, Quantity::EventVelocity, Quantity::EventCentre, Quantity::EventCentreVelocity];
-    /// Quantities of a contact.
-    pub const CONTACTS: [Quantity; 13] = [
-        Quantity::Impact,
-        Quantity::Release,
-        Quantity::ContactImpulse,
-        Quantity::PeakStrain,
-        Quantity::PeakStress,
-        Quantity::PeakForce,
-        Quantity::MomentumRestitution,
-        Quantity::EnergyRestitution,
-        Quantity::TranslationalShare,
-        Quantity::EnergyKept,
-        Quantity::EnergyAfter,
-        Quantity::TranslationalAfter,
-        Quantity::VibrationalAfter,
-    ];
-    /// Quantities of a flight.
-    pub const FLIGHTS: [Quantity; 4] = [Quantity::Takeoff, Quantity::Landing, Quantity::TopTime, Quantity::Top];
 }
 
 impl History {
@@ -112,7 +94,7 @@ impl History {
         History { solution, units }
     }
 
-    /// The same history, with its values in the units of `system`.
+    /// Converts the values of the history to the units of `system`.
     pub fn in_units(self, system: UnitSystem) -> Self {
         let units = Units::of(self.problem(), system);
         History { units, ..self }
@@ -138,17 +120,17 @@ impl History {
         self.solution.digits()
     }
 
-    /// Returns the event or parameter that fractions cannot hold, where digits of the whole run stand in for them.
+    /// Returns the event or parameter that fractions cannot hold, if digits of the whole run replace the fractions.
     pub fn exactness_end(&self) -> Option<&ExactnessEnd> {
         self.solution.exactness_end()
     }
 
-    /// Returns the last time that is known: before an event at no fraction, a fraction just below its time.
+    /// Returns the last known time: before an event at an irrational time, a fraction just below it.
     pub fn end(&self) -> Value {
         typed!(self, history => self.value(history.carried_end(), Some(Measure::Time)))
     }
 
-    /// Returns the reason for which the history ends there.
+    /// Returns the reason of the end.
     pub fn ending(&self) -> &Ending {
         typed!(self, history => history.ending())
     }
@@ -158,19 +140,19 @@ impl History {
         typed!(self, history => history.warnings())
     }
 
-    /// Returns the number of impacts, and `log₁₀` of the factor by which rounding may have grown over them; `None`
-    /// where that is not followed.
+    /// Returns the number of impacts, and `log₁₀` of the factor by which rounding errors may have grown over them;
+    /// `None` if the engine does not track this.
     pub fn digits_lost(&self) -> Option<(u32, f64)> {
         typed!(self, history => history.digits_lost())
     }
 
-    /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero
-    /// where all is exact.
+    /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero if
+    /// all is exact.
     pub fn error_estimate(&self) -> f64 {
         typed!(self, history => history.error_estimate())
     }
 
-    /// Returns `error` with the reason for which the history ends before the time that was asked for.
+    /// Returns `error` with the reason why the history ends before the requested time.
     pub fn explained(&self, error: Error) -> Error {
         typed!(self, history => history.explained(error))
     }
@@ -190,8 +172,7 @@ impl History {
         self.solution.visit(visitor)
     }
 
-    /// Returns all impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the
-    /// ground.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     pub fn events(&self) -> Result<Vec<Event<Value>>, Error> {
         typed!(self, history => {
             let events = history.ask(|motion| Ok(motion.events().to_vec()), |events| {
@@ -208,7 +189,7 @@ impl History {
         })
     }
 
-    /// Returns all times on the ground, in order; the impulse is that of the units of the history.
+    /// Returns all contacts, in order; the impulse is in the units of the history.
     pub fn contacts(&self) -> Result<Vec<Contact<Value>>, Error> {
         typed!(self, history => {
             let contacts = history.ask(|motion| Ok(motion.contacts().to_vec()), |contacts| {
@@ -224,7 +205,7 @@ impl History {
         })
     }
 
-    /// Returns the flights between the contacts, and how high they go.
+    /// Returns the flights between the contacts, and their highest points.
     pub fn flights(&self) -> Result<Vec<Flight<Value>>, Error> {
         typed!(self, history => {
             let found = history.ask(flights, |flights| Flight::numbers(flights))?;
@@ -234,7 +215,7 @@ impl History {
 
     /// Returns `e_P` and `e_E²` of a contact, counted from 0.
     ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    /// **Errors**: [`Error::NoContact`] if the history has fewer contacts.
     pub fn restitution(&self, contact: usize) -> Result<Restitution<Value>, Error> {
         typed!(self, history => Ok(history.carried_restitution(contact)?.map(|x| self.value(x, None))))
     }
@@ -244,7 +225,7 @@ impl History {
         self.at_time(Quantity::Strain, time, side)
     }
 
-    /// Returns a quantity over time at one time.
+    /// Returns a time-dependent quantity at one time.
     pub fn at_time(&self, quantity: Quantity, time: impl Into<Written>, side: Side) -> Result<Value, Error> {
         let time = [written("time", time)?];
         let list = crate::number::List::Numbers(time.to_vec());
@@ -252,14 +233,14 @@ impl History {
         Ok(columns.remove(0).remove(0))
     }
 
-    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, point: impl Into<Written>, time: impl Into<Written>) -> Result<Field<Value>, Error> {
         let (point, time) = (written("point", point)?, written("time", time)?);
         typed!(self, history => {
                         let field = history.ask(
                 |motion| {
-                    let precision = motion.end().precision();
-                    motion.field(&Scalar::spelling(&point, &precision), &Scalar::spelling(&time, &precision), Side::Right)
+                    let lift = |x: &Number| Scalar::spelling(x, &motion.end().precision());
+                    motion.field(&lift(&point), &lift(&time), Side::Right)
                 },
                 |field| field.numbers().to_vec(),
             )?;
@@ -284,12 +265,12 @@ impl History {
         })
     }
 
-    /// Returns the values of `quantities` over time, column by column. Where `side` is `None` and the two limits of any
-    /// of them differ, a time has two rows, the limit from earlier times first.
+    /// Returns the values of `quantities` over time, column by column. If `side` is `None`, a time at which the two
+    /// limits of any quantity differ has two rows, the limit from earlier times first.
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     ///
-    /// **Errors**: [`Error::NotOverTime`]; those of a time outside of the history.
+    /// **Errors**: [`Error::NotOverTime`]; the errors of a time outside the history.
     pub fn sample(
         &self,
         quantities: &[Quantity],
@@ -321,7 +302,28 @@ impl History {
         })
     }
 
-    /// Returns `u`, `v`, `strain` at each point at the time beside it, column by column.
+    /// Returns the values of `quantities` along the rod, column by column: each is one of [`SLICE`] or
+    /// [`Quantity::PointStress`]. The grid is that of [`History::sample_field`].
+    pub fn sample_along(
+        &self,
+        quantities: &[Quantity],
+        slice: Slice,
+        points: &Places<'_>,
+        times: &Places<'_>,
+        side: Option<Side>,
+    ) -> Result<Vec<Vec<Value>>, Error> {
+        typed!(self, history => {
+            let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
+            let scales = history.carried_scales();
+            let column = |quantity: &Quantity| {
+                let place = SLICE.iter().position(|known| known == quantity).unwrap_or(SLICE.len() - 1);
+                columns[place].iter().map(|x| self.quantity(*quantity, x.clone(), &scales)).collect()
+            };
+            Ok(quantities.iter().map(column).collect())
+        })
+    }
+
+    /// Returns `u`, `v`, `strain` at pairs of a point and a time, column by column.
     pub fn sample_pairs(&self, points: &Places<'_>, times: &Places<'_>, side: Side) -> Result<[Vec<Value>; 3], Error> {
         typed!(self, history => {
             let fields = history.ask(
@@ -351,13 +353,13 @@ impl History {
         })
     }
 
-    /// Returns all lists, settled together: the accuracy of each number is relative to the greatest among all of them.
-    /// `ratios` says whether numbers without a unit are settled too, and `stress` in which form the stress at the
-    /// ground is listed, as it can cost more than all the rest.
+    /// Returns all lists, settled together: the accuracy of each number is relative to the greatest of all. `ratios`
+    /// states whether numbers without a unit are settled too. `stress` states the form of the stress at the ground,
+    /// which can cost more than all other lists.
     pub fn listing(&self, stress: Option<StressForm>, ratios: bool) -> Result<Listing, Error> {
         typed!(self, history => {
-            let lists: [&[Quantity]; 3] = [&Listing::EVENTS, &Listing::CONTACTS, &Listing::FLIGHTS];
-            let (_, rows, curve) = history.ask(
+            let lists = [Table::Events, Table::Contacts, Table::Flights].map(Table::quantities);
+            let (_, rows, curve, kinds) = history.ask(
                 |motion| {
                     let rows = [
                         quantity::rows(motion, lists[0])?,
@@ -365,9 +367,10 @@ impl History {
                         quantity::rows(motion, lists[2])?,
                     ];
                     let curve = if stress.is_some() { motion.stress_pieces() } else { Vec::new() };
-                    Ok((motion.end(), rows, curve))
+                    let kinds: Vec<EventKind> = motion.events().iter().map(|event| event.kind).collect();
+                    Ok((motion.end(), rows, curve, kinds))
                 },
-                |(end, rows, curve)| {
+                |(end, rows, curve, _)| {
                     let settled = |quantity: &Quantity| ratios || quantity.measure().is_some();
                     let listed = rows.iter().zip(lists).flat_map(|(rows, quantities)| {
                         rows.iter().flat_map(move |row| row.iter().zip(quantities))
@@ -384,7 +387,13 @@ impl History {
                 Some(StressForm::Straight(part)) => straight(&curve, part),
                 _ => curve,
             };
+            let piece = |StressPiece { start, end, strain_start, strain_end, .. }: &StressPiece<_>| {
+                [start, end, strain_start, strain_end, strain_start, strain_end].map(|x: &_| Ok(Clone::clone(x))).into()
+            };
+            let pieces = curve.iter().map(piece).collect();
             Ok(Listing {
+                kinds,
+                pieces: self.rows(Table::Stress.quantities(), pieces, &scales),
                 events: self.rows(lists[0], events, &scales),
                 contacts: self.rows(lists[1], contacts, &scales),
                 flights: self.rows(lists[2], flights, &scales),
@@ -394,7 +403,7 @@ impl History {
         })
     }
 
-    /// Returns one number, or the reason why there is none.
+    /// Returns one number, or the reason of its absence.
     pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
         typed!(self, history => {
             let run = &self.problem().run;
@@ -430,7 +439,7 @@ impl History {
         number.into().printed_in(self.digits(), unit)
     }
 
-    /// The value of a quantity whose number is `number` without a unit.
+    /// Returns the value of a quantity from its `number` without a unit.
     fn quantity<S: IntoValue>(&self, quantity: Quantity, number: S, scales: &Scales<S>) -> Value {
         let number = quantity.in_unit(number, scales, &self.units);
         number.into().printed_in(self.digits(), quantity.unit(&self.units))
@@ -457,7 +466,7 @@ impl History {
     }
 }
 
-/// The number that `text` spells.
+/// Parses the number that `text` spells.
 fn written(quantity: &'static str, text: impl Into<Written>) -> Result<Number, Error> {
     let text = text.into();
     text.number().cloned().map_err(|error| Error::Spelling { quantity, error: error.clone() })

@@ -8,17 +8,15 @@ use crate::cells::{ContactThenCells, Damped, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
-use crate::modal::Modal;
-use crate::motion::Side;
 use crate::number::Estimate;
 use crate::problem::Parameters;
 use crate::special::RoundedSpecial;
 
-/// A damped run.
+/// A function that makes a damped run.
 pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
 
-/// The planned engine, in numbers with their error bound; `rate` is `h′` at the bounce, where it is known better than a
-/// march has it, and `marched` what is made of a march.
+/// Runs the planned engine in numbers with their error bound. `rate` returns `h′` at the bounce if it is known better
+/// than from the march, and `marched` turns a march into the run.
 pub(super) fn estimates<S: RoundedSpecial>(
     plan: &Plan,
     task: &Task<'_, S>,
@@ -40,10 +38,9 @@ pub(super) fn estimates<S: RoundedSpecial>(
         Engine::Cells => marched(&|| Ok(Arc::new(Damped::march(task, 1, false)?)))?,
         Engine::ClosedForm | Engine::ClosedFormThenCells => {
             let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision)?);
-            let mut bounce = contact.bounce();
+            let bounce = contact.bounce();
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
-                let modes = plan.modes.ok_or_else(|| undecided("how the first contact ends"))?;
-                bounce = by_modes(&contact, &Modal::new(&Parameters::<S>::of(problem, precision)?, modes));
+                return Err(undecided("how the first contact ends"));
             }
             if plan.engine == Engine::ClosedFormThenCells {
                 let (rate, bounces) = (rate(&bounce), matches!(bounce, Bounce::At { .. }));
@@ -56,12 +53,4 @@ pub(super) fn estimates<S: RoundedSpecial>(
             }
         }
     })
-}
-
-/// How the first contact ends by the sum over modes, which does not cancel late in the contact as that over
-/// rays does.
-fn by_modes<S: RoundedSpecial>(contact: &FirstContact<Estimate<S>>, modal: &Modal<S>) -> Bounce<Estimate<S>> {
-    // The last moment of a cell belongs to it.
-    let side = |trips: &S, k: i64| if *trips == trips.int(k + 1) { Side::Left } else { Side::Right };
-    contact.bounce_by(&|trips, k| modal.ground(trips, side(trips.value(), k)))
 }

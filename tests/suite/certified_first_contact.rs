@@ -1,9 +1,10 @@
 //! The first contact in enclosures: what is proved, to how many digits, and that it is the truth.
 
-use dalembert::engine::{Bounce, ContactHistory, FirstContact, Modal, Motion};
+use dalembert::engine::{Bounce, ContactHistory, FirstContact, Motion};
 use dalembert::number::{Answer, IntervalPrecision, Scalar};
 use dalembert::reason::NoBounceReason;
 use dalembert::{Ending, Energy, Error, Interval, Number, Parameters, Problem, Reason, Side};
+use dalembert_verify::modal::Modal;
 use proptest::prelude::*;
 use rug::ops::Pow;
 use rug::{Float, Integer, Rational};

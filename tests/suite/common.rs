@@ -148,7 +148,6 @@ impl Random {
 }
 
 /// Where rays are in the rod, its ends included.
-#[cfg(feature = "mp")]
 pub(crate) fn cuts(rod: &Problem, history: &dalembert::TypedHistory<Rational>, time: &Rational) -> Vec<Rational> {
     let length = rod.rod.length.to_rational();
     let trip = history.rays(0).unwrap()[0].clone();

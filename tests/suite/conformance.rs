@@ -32,7 +32,7 @@ impl Tally {
 }
 
 /// Times at which limits differ, and others.
-fn times<S: Scalar>(motion: &dyn Motion<S>) -> Vec<S> {
+pub(crate) fn times<S: Scalar>(motion: &dyn Motion<S>) -> Vec<S> {
     let (end, rays) = (motion.end(), RayRegister::of(motion));
     let mut times = vec![end.zero(), end.clone(), end.clone() * end.ratio(3, 17), end.clone() * end.ratio(7, 9)];
     times.extend(motion.events().iter().map(|event| event.t.clone()));
@@ -45,7 +45,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>) -> Vec<S> {
 }
 
 /// What a motion answers about one time, in words, to compare orders.
-fn answers<S: Scalar>(motion: &dyn Motion<S>, points: &[S], time: &S) -> String {
+pub(crate) fn answers<S: Scalar>(motion: &dyn Motion<S>, points: &[S], time: &S) -> String {
     let ask = |side| {
         let field = |point| motion.field(point, time, side);
         (motion.strain(time, side), motion.ground_end(time, side), points.iter().map(field).collect::<Vec<_>>())
@@ -54,7 +54,7 @@ fn answers<S: Scalar>(motion: &dyn Motion<S>, points: &[S], time: &S) -> String 
 }
 
 /// Everything that can be asked of `motion` fits together; returns how many answers have been compared.
-fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
+pub(crate) fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
     let mut tally = Tally::default();
     let Scales { length, gravity, wave_speed, .. } = motion.scales();
     let (zero, end) = (length.zero(), motion.end());
@@ -152,7 +152,7 @@ fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
 }
 
 /// No time or point that is not there is answered.
-fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
+pub(crate) fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
     let (beyond, before) = (end.clone() + end.ratio(1, 8) * length, -length.one());
     for time in [beyond, before] {
         let asked = [
@@ -180,7 +180,7 @@ fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
 }
 
 /// A rod of `c = L = g = 1`.
-fn rod(speed: &str, damping: Option<&str>, run: Run) -> Problem {
+pub(crate) fn rod(speed: &str, damping: Option<&str>, run: Run) -> Problem {
     let number = |text: &str| text.parse().unwrap();
     let mut problem = Problem::uniform(number("1"), number("1"), number("1"), number(speed));
     problem.rod.damping = damping.map(number);
@@ -189,7 +189,7 @@ fn rod(speed: &str, damping: Option<&str>, run: Run) -> Problem {
 }
 
 /// Rods without damping: a uniform start, and data with corners under a held top.
-fn undamped() -> [Problem; 2] {
+pub(crate) fn undamped() -> [Problem; 2] {
     let mut held = rod("0", None, Run::Time(7.into()));
     held.rod.top = Top::Fixed;
     let points = |list: [(&str, &str); 3]| list.map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).to_vec();
@@ -199,11 +199,11 @@ fn undamped() -> [Problem; 2] {
     [rod("3/2", None, Run::Impacts(3)), held]
 }
 
-fn lattice<N: Bounded>(problem: &Problem, precision: &N::Precision) -> Undamped<N> {
+pub(crate) fn lattice<N: Bounded>(problem: &Problem, precision: &N::Precision) -> Undamped<N> {
     Undamped::solve_within(problem, precision, Limits::default(), &unobserved).unwrap()
 }
 
-fn both<S: RoundedSpecial>(precision: &S::Precision, digits: f64) -> [Arc<dyn Motion<Estimate<S>>>; 3] {
+pub(crate) fn both<S: RoundedSpecial>(precision: &S::Precision, digits: f64) -> [Arc<dyn Motion<Estimate<S>>>; 3] {
     let problem = rod("3", Some("1/10"), Run::Impacts(3));
     let bounce = FirstContact::new(&Parameters::of(&problem, precision).unwrap()).bounce();
     [
@@ -234,53 +234,5 @@ fn fractions_conform() {
     for problem in undamped() {
         let compared = conforms(&lattice::<Rational>(&problem, &()));
         assert!(compared > 250, "{compared}");
-    }
-}
-
-#[cfg(feature = "mp")]
-mod long {
-    use super::*;
-    use dalembert::number::IntervalPrecision;
-    use dalembert::solve::{Rung, Target};
-    use dalembert::{Float, Interval, Numbers, Observer, Plan, Question};
-
-    /// The planned engine in the numbers of a rung, read in numbers `S`.
-    fn read<S: Target>(problem: &Problem, rung: Rung) -> Arc<dyn Motion<S::Carried>> {
-        let question = match rung {
-            Rung::Enclosures(_) if problem.rod.damping.is_some() => Question::first_contact(Numbers::default()),
-            _ => Question::run(Numbers::default()),
-        };
-        let plan = Plan::of(problem, &question).unwrap();
-        S::run(problem, &plan, rung, &(Arc::new(unobserved) as Observer)).unwrap()
-    }
-
-    #[test]
-    fn long_numbers_conform() {
-        for problem in undamped() {
-            let in_doubles = conforms(&*read::<f64>(&problem, Rung::Bits(200)));
-            let compared = [conforms(&lattice::<Estimate<Float>>(&problem, &200)), in_doubles];
-            assert!(compared.iter().all(|compared| *compared > 250), "{compared:?}");
-        }
-        let in_doubles = conforms(&*read::<f64>(&rod("3", Some("1/10"), Run::Impacts(3)), Rung::Bits(128)));
-        assert!(in_doubles > 250, "{in_doubles}");
-        for motion in both::<Float>(&128, 20.0) {
-            let compared = conforms(&*motion);
-            assert!(compared > 250, "{compared}");
-        }
-    }
-
-    #[test]
-    fn enclosures_conform() {
-        let (precision, rung) = (IntervalPrecision::with_exact(200), Rung::Enclosures(200));
-        for problem in undamped() {
-            let (in_doubles, in_floats) =
-                (conforms(&*read::<f64>(&problem, rung)), conforms(&*read::<Float>(&problem, rung)));
-            let compared = [conforms(&lattice::<Interval>(&problem, &precision)), in_doubles, in_floats];
-            assert!(compared.iter().all(|compared| *compared > 150), "{compared:?}");
-        }
-        let problem = rod("3", Some("1/10"), Run::Impacts(1));
-        let contact = ContactHistory::<Interval>::solve(&problem, &precision).unwrap();
-        let compared = [conforms(&contact), conforms(&*read::<f64>(&problem, rung))];
-        assert!(compared.iter().all(|compared| *compared > 100), "{compared:?}");
     }
 }

@@ -120,7 +120,6 @@ fn a_question_about_the_first_contact_needs_no_cells() {
 }
 
 /// Every number within its own bound of what forty digits say.
-#[cfg(feature = "mp")]
 #[test]
 fn answers_carry_their_bounds() {
     use dalembert::Estimate;

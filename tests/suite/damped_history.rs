@@ -238,8 +238,6 @@ fn questions_outside_are_refused() {
     let jump = history.strain(&2.0, Side::Right).unwrap() - history.strain(&2.0, Side::Left).unwrap();
     close("jump", jump, 2.0 * (-0.6f64).exp(), 1.0, 1e-12);
 }
-
-#[cfg(feature = "mp")]
 mod in_many_digits {
     use super::*;
     use rug::Float;

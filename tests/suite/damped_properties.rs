@@ -184,7 +184,6 @@ fn the_undamped_lattice_is_the_limit() {
 }
 
 /// Doubles are as good as they say, against forty digits.
-#[cfg(feature = "mp")]
 #[test]
 fn doubles_keep_their_promise() {
     use dalembert::EventKind;

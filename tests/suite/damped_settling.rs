@@ -3,8 +3,9 @@
 
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
-use dalembert::engine::{ContactThenCells, Damped, FirstContact, Modal, Motion};
+use dalembert::engine::{ContactThenCells, Damped, FirstContact, Motion};
 use dalembert::{Ending, Error, Estimate, Number, Parameters, Problem, Profile, Run, Side, Start, Top};
+use dalembert_verify::modal::Modal;
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {
@@ -172,7 +173,7 @@ fn late_in_a_contact_every_value_is_within_its_bound() {
                 let apart = (ours.value() - truth.value()).abs();
                 assert!(apart <= ours.bound() + truth.bound(), "r = {damping}, t = {t}: {ours:?} {truth:?}");
                 // Longer numbers are taken where there are any.
-                let settled = ours.bound() <= 1e-8 || cfg!(not(feature = "mp"));
+                let settled = ours.bound() <= 1e-8;
                 assert!(settled && truth.bound() <= 1e-8, "r = {damping}, t = {t}: {ours:?} {truth:?}");
             }
         }
@@ -181,7 +182,6 @@ fn late_in_a_contact_every_value_is_within_its_bound() {
 
 /// A landing all but meets a ray, and what is left of the vibration is a sliver of 10⁻⁶ of the rod: its energy is off
 /// by what the sliver's width is, which is much against the root of its mean square.
-#[cfg(feature = "mp")]
 #[test]
 fn the_energy_of_a_sliver_is_within_its_bound() {
     let rods = [

@@ -79,7 +79,6 @@ fn every_first_contact_in_doubles() {
 }
 
 /// Thirty digits of everything, each relative to itself.
-#[cfg(feature = "mp")]
 #[test]
 fn every_first_contact_to_thirty_digits() {
     use rug::{Float, Rational};
@@ -150,8 +149,6 @@ fn late(damping: &str) -> Problem {
     problem.rod.damping = Some(damping.parse().unwrap());
     problem
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn late_bounces_are_no_rounding_noise() {
     for (damping, truth) in [
@@ -190,17 +187,12 @@ fn the_threshold_of_the_first_bounce() {
     };
     let below = near("2.59364495455930337818987448");
     assert!(below > 2.0 && below < 2.0 + 1e-9, "{below}");
-    // Within 1e-12 of the threshold doubles alone say that they cannot tell.
-    if cfg!(not(feature = "mp")) {
-        return;
-    }
     let left = near("2.59364495456019330337818987448");
     assert!((2.0..2.0 + 1e-11).contains(&left), "{left}");
     assert_eq!(near("2.59364495456019530337818987448"), 2.0);
 }
 
 /// Every accuracy that is asked for is met, by the history in many bits and by what the error estimate says.
-#[cfg(feature = "mp")]
 #[test]
 fn the_ladder_of_accuracies() {
     let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Time(11.into()));
@@ -221,7 +213,6 @@ fn the_ladder_of_accuracies() {
 }
 
 /// Later impacts to fifty digits: two runs of different precision agree in all of them.
-#[cfg(feature = "mp")]
 #[test]
 fn later_impacts_to_fifty_digits() {
     let mut problem = crate::common::uniform("1", "1", "1", "1", Run::Time(13.into()));
@@ -237,7 +228,6 @@ fn later_impacts_to_fifty_digits() {
 }
 
 /// A thousand digits of the first contact: the closed form at two precisions.
-#[cfg(feature = "mp")]
 #[test]
 fn a_first_contact_to_a_thousand_digits() {
     let digits = |n: u32| late("2.6").digits(n).unwrap().events()[1].t.clone();
@@ -248,7 +238,6 @@ fn a_first_contact_to_a_thousand_digits() {
 
 /// The times of ten impacts are known as well as was asked for, relative to the greatest number of the answer, and the
 /// bound of the whole run covers what many digits say.
-#[cfg(feature = "mp")]
 #[test]
 fn ten_impacts_know_how_far_they_are_off() {
     for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {

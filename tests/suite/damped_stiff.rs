@@ -3,7 +3,6 @@
 
 use crate::common::{number, reference};
 use crate::stripped::Stripped;
-#[cfg(feature = "mp")]
 use crate::stripped::damped;
 use dalembert::engine::{ContactThenCells, FirstContact, Motion};
 use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start, Warning};
@@ -95,7 +94,6 @@ fn a_leap_can_be_asked_at_any_time() {
 }
 
 /// The march in forty digits, and that in doubles, of a rod that flies hundreds of round trips.
-#[cfg(feature = "mp")]
 #[test]
 fn longer_numbers_agree() {
     use rug::Float;

@@ -43,10 +43,8 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     let fixed = weak.to_builder().fixed_top().build().unwrap();
     assert_eq!(plan(&fixed, Question::run(doubles)).engine, Engine::Cells);
     // Proofs of a damped rod go through all of its impacts.
-    if cfg!(feature = "mp") {
-        assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::ClosedFormThenCells);
-        assert_eq!(plan(&fixed, Question::run(Numbers::Certified(20))).engine, Engine::Cells);
-    }
+    assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::ClosedFormThenCells);
+    assert_eq!(plan(&fixed, Question::run(Numbers::Certified(20))).engine, Engine::Cells);
 }
 
 /// `t_b`, the impulse, `e_E²` and `E_z` that are asked for alone are those of the whole first contact, within the
@@ -87,16 +85,6 @@ fn what_cannot_be_planned_is_refused_before_it_runs() {
     assert!(matches!(refused(&damped("0.1", "3"), Numbers::Exact), Error::DampedExact { .. }));
 }
 
-/// Without the feature the same program compiles, and what needs it is an error that names it.
-#[cfg(not(feature = "mp"))]
-#[test]
-fn without_long_numbers_they_are_an_error() {
-    assert_eq!(rod("3").digits(20).unwrap_err(), Error::NoMultiprecision);
-    assert_eq!(rod("3").certified(20).unwrap_err(), Error::NoMultiprecision);
-    let then_digits = Question::run(Numbers::ExactThenDigits(20));
-    assert_eq!(Plan::of(&rod("3"), &then_digits).unwrap_err(), Error::NoMultiprecision);
-}
-
 /// A landing as a ray arrives: fractions say that they meet, in every build. Where the time of the meeting is no
 /// fraction, only roots do, and a build without them warns.
 #[test]
@@ -109,14 +97,13 @@ fn a_meeting_is_decided_by_fractions() {
     assert_eq!((history.rung(), history.warnings()), (dalembert::solve::Rung::Fractions, vec![]));
     let warnings = solved("mu-1-period-36").warnings();
     let undecided = matches!(warnings[..], [dalembert::Warning::Coincidence { .. }]);
-    assert_eq!(undecided, cfg!(not(feature = "mp")), "{warnings:?}");
+    assert!(!undecided, "{warnings:?}");
     // Corollary 1, without any error.
     let exact = rod("3").exact().unwrap();
     assert_eq!(exact.text(exact.contacts()[0].release.as_ref().unwrap()), "2");
 }
 
 /// μ = 1 lands without speed at t = 31: a double root, at which 1000 digits need exact roots. `--digits` has them too.
-#[cfg(feature = "mp")]
 #[test]
 fn digits_never_fail_where_proofs_succeed() {
     let rod = rod("1").to_builder().time(72).build().unwrap();
@@ -149,7 +136,6 @@ fn a_value_is_the_same_alone_and_among_others() {
 }
 
 /// Doubles whose bound is above the accuracy take longer numbers: μ = 3/2 has lost all digits of a double by t = 120.
-#[cfg(feature = "mp")]
 #[test]
 fn doubles_turn_to_longer_numbers_by_themselves() {
     let near = rod("3/2").to_builder().time(20).build().unwrap().doubles().unwrap();

@@ -69,7 +69,6 @@ fn reference_in_doubles() {
 }
 
 /// The plan adds bits where doubles leave it open.
-#[cfg(feature = "mp")]
 #[test]
 fn reference_to_an_accuracy() {
     for case in crate::common::reference("first_contact") {
@@ -83,15 +82,12 @@ fn reference_to_an_accuracy() {
         }
     }
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn reference_in_forty_digits() {
     reference::<rug::Float>(&256, 1e-42, |contact| contact.bounce());
 }
 
 /// g = 0, t₁ = 1, μ = 1: terms e^{rt}, sum O(t).
-#[cfg(feature = "mp")]
 #[test]
 fn close_to_the_overdamped_rod() {
     let late = [
@@ -130,7 +126,6 @@ fn close_to_the_overdamped_rod() {
 
 /// g = 0, r = 3.135, at 12 t₁: 15 digits are gone, and longer numbers are taken for them. The truth is the sum in 1024
 /// bits. Where nothing cancels, doubles are enough.
-#[cfg(feature = "mp")]
 #[test]
 fn lost_digits_are_noticed_and_fetched() {
     use dalembert::solve::Rung;
@@ -177,7 +172,6 @@ fn lost_digits_are_noticed_and_fetched() {
 }
 
 /// The doubles next to π.
-#[cfg(feature = "mp")]
 #[test]
 fn on_both_sides_of_pi() {
     let above = rod(3.141_592_653_589_793_6, 0.0, 0.5, 1.0);
@@ -201,7 +195,7 @@ fn the_jump_at_the_threshold() {
 #[test]
 fn every_size_of_speed_and_damping_is_answered() {
     // Doubles alone say how far they got.
-    let accuracy = if cfg!(feature = "mp") { 1e-12 } else { 1e-9 };
+    let accuracy = 1e-12;
     for damping in [0.0, 1e-300, 1e-9, 1e-4, 0.1, 0.5, 0.9, 1.2, 1.5, 3.0, 25.0, 5e3] {
         for speed in [1e-8, 1e-4, 0.1, 1.0, 1.9, 2.1, 10.0, 1e4, 1e8] {
             let found = first_contact(&parameters(damping, 1.0, 1.0, speed), 1e-12);
@@ -214,11 +208,6 @@ fn every_size_of_speed_and_damping_is_answered() {
                     }
                 }
                 (None, Ending::NoBounce(_)) => assert!(damping >= 1e-8, "{damping} {speed}"),
-                // Doubles alone may say that they do not know; with longer numbers at hand that is no answer.
-                (None, Ending::Undecided(Reason::Doubt(why))) => {
-                    assert!(why.needs_bits() && cfg!(not(feature = "mp")), "{damping} {speed}: {why}");
-                    println!("r = {damping}, μ = {speed}: {why}");
-                }
                 (None, other) => panic!("{damping} {speed}: {other}"),
             }
         }

@@ -71,8 +71,6 @@ fn reference<S: RoundedSpecial>(precision: &S::Precision, accuracy: f64) {
 fn reference_in_doubles() {
     reference::<f64>(&(), 1e-12);
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn reference_in_many_digits() {
     reference::<rug::Float>(&200, 1e-33);
@@ -100,7 +98,6 @@ fn vibrations_of_order_r_to_the_fourth() {
         let ratio = energy.vibrational.value() / 0.5 / r.powi(4);
         assert!((ratio - 1.0 / 48.0).abs() < 0.1 * r + 1e-15, "{damping}: {ratio}");
     }
-    #[cfg(feature = "mp")]
     for (damping, speed) in [(0.0024f64, 100.0f64), (0.1, 5.0), (0.4, 50.0), (0.5, 1e9)] {
         let short = rod(damping, 1.0, speed).energy(&known(2.0)).vibrational;
         let lift = |x: f64| rug::Float::with_val(400, x);

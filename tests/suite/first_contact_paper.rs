@@ -2,7 +2,7 @@
 
 use dalembert::engine::FirstContact;
 use dalembert::{Estimate, Parameters, Side};
-use dalembert_verify::paper::Printed;
+use dalembert_verify::paper::PrintedIntegrals;
 
 fn known(x: f64) -> Estimate<f64> {
     Estimate::exact(x)
@@ -12,7 +12,7 @@ fn known(x: f64) -> Estimate<f64> {
 fn closed_forms_are_the_paper_s_integrals() {
     for [l, c, r, g, mu] in [[1.0, 1.5, 0.7, 0.9, 1.3], [0.5, 1.0, 2.6, 0.0, 1.0], [2.0, 1.0, 0.05, 3.0, 0.2]] {
         let rod = Parameters { length: l, wave_speed: c, damping: r, gravity: g, speed: mu };
-        let (contact, paper) = (FirstContact::new(&rod.carry()), Printed::new(&rod, 1e-6));
+        let (contact, paper) = (FirstContact::new(&rod.carry()), PrintedIntegrals::new(&rod, 1e-6));
         let t1 = 2.0 * l / c;
         let speed = mu + g * t1;
         for trips in [0.13, 0.71, 1.37, 2.62] {

@@ -69,8 +69,6 @@ fn values<S: RoundedSpecial>(precision: &S::Precision, accuracy: f64) {
 fn values_in_doubles() {
     values::<f64>(&(), 1e-12);
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn values_in_forty_digits() {
     values::<rug::Float>(&160, 1e-37);

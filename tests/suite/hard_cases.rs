@@ -2,8 +2,9 @@
 //! `check`.
 
 use crate::common::{bounce_time, first_contact};
-use dalembert::engine::{FirstContact, Modal};
+use dalembert::engine::FirstContact;
 use dalembert::{Ending, Estimate, Parameters, Reason, Side};
+use dalembert_verify::modal::Modal;
 
 fn rod(damping: f64, gravity: f64, length: f64, speed: f64) -> Parameters<f64> {
     Parameters { length, wave_speed: 1.0, damping, gravity, speed }
@@ -78,8 +79,8 @@ fn strong_damping_diffuses() {
     }
 }
 
-/// Below R = π the bounce is late, and never a rounding error; so close to π that it cannot be found, it is undecided.
-/// That there is none from π on stands in the catalogue of `check`.
+/// Below R = π the bounce is late, and never a rounding error; so close to π that it cannot be found, it is undecided,
+/// which takes longer numbers to say. The catalogue of `check` shows that there is none from π on.
 #[test]
 fn below_pi() {
     for damping in [2.0, 2.5, 2.9, 3.0, 3.1] {

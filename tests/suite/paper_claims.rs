@@ -1,8 +1,9 @@
 //! What the paper says of whole curves: each follows from a formula that is evaluated here on its own. Single numbers
 //! stand in the catalogue of `check`.
 
-use dalembert::engine::{Bounce, BounceKind, FirstContact, Modal};
+use dalembert::engine::{Bounce, BounceKind, FirstContact};
 use dalembert::{Estimate, Parameters, Side};
+use dalembert_verify::modal::Modal;
 use dalembert_verify::paper::UndampedContact;
 
 fn rod(damping: f64, gravity: f64, speed: f64) -> Parameters<f64> {

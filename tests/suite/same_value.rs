@@ -310,7 +310,6 @@ fn before_the_start_there_is_what_is_given() {
 }
 
 /// The top of a rod whose length no double holds is its top in longer numbers as well.
-#[cfg(feature = "mp")]
 #[test]
 fn the_top_is_the_top_in_longer_numbers() {
     let number = |text: &str| text.parse::<Number>().unwrap();

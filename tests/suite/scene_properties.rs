@@ -149,7 +149,6 @@ proptest! {
         let (a, b) = (signed(&a.1, negate.0), signed(&b.1, negate.1));
         prop_assert_eq!(a.compare(&b), b.compare(&a).reverse());
         prop_assert!(a.compare(&a).is_eq());
-        #[cfg(feature = "mp")]
         prop_assert_eq!(a.compare(&b), a.to_rational().cmp(&b.to_rational()));
     }
 }

@@ -1,9 +1,7 @@
 //! A rod that starts above the ground: the touch by hand, and after it the motion of the rod that touches at `t = 0`.
 
 use dalembert::{Ending, EventKind, Number, Problem, Side, Start};
-#[cfg(feature = "mp")]
 use dalembert::{Run, Top};
-#[cfg(feature = "mp")]
 use proptest::prelude::*;
 
 use crate::common::close;
@@ -103,7 +101,6 @@ fn it_goes_back_to_a_builder() {
 
 /// The gap, the speed, the gravity and the time `τ` of the touch of a random scene, whose numbers are all rational:
 /// gap = μτ + gτ²/2; and the same rod that touches at t = 0 with μ + gτ.
-#[cfg(feature = "mp")]
 fn pairs() -> impl Strategy<Value = (Problem, Problem, rug::Rational)> {
     let small = || (1i64..=9, 1i64..=5).prop_map(rug::Rational::from);
     let gravity = prop::option::weighted(0.7, small());
@@ -122,8 +119,6 @@ fn pairs() -> impl Strategy<Value = (Problem, Problem, rug::Rational)> {
         (rod.impact_speed(mu).gap(gap).build().unwrap(), touching, tau)
     })
 }
-
-#[cfg(feature = "mp")]
 mod shifted {
     use super::*;
     use dalembert::Side;
@@ -263,7 +258,6 @@ fn a_damped_flight_by_hand() {
 
 /// Under damping and gravity the fall h(t) has one zero, found here by bisection in 200 bits, and the motion after
 /// it is that of the rod that touches with that speed.
-#[cfg(feature = "mp")]
 #[test]
 fn a_damped_fall_against_bisection() {
     use rug::Float;
@@ -303,7 +297,6 @@ fn a_damped_fall_against_bisection() {
 }
 
 /// A start above the ground is proved, damped or not.
-#[cfg(feature = "mp")]
 #[test]
 fn what_is_proved() {
     let damped = above("1", "1", "4").damping("0.1").build().unwrap();

@@ -3,10 +3,11 @@
 //! more than their bounds.
 
 use crate::common::{number, reference};
-use dalembert::engine::{FirstContact, Modal, Motion};
+use dalembert::engine::{FirstContact, Motion};
 use dalembert::number::{Answer, Rounded};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Estimate, Parameters, Run, Side};
+use dalembert_verify::modal::Modal;
 
 /// Two values within their bounds, and bounds that say something: below `useful` of `scale`.
 fn agree<S: Rounded>(what: &str, a: &Estimate<S>, b: &Estimate<S>, scale: f64, useful: f64) {
@@ -88,12 +89,10 @@ fn the_reference_cases() {
         }
     }
     all::<f64>(&(), 1024, 1e-10);
-    #[cfg(feature = "mp")]
     all::<rug::Float>(&200, 128, 1e-10);
 }
 
 /// The rate that is promised, `N^{1−K−p}`: with K = 8 each doubling divides the bound of the stress by 2⁷.
-#[cfg(feature = "mp")]
 #[test]
 fn the_rate_of_convergence() {
     let lift = |x: f64| rug::Float::with_val(300, x);

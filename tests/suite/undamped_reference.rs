@@ -58,7 +58,6 @@ fn all_events_in_double_precision() {
 }
 
 /// 38 digits, as they are printed. The numbers of the reference have 40.
-#[cfg(feature = "mp")]
 #[test]
 fn all_events_to_38_digits() {
     use dalembert::number::decimal;

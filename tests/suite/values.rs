@@ -1,8 +1,9 @@
 //! The history without a number type: its values against pencil and paper, and against the typed history.
 
 use dalembert::number::List;
+use dalembert::quantity::Table;
 use dalembert::quantity::{Slice, UnitSystem};
-use dalembert::solve::{Listing, Places, StressForm};
+use dalembert::solve::{Places, StressForm};
 use dalembert::{Error, Numbers, Problem, Quantity, Side, Value};
 
 /// `ρS = 2`, `c = 2`, `t₁ = 1`, and `M = μ/(g t₁) = 3`.
@@ -59,7 +60,7 @@ fn every_question_agrees_with_the_typed_history() {
     assert_eq!((found.velocity.to_f64(), found.velocity.unit()), (-3.125, "m/s"));
     let listing = history.listing(Some(StressForm::Series), true).unwrap();
     assert_eq!((listing.events.len(), listing.contacts.len(), listing.stress.len()), (2, 1, 2));
-    assert_eq!(listing.contacts[0].len(), Listing::CONTACTS.len());
+    assert_eq!(listing.contacts[0].len(), Table::Contacts.quantities().len());
     assert!(history.in_units(UnitSystem::Si).units().has_material());
 }
 

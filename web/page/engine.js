@@ -1,17 +1,17 @@
-// The engine: in a worker, so that the page never waits for it; in the page itself where a browser gives it no worker.
+// The engine runs in a worker, so that the page stays free; in the page itself if the browser allows no worker.
 
-/** Answers what the page asks. The worker runs its text: it uses nothing but `wasm_bindgen`. */
+/** Returns the functions that answer the page. The worker runs their source text: it may use only `wasm_bindgen`. */
 function answers() {
   let [run, shown] = [null, 0];
-  const of = (number, ask) => (number === shown ? ask() : null);
+  const ifShown = (number, ask) => (number === shown ? ask() : null);
   const drawn = (picture) => {
-    const { svg, greatest } = picture;
+    const { svg, colorLimit } = picture;
     picture.free();
-    return { svg, greatest };
+    return { svg, colorLimit };
   };
   return {
     load: (module) => wasm_bindgen({ module_or_path: module }).then(() => true),
-    /** All that is shown of a scene at once; later questions name it by its number. */
+    /** Solves a scene and returns all that is shown at once; later questions name the scene by its number. */
     solve(number, text, milliseconds) {
       const fresh = new wasm_bindgen.Run(text, milliseconds);
       try {
@@ -28,13 +28,13 @@ function answers() {
         throw error;
       }
     },
-    at: (number, time, ...look) => of(number, () => ({ values: run.at(time), rod: run.rod(time, ...look) })),
-    screen: (number, ...rest) => of(number, () => drawn(run.screen(...rest))),
-    page: (number, ...span) => of(number, () => drawn(run.page(...span))),
+    at: (number, time, ...look) => ifShown(number, () => ({ values: run.at(time), rod: run.rod(time, ...look) })),
+    screen: (number, ...rest) => ifShown(number, () => drawn(run.screen(...rest))),
+    page: (number, ...span) => ifShown(number, () => drawn(run.page(...span))),
   };
 }
 
-/** What the worker runs after the glue. */
+/** Answers the messages of the page; the worker runs it after the glue. */
 function serve() {
   const here = answers();
   onmessage = async ({ data: [id, what, values] }) => {
@@ -47,7 +47,7 @@ function serve() {
 }
 
 export class Engine {
-  /** Unpacks the module and starts. */
+  /** Unpacks the module and starts the worker. */
   async load(packed, glue) {
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     const module = await new Response(stream).arrayBuffer();
@@ -69,7 +69,7 @@ export class Engine {
     }
   }
 
-  /** A promise of the answer; null for a scene that is no longer the last one solved. */
+  /** Returns a promise of the answer, which is null if another scene has been solved meanwhile. */
   ask(what, ...values) {
     if (this.worker) {
       return new Promise((take, refuse) => {
@@ -78,7 +78,7 @@ export class Engine {
         this.worker.postMessage([id, what, values]);
       });
     }
-    // Frames are drawn in between.
+    // The timeout lets the browser draw a frame.
     return new Promise((take) => setTimeout(take)).then(() => this.here[what](...values)).catch((error) => {
       throw { message: error.message, failed: error instanceof WebAssembly.RuntimeError };
     });

@@ -1,25 +1,25 @@
-// The page: what its parts do together.
+// The page: connects the engine, the pictures, the sliders and the link.
 import { PRESETS } from "./presets.js";
 import { command, fragment, read, scene, toml, value } from "./scene.js";
 import { Engine } from "./engine.js";
 import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
-/** Milliseconds that a scene may take. */
+/** Time limit of a scene in milliseconds. */
 const MOST = 1000;
 const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
 
 const $ = (id) => document.getElementById(id);
 const engine = new Engine();
 const diagram = new Diagram($("diagram"), engine);
-/** The solved scene, the time of the cursor, the times that are shown, and what goes on. */
+/** Solved scene, time of the cursor, times that are shown, whether the motion plays, time and id of its last frame. */
 let [shot, now, view, playing, last, frame] = [null, 0, null, false, 0, 0];
-/** The scene to be solved next, its number, whether the cursor has moved, and what is under way. */
+/** Scene to be solved next, number of the last one, whether the cursor has moved, and the running tasks. */
 let [wanted, number, moved, solving, posing, doing] = [null, 0, false, null, null, 0];
 
 /**
- * Solves the scene and shows it, from its start if it is another one. While one is being solved, the newest of those
- * that come waits, and no other.
+ * Solves the scene and shows it; `another` scene is shown from its start. While a scene is being solved, only the
+ * newest of the following ones is kept.
  */
 function solve(another = false) {
   const round = (2 * value(scene.L)) / value(scene.c);
@@ -38,7 +38,7 @@ function solve(another = false) {
   }));
 }
 
-/** Does what takes time, and says so meanwhile. */
+/** Runs a task, during which the page is marked as busy. */
 async function busily(act) {
   doing += 1;
   document.documentElement.dataset.busy = "";
@@ -51,18 +51,18 @@ async function busily(act) {
   if (doing === 0) delete document.documentElement.dataset.busy;
 }
 
-/** The spans that the pictures can show: the whole run, what `plot` shows of it, the first flight. */
+/** Spans that the pictures can show: the whole run, the default of `plot`, the first flight. */
 const SPANS = {
   all: () => ({ from: 0, to: shot.end }),
   contacts: () => ({ from: shot.span[0], to: shot.span[1] }),
   flight: () => ({ from: shot.events[1] ?? 0, to: shot.events[2] ?? shot.end }),
 };
 
-/** Of a stiff rod the contact would be a line in the whole run: less than a fiftieth of it. */
+/** Returns the span that is chosen first: not the whole run if the contact is shorter than a fiftieth of it. */
 const natural = () => (shot.events[1] < shot.end / 50 ? "contacts" : "all");
 
 function show(fresh) {
-  // What another rod is shown by is not chosen for this one.
+  // A span chosen for another rod is not kept.
   const span = fresh.another || !view || $("span").value === natural() ? null : $("span").value;
   shot = fresh;
   now = fresh.another ? 0 : within(now);
@@ -75,7 +75,7 @@ function show(fresh) {
   return draw();
 }
 
-/** The answer to a scene; null, with the reason shown, where there is none. */
+/** Returns the answer to a scene; null, after showing the reason, if there is none. */
 async function solved({ text, ...rest }) {
   try {
     performance.mark("asked");
@@ -90,20 +90,20 @@ async function solved({ text, ...rest }) {
   }
 }
 
-/** Shows why there is no answer. */
+/** Shows the reason for which there is no answer. */
 function refused(error) {
   const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
   const failed = "The engine has failed at this scene; please report it, and load the page again";
   say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
 }
 
-/** A text with its subscripts: `E_h` in parts, every other one a subscript. */
-const written = (text) => text.split(/_([A-Za-z])/).map((part, k) => {
+/** Splits a text such as `E_h` into parts, of which every other one is a subscript. */
+const withSubscripts = (text) => text.split(/_([A-Za-z])/).map((part, k) => {
   if (k % 2 === 0) return part;
   return Object.assign(document.createElement("sub"), { textContent: part });
 });
 
-/** Shows a mistake, or what doubles do not settle. */
+/** Shows a mistake, or the doubts: sentences about results that doubles do not settle. */
 function say(mistake, doubts) {
   const text = mistake || doubts.map((doubt) => `Not settled by doubles: ${doubt}.`).join(" ");
   $("doubt").textContent = text;
@@ -111,13 +111,13 @@ function say(mistake, doubts) {
   $("beyond").hidden = doubts.length === 0;
 }
 
-/** Shows a span by its name, which stands in the choice until another time is shown. */
+/** Shows a span by its name, which stays selected until another span is shown. */
 function setSpan(name) {
   view = SPANS[name]();
   $("span").value = name;
 }
 
-/** What the pictures show, for those who do not see them. */
+/** Describes the pictures for readers who do not see them. */
 function describe() {
   const shown = `from t = ${Number(view.from.toPrecision(4))} to ${Number(view.to.toPrecision(4))}`;
   const strain = Number(shot.strain.toPrecision(3));
@@ -128,7 +128,7 @@ function describe() {
     + `${shot.events.filter((time) => time <= now).length % 2 ? "on the ground" : "in flight"}.`);
 }
 
-/** The pictures over time; then the cursor stands where it is in them, and the rod has their colours. */
+/** Draws the pictures over time, then moves the cursor to its place in them and draws the rod in their colours. */
 const draw = () => busily(async () => {
   describe();
   if (!await diagram.show(shot, view)) return;
@@ -143,7 +143,7 @@ function schedule() {
 function tick(time) {
   frame = 0;
   if (!playing) return;
-  // A frame's time may be that of its beginning, before the key was pressed.
+  // The frame may have begun before the key was pressed.
   const passed = Math.min(Math.max(time - last, 0), 100) / 1000;
   const next = now + passed * Number($("speed").value) * 0.75 * shot.round;
   if (next >= shot.end) play(false);
@@ -153,7 +153,7 @@ function tick(time) {
   schedule();
 }
 
-/** Turns the pages of the pictures where the cursor leaves them. */
+/** Shows the following or the previous span if a time is outside the pictures. */
 function follow(time) {
   const wide = view.to - view.from;
   if (time <= view.to && time >= view.from) return;
@@ -175,12 +175,12 @@ function play(on) {
   else settle();
 }
 
-/** How many times what fits displacements are enlarged; undefined: they are as they are. */
+/** Returns the enlargement of displacements, relative to the one that fits; undefined draws them to scale. */
 const enlarged = () => ($("drawn").value === "true" ? undefined : Number($("drawn").value));
 
 const within = (time) => Math.max(0, Math.min(time, shot.end));
 
-/** Puts the cursor at a time; the rod and the values there follow. */
+/** Moves the cursor to a time, and shows the rod and the values there. */
 function moveTo(time) {
   now = within(time);
   $("now").value = now.toFixed(places());
@@ -193,13 +193,13 @@ function moveTo(time) {
   return pose();
 }
 
-/** Asks for the rod and the values at the cursor. While that is asked, the newest place of the cursor waits. */
+/** Asks for the rod and the values at the cursor. Meanwhile only the newest place of the cursor is kept. */
 function pose() {
   moved = true;
   return (posing ??= (async () => {
     while (moved) {
       moved = false;
-      const look = [...sized($("rod"), 176), enlarged(), diagram.greatest];
+      const look = [...sized($("rod"), 176), enlarged(), diagram.colorLimit];
       const found = await engine.ask("at", shot.number, now, ...look).catch(refused);
       if (!found) continue;
       const [h, E, E_h, E_z, end, strain] = found.values;
@@ -210,16 +210,16 @@ function pose() {
   })());
 }
 
-/** Decimals that tell two thousand of the times that are shown apart. */
+/** Returns the decimals that distinguish two thousand times of the span. */
 const places = () => Math.max(0, Math.min(12, 4 - Math.floor(Math.log10(view.to - view.from))));
 
-/** A time as it is shown, so that the link and the command can repeat it. */
+/** Rounds a time as it is shown, so that the link and the command can repeat it. */
 const rounded = (time) => Number(time.toFixed(places()));
 
-/** The first time from an event on that is shown as it is. */
+/** Returns the first rounded time that is not before an event. */
 const justAfter = (time) => rounded(time + (rounded(time) < time - 1e-12 * shot.end ? 10 ** -places() : 0));
 
-/** After the cursor has come to rest: the link, and a word for those who listen. */
+/** Updates the link and the spoken text after the cursor has come to rest. */
 const settle = () => busily(async () => {
   const there = moveTo(rounded(now));
   history.replaceState(null, "", fragment($("now").value));
@@ -248,7 +248,7 @@ function fill(list, values) {
         box.style.background = `var(--${swatch})`;
         term.append(box);
       }
-      term.append(...written(name));
+      term.append(...withSubscripts(name));
       term.dataset.name = name;
       return [term, document.createElement("dd")];
     }));
@@ -256,11 +256,12 @@ function fill(list, values) {
   texts.forEach(([, text], k) => { list.children[2 * k + 1].textContent = text.replace("-", "−"); });
 }
 
-/** A mistake with the name that the field of the page has: there are no lines to be seen here. */
+/** Names of the fields of the page by the keys of the scene. */
 const NAMES = { length: "L", wave_speed: "c", damping: "r", speed: "μ", acceleration: "g" };
+/** Replaces the key in a mistake by the name of the field. */
 const named = (mistake) => mistake.replace(/^found (\w+)(?= = )/, (all, key) => `found ${NAMES[key] ?? key}`);
 
-/** The contact that the cursor is in, or the one before it. */
+/** Shows the contact at the cursor, or the one before it. */
 function showContact() {
   let k = 0;
   while (shot.events[2 * k + 2] <= now) k += 1;
@@ -268,7 +269,7 @@ function showContact() {
   if (rows[k]?.getAttribute("aria-current") !== "true") {
     rows.forEach((row) => row.removeAttribute("aria-current"));
     rows[k]?.setAttribute("aria-current", "true");
-    // Only the table moves, not the page.
+    // The table is scrolled, and the page is not.
     $("contacts").parentElement.scrollTop = rows[k] ? rows[k].offsetTop - 2 * rows[k].offsetHeight : 0;
   }
   if (rows.length === 0) {
@@ -285,7 +286,7 @@ function fillContacts() {
     const made = document.createElement("tr");
     made.append(...cells.map((cell) => {
       const place = document.createElement(tag);
-      place.append(...(typeof cell === "string" ? written(cell) : [cell]));
+      place.append(...(typeof cell === "string" ? withSubscripts(cell) : [cell]));
       return place;
     }));
     return made;
@@ -306,7 +307,7 @@ function fillContacts() {
   }));
 }
 
-/** Shows less or more of the time, around the cursor or a place. */
+/** Changes the span by a factor, around a time. */
 function zoom(factor, around = now) {
   const wide = Math.min(Math.max((view.to - view.from) * factor, shot.end / 1000), shot.end);
   const part = (around - view.from) / (view.to - view.from);
@@ -318,7 +319,7 @@ function zoom(factor, around = now) {
 
 async function choose(k) {
   Object.assign(scene, PRESETS[k].scene);
-  $("story").replaceChildren(...written(PRESETS[k].story));
+  $("story").replaceChildren(...withSubscripts(PRESETS[k].story));
   sliders.refit();
   mark();
   await solve(true);
@@ -326,12 +327,12 @@ async function choose(k) {
   if (shot) play(!still);
 }
 
-/** Marks the story whose scene is shown, if one is. */
+/** Marks the story whose scene is shown, if there is one. */
 function mark() {
-  const same = ({ scene: told }) => Object.entries(told).every(([name, text]) => String(scene[name]) === String(text));
+  const same = (story) => Object.entries(story.scene).every(([name, text]) => String(scene[name]) === String(text));
   const found = PRESETS.findIndex(same);
   [...$("presets").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === found)));
-  $("story").replaceChildren(...(found >= 0 ? written(PRESETS[found].story) : []));
+  $("story").replaceChildren(...(found >= 0 ? withSubscripts(PRESETS[found].story) : []));
 }
 
 function setTheme(dark) {
@@ -354,7 +355,7 @@ async function copy(text, what) {
   $("done").value = `${what} copied`;
 }
 
-/** Saves a file under its name. */
+/** Saves data as a file. */
 function keep(blob, name) {
   const link = document.createElement("a");
   Object.assign(link, { href: URL.createObjectURL(blob), download: name }).click();
@@ -362,7 +363,7 @@ function keep(blob, name) {
   $("done").value = `${name} saved`;
 }
 
-/** The pictures of the times that are shown, as `dalembert plot` writes them. */
+/** Returns the pictures of the span as the SVG that `dalembert plot` writes. */
 async function sheet() {
   const span = $("span").value === "contacts" ? [] : [view.from, view.to];
   const found = await engine.ask("page", shot.number, ...span);
@@ -374,7 +375,7 @@ async function saveSvg() {
   if (blob) keep(blob, "dalembert.svg");
 }
 
-/** The same with 300 points for an inch. */
+/** Saves the same picture as PNG with 300 pixels an inch. */
 async function savePng() {
   const blob = await sheet();
   if (!blob) return;
@@ -441,14 +442,14 @@ function listen() {
   new ResizeObserver(() => shot && draw()).observe($("pictures"));
 }
 
-/** Takes scene and time from the link. */
+/** Shows the scene and the time of the link. */
 async function open() {
   const time = read(location.hash);
   sliders.refit();
   mark();
   await solve(true);
   if (!shot) {
-    // Nothing can be shown of what the link says: the first story stands in for it, and the mistake stays.
+    // The scene of the link cannot be shown: the first story takes its place, and the mistake stays.
     const mistake = $("doubt").textContent;
     Object.assign(scene, PRESETS[0].scene);
     sliders.refit();

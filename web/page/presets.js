@@ -1,4 +1,4 @@
-// Scenes that tell a story, in three sentences each.
+// Scenes with a story of a few sentences each.
 export const PRESETS = [
   {
     name: "A rod dropped on the ground",

@@ -1,7 +1,7 @@
-// The values of the scene: sliders, fields, and the two numbers that decide everything.
+// Sliders and fields of the values, and of the two dimensionless numbers on which the motion depends.
 import { scene, short, value } from "./scene.js";
 
-/** What a slider sets, its unit in the scene, and from which `g t₁`, `t₁` its other number follows. */
+/** Values that have a slider, each with its symbol, its label and the dimensionless number that follows from it. */
 const VALUES = [
   { name: "mu", symbol: "μ", label: "μ, impact speed", ratio: "M", title: "M = μ/(g t₁)" },
   { name: "r", symbol: "r", label: "r, damping", ratio: "R", title: "R = r t₁" },
@@ -11,13 +11,13 @@ const NOTCHES = 400;
 
 const round = () => (2 * value(scene.L)) / value(scene.c);
 
-/** The least of 1, 2, 5, 10, … that is not below x. */
+/** Returns the least of 1, 2 and 5 times a power of ten that is not below x. */
 function nice(x) {
   const unit = 10 ** Math.floor(Math.log10(x));
   return [1, 2, 5, 10].find((k) => k * unit >= x * (1 - 1e-12)) * unit;
 }
 
-/** The right end of a slider: so that its value stands in the left half. */
+/** Returns the right end of a slider, chosen so that its value is in the left half. */
 function range(name) {
   const given = value(scene[name]);
   if (name === "r") return Math.max(4 / round(), nice(given || 1e-9) * (given > 4 / round() ? 2 : 0));
@@ -26,7 +26,7 @@ function range(name) {
 }
 
 export class Sliders {
-  /** Fills `place`; calls `changed` after every change of the scene. */
+  /** Adds the fields to an element; calls `changed` after every change of the scene. */
   constructor(place, changed) {
     this.changed = changed;
     this.fields = {};
@@ -87,13 +87,13 @@ export class Sliders {
     else this.set("mu", short(given * value(scene.g) * round()));
   }
 
-  /** Shows the scene, with sliders that reach as far as its values ask for. */
+  /** Shows the scene, after adapting the ranges of the sliders to its values. */
   refit() {
     this.ranges = Object.fromEntries(VALUES.map(({ name }) => [name, range(name)]));
     this.refresh();
   }
 
-  /** Shows the scene; the slider that is moved stays. */
+  /** Shows the scene; the slider that is being moved is left alone. */
   refresh(moved) {
     for (const { name } of VALUES) {
       if (name !== moved) this.fields[`${name}-slider`].value = (NOTCHES * value(scene[name])) / this.ranges[name];

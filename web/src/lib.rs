@@ -1,4 +1,4 @@
-//! The page: the text of a scene in, numbers and texts out. All physics is in the crate `dalembert`.
+//! Engine of the page: solves the text of a scene, and answers in numbers, texts and pictures.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use dalembert::{
     Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
     TypedHistory, Units, Warning,
 };
-use dalembert_plot::{Canvas, Drawing, Drawn, Pose, Sizes};
+use dalembert_plot::{Canvas, Drawing, DrawnSvg, RodPicture, RunExtremes};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
@@ -21,24 +21,25 @@ extern "C" {
 
 /// Significant digits of a double, as in the tables of the command.
 const DIGITS: u32 = 12;
-/// What doubles are to be known to, relative to the natural scales: six digits, more than a picture shows.
+/// Accuracy that doubles must reach, relative to the natural scales: six digits, more than a picture shows.
 const ACCURACY: f64 = 1e-6;
 /// Significant digits of `c`, `t₁`, `R` and `M`, as in the tables of the command.
 const FEW_DIGITS: u32 = 6;
 
-/// What has no value.
+/// Text in place of a value that is not defined.
 const NONE: &str = "–";
 
+/// Builds the error of a scene that is not accepted.
 fn refuse(error: impl std::fmt::Display) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// A refusal of what longer numbers or more time can settle.
+/// Builds the error of a question that longer numbers or more time can settle. The page recognizes its first words.
 fn beyond(error: impl std::fmt::Display) -> JsError {
     JsError::new(&format!("beyond doubles: {error}"))
 }
 
-/// What a history does not answer.
+/// Builds the error of a question that a history does not answer.
 fn failed(error: Error) -> JsError {
     match error {
         Error::NoMultiprecision => beyond("some of its numbers need more digits than doubles have"),
@@ -47,6 +48,7 @@ fn failed(error: Error) -> JsError {
     }
 }
 
+/// Formats a number as in the tables of the command.
 fn text<S: Scalar>(x: &S) -> String {
     show(x, DIGITS)
 }
@@ -60,15 +62,15 @@ fn optional<S: Scalar>(x: Option<&S>) -> String {
 pub struct Run {
     scene: Scene,
     history: TypedHistory<f64>,
-    sizes: Sizes,
+    extremes: RunExtremes,
 }
 
 #[wasm_bindgen]
 impl Run {
-    /// Solves the scene of `toml` in doubles, in at most so many milliseconds.
+    /// Solves the scene of `toml` in doubles, within a limit of milliseconds.
     #[wasm_bindgen(constructor)]
     pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
-        // Without line and column: no text is seen on the page.
+        // Line and column are left out: the page does not show the text.
         let found = |error: SceneError| JsError::new(&format!("found {}, expected {}", error.found, error.expected));
         let scene = Scene::parse(toml).map_err(found)?;
         let numbers = Numbers::Double(Some(ACCURACY));
@@ -80,8 +82,8 @@ impl Run {
         });
         match plan.solve_typed(&scene.problem, observe) {
             Ok(Solution::Double(history)) => {
-                let sizes = Sizes::of(&history).map_err(failed)?;
-                Ok(Run { scene, history, sizes })
+                let extremes = RunExtremes::new(&history).map_err(failed)?;
+                Ok(Run { scene, history, extremes })
             }
             Ok(_) => Err(refuse("found numbers other than doubles")),
             Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
@@ -89,7 +91,7 @@ impl Run {
         }
     }
 
-    /// `c`, `t₁`, `R`, `M` as the command prints them.
+    /// Returns `c`, `t₁`, `R` and `M` as the command prints them.
     pub fn parameters(&self) -> Result<Vec<String>, JsError> {
         let rod = Parameters::<f64>::of(&self.scene.problem, &()).map_err(refuse)?;
         let groups = self.scene.problem.dimensionless();
@@ -98,12 +100,12 @@ impl Run {
         Ok(known.into_iter().chain([ratio.map_or("∞".into(), |ratio| ratio.decimal(FEW_DIGITS))]).collect())
     }
 
-    /// The last time that is known.
+    /// Returns the end of the history.
     pub fn end(&self) -> f64 {
         *self.history.end()
     }
 
-    /// Where the history ends and why, as the command says it, and the bound of its error.
+    /// Returns a sentence with the end of the history, the reason and the error bound.
     pub fn ending(&self) -> String {
         let (end, why) = (self.history.end().decimal(DIGITS), self.history.ending());
         let bound = bound_of_log2(self.history.error_estimate().log2());
@@ -115,7 +117,7 @@ impl Run {
         format!("ends at t = {end}: {why}; error at most {bound} of the natural scales{meeting}")
     }
 
-    /// What doubles do not settle, a sentence each; empty where they settle all.
+    /// Returns a sentence for each thing that doubles do not settle.
     pub fn doubts(&self) -> Vec<String> {
         let bound = self.history.error_estimate();
         let wide = (bound > ACCURACY || bound.is_nan())
@@ -128,12 +130,12 @@ impl Run {
         wide.into_iter().chain(undecided).chain(warnings.map(|warning| warning.to_string())).collect()
     }
 
-    /// Times of impacts and releases, in turns, an impact first.
+    /// Returns the times of impacts and releases in turns, an impact first.
     pub fn events(&self) -> Vec<f64> {
         self.history.events().iter().map(|event| event.t).collect()
     }
 
-    /// Contact by contact: beginning, end, duration, `e_P`, `e_E²`, and `E`, `E_h`, `E_z` at the end.
+    /// Returns for each contact its beginning, end, duration, `e_P` and `e_E²`, and `E`, `E_h`, `E_z` at its end.
     pub fn contacts(&self) -> Result<Vec<String>, JsError> {
         let rows = self.history.ask(
             |motion| {
@@ -153,7 +155,7 @@ impl Run {
         Ok(rows.map_err(failed)?.iter().flatten().map(|x| optional(x.as_ref())).collect())
     }
 
-    /// `h`, `E`, `E_h`, `E_z`, `v(0,t)` and `v_x(0,t)` at a time.
+    /// Returns `h`, `E`, `E_h`, `E_z`, `v(0,t)` and `v_x(0,t)` at a time.
     pub fn at(&self, time: f64) -> Result<Vec<String>, JsError> {
         let time = time.carry();
         let found = self.history.ask(
@@ -168,8 +170,8 @@ impl Run {
         Ok(found.map_err(failed)?.iter().map(text).collect())
     }
 
-    /// The rod at a time, on a part of the screen in mm; displacements are so many times what fits, or as they are, and
-    /// `greatest` is the strain at which the colours end.
+    /// Returns the picture of the rod at a time; lengths are in mm. `enlarged` and `color_limit` are those of
+    /// [`RodPicture`].
     pub fn rod(
         &self,
         time: f64,
@@ -177,49 +179,53 @@ impl Run {
         height: f64,
         letters: f64,
         enlarged: Option<f64>,
-        greatest: f64,
+        color_limit: f64,
     ) -> Result<String, JsError> {
-        let pose = Pose { width, height, letters, enlarged, greatest };
-        pose.draw(&self.history, &self.scene.problem, &self.sizes, time).map_err(failed)
+        let picture = RodPicture { width, height, letters, enlarged, color_limit };
+        picture.draw(&self.history, &self.extremes, time).map_err(failed)
     }
 
-    /// The greatest `|v_x(0,t)|`.
+    /// Returns the greatest `|v_x(0,t)|`.
     pub fn strain(&self) -> f64 {
-        self.sizes.strain
+        self.extremes.strain
     }
 
-    /// The first and the last time of what shows the first contacts.
+    /// Returns the first and the last time of a span that shows the first contacts.
     pub fn span(&self) -> Result<Vec<f64>, JsError> {
-        let found = Drawing::default().drawn_span(&self.history, &self.scene.problem);
+        let found = Drawing::default().drawn_span(&self.history);
         Ok(found.map_err(failed)?.to_vec())
     }
 
-    /// Field, stress and energy between two times, for a part of the screen in mm.
+    /// Returns field, stress and energy between two times, for a part of the screen; lengths are in mm.
     pub fn screen(&self, from: f64, to: f64, width: f64, height: f64, letters: f64) -> Result<Picture, JsError> {
         self.picture(Some([from, to]), Canvas::Screen { width, height, letters })
     }
 
-    /// The pictures of a page between two times, or of the first contacts.
+    /// Returns the pictures of a page between two times, by default of the first contacts.
     pub fn page(&self, from: Option<f64>, to: Option<f64>) -> Result<Picture, JsError> {
         self.picture(from.zip(to).map(|(from, to)| [from, to]), Canvas::Page)
     }
 
-    /// A picture as `dalembert plot` draws it.
+    /// Returns a picture as `dalembert plot` draws it.
     fn picture(&self, span: Option<[f64; 2]>, canvas: Canvas) -> Result<Picture, JsError> {
         let drawing = Drawing { title: self.scene.title.clone(), span, canvas };
         let units = Units::of(&self.scene.problem, self.scene.units);
-        let Drawn { svg, greatest } = drawing.draw(&self.history, &self.scene.problem, units).map_err(failed)?;
-        Ok(Picture { svg, greatest })
+        let DrawnSvg { svg, color_limit } = drawing.draw(&self.history, units).map_err(failed)?;
+        Ok(Picture { svg, color_limit })
     }
 }
 
-/// An SVG, and the strain at which its colours end.
+/// Picture of a span.
 #[wasm_bindgen(getter_with_clone)]
 pub struct Picture {
+    /// The SVG.
     pub svg: String,
-    pub greatest: f64,
+    /// Strain at which the colours of the field end.
+    #[wasm_bindgen(js_name = "colorLimit")]
+    pub color_limit: f64,
 }
 
+/// Returns `E`, `E_h` and `E_z`.
 fn numbers<S>(energy: Energy<S>) -> [S; 3] {
     [energy.total, energy.translational, energy.vibrational]
 }

@@ -1,5 +1,5 @@
-// The site in headless Chromium, as it opens from disk: node site.mjs, after make site. It asks for nothing outside,
-// its search finds, and its page of the classroom runs.
+// Tests the site in headless Chromium, opened from disk: node site.mjs, after make site. The site loads nothing from
+// outside, its search finds pages, and the page runs in it.
 import assert from "node:assert/strict";
 import { resolve } from "node:path";
 import { chromium } from "playwright-core";
@@ -16,7 +16,7 @@ page.on("request", (request) => /^(file|data|blob):/.test(request.url())
   || complaints.push(`request ${request.url()}`));
 
 await page.goto(`${SITE}/index.html`);
-// The first screen has the rod on its ground, and the way in.
+// The first screen shows the rod on its ground and the link to the guide.
 for (const place of ["svg[role=img]", "a.md-button--primary"]) {
   const box = await page.locator(place).first().boundingBox();
   assert.ok(box.y >= 0 && box.y + box.height <= 720, `${place}: ${JSON.stringify(box)}`);

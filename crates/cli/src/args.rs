@@ -1,37 +1,21 @@
-//! What several subcommands are asked: in which numbers, and where their output goes.
+//! Options that several subcommands share: the numbers of the answer, lists of values, and where the output goes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::failure::Failure;
-use super::file::{self, Format, ROWS, formats};
+use crate::failure::Failure;
+use crate::file::{self, Destination, Format};
 use dalembert::Scene;
-use dalembert::quantity::Quantity;
+use dalembert::number::List;
 use dalembert::solve::{CERTIFIED_DIGITS, Numbers};
 
-/// The name of a quantity that is one number.
-pub(crate) fn quantity() -> impl TypedValueParser<Value = Quantity> {
-    let value =
-        |quantity: Quantity| PossibleValue::new(quantity.name()).aliases(quantity.also()).help(quantity.meaning());
-    PossibleValuesParser::new(Quantity::singles().map(value))
-        .try_map(|name| Quantity::single(&name).ok_or("expected a quantity"))
-}
-
-/// Parser of the words that name the variants of `T`, with their documentation as help.
+/// Returns a parser of the words that name the variants of `T`, with their documentation as help.
 pub(crate) fn words<T>() -> impl TypedValueParser<Value = T>
 where
     &'static str: From<T>,
-    T: strum::VariantArray
-        + strum::EnumMessage
-        + std::str::FromStr
-        + Copy
-        + Into<&'static str>
-        + std::fmt::Display
-        + Send
-        + Sync
-        + 'static,
+    T: strum::VariantArray + strum::EnumMessage + std::str::FromStr + Copy + Send + Sync + 'static,
 {
     let value = |variant: &T| {
         PossibleValue::new(<&'static str>::from(*variant)).help(variant.get_documentation().unwrap_or(""))
@@ -40,13 +24,19 @@ where
         .try_map(|name| name.parse().map_err(|_| "expected one of the words listed"))
 }
 
+/// Parses a list of numbers, `0.3,1/3` or `A..B:N`. An error shows the grammar.
+pub(crate) fn list(text: &str) -> Result<List, String> {
+    List::equally_spaced(text)
+        .map_err(|error| format!("{error}\n\na list is V1,V2,… such as 0.3,1/3, or A..B:N for N numbers from A to B"))
+}
+
 /// Runs `work` on `threads` threads, or on one for each core.
 pub(crate) fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
     Ok(pool.install(work))
 }
 
-/// How exact the numbers are to be.
+/// The numbers of the answer.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct NumberArgs {
     /// Decimal digits, rounded from values known to eight more of their scale; with --exact, from where exactness ends
@@ -55,12 +45,13 @@ pub(crate) struct NumberArgs {
     /// Exact fractions, as far as they reach
     #[arg(long)]
     exact: bool,
-    /// Proved digits: everything is enclosed, with as many bits as that takes
+    /// Proved digits: every number is enclosed, with as many bits as that takes
     #[arg(long, conflicts_with_all = ["exact", "accuracy"])]
     certified: bool,
     /// Accuracy relative to the greatest number of an answer, such as 1e-10; more bits are taken where doubles do not
     /// reach it
     #[arg(long, value_name = "E", value_parser = accuracy, conflicts_with_all = ["digits", "exact"])]
+    #[arg(allow_negative_numbers = true)]
     accuracy: Option<f64>,
 }
 
@@ -73,11 +64,11 @@ fn accuracy(text: &str) -> Result<f64, String> {
 }
 
 impl NumberArgs {
-    pub(crate) fn in_doubles(self) -> bool {
+    pub(crate) fn is_double(self) -> bool {
         self.digits.is_none() && !self.certified && !self.exact
     }
 
-    /// The numbers that are asked for; without an option, doubles to the accuracy of the scene.
+    /// Returns the requested numbers; without an option, doubles to the accuracy of the scene.
     pub(crate) fn numbers(self, scene: &Scene) -> Numbers {
         match self {
             NumberArgs { certified: true, digits, .. } => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
@@ -89,27 +80,35 @@ impl NumberArgs {
     }
 }
 
-/// Where the output goes and what it looks like.
+/// The files that the output goes to.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct OutputArgs {
-    /// What to print; by default a table, or what the ending of FILE says
-    #[arg(long, value_parser = formats(ROWS))]
-    pub(crate) format: Option<Format>,
-    /// Write to this file, whole or not at all; `-` is standard output
+    /// Write to this file, whole or not at all; its ending chooses the format, and `-` is standard output. Can be given
+    /// several times
     #[arg(short, long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
-    /// One row for each contact or effect, however wide the table
-    #[arg(long)]
-    pub(crate) wide: bool,
+    output: Vec<PathBuf>,
 }
 
 impl OutputArgs {
-    /// What is printed: what is asked for, or what the ending of the file says.
-    pub(crate) fn format(&self) -> Result<Format, Failure> {
-        Format::of(self.output.as_deref(), self.format, ROWS)
+    /// Returns where the output goes: to each file, in the format of its ending or `requested`; without a file to
+    /// standard output, in `requested` or the first of `known`.
+    pub(crate) fn destinations(
+        &self,
+        requested: Option<Format>,
+        known: &[Format],
+    ) -> Result<Vec<Destination>, Failure> {
+        if self.output.is_empty() {
+            return Ok(vec![Destination { path: None, format: requested.unwrap_or(known[0]) }]);
+        }
+        let destination = |path: &PathBuf| {
+            let format = file::format(path, requested, known)?;
+            Ok(Destination { path: Some(path.clone()).filter(|path| path != Path::new("-")), format })
+        };
+        self.output.iter().map(destination).collect()
     }
 
-    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
-        file::write(self.output.as_deref(), bytes)
+    /// Returns whether any file is named.
+    pub(crate) fn is_given(&self) -> bool {
+        !self.output.is_empty()
     }
 }

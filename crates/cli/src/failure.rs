@@ -1,21 +1,21 @@
-//! What can go wrong, as it is reported: what the library says, and the flags that help.
+//! Failures of the command as they are reported: the message, help, and the place in a scene.
 
 use std::fmt;
-use std::io::IsTerminal;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use dalembert::Error;
-use dalembert::SceneError;
+use crate::terminal;
+use dalembert::{Error, SceneError};
 
+/// A failure with its message, what may help, and the place in a scene file.
 pub(crate) struct Failure {
     message: String,
     help: Option<String>,
-    /// A scene that cannot be read, and where it stands.
+    /// The error of a scene that cannot be read, and the name of its file.
     scene: Option<(Box<SceneError>, String)>,
 }
 
-/// A failure with a message in the form of `format!`.
+/// Builds a failure with a message in the form of `format!`.
 macro_rules! failure {
     ($($part:tt)*) => { $crate::failure::Failure::new(format!($($part)*)) };
 }
@@ -25,7 +25,7 @@ impl Failure {
         Failure { message, help: None, scene: None }
     }
 
-    /// A scene of this file that cannot be read.
+    /// Builds the failure of a scene file that cannot be read.
     pub(crate) fn in_file(error: SceneError, name: &str) -> Self {
         Failure { message: error.to_string(), help: None, scene: Some((Box::new(error), name.into())) }
     }
@@ -54,13 +54,12 @@ impl fmt::Display for Failure {
         });
         let help = self.help.iter().map(|help| Level::HELP.message(help));
         let report = Level::ERROR.primary_title(&self.message).elements(place).elements(help);
-        let colored = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|set| set.is_empty());
-        let renderer = if colored { Renderer::styled() } else { Renderer::plain() };
+        let renderer = if terminal::is_colored() { Renderer::styled() } else { Renderer::plain() };
         f.write_str(&renderer.render(&[report]))
     }
 }
 
-/// A failure to read or write, with what was tried.
+/// Returns a function that builds the failure of a read or write: `cannot {what}: {error}`.
 pub(crate) fn cannot(what: &str) -> impl FnOnce(std::io::Error) -> Failure + use<> {
     let what = what.to_string();
     move |error| failure!("cannot {what}: {error}")

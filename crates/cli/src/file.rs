@@ -1,26 +1,40 @@
-//! What a file holds by its ending, and writing it.
+//! File formats by the ending of a name, and writing files whole or not at all.
 
+use std::fs::File;
+use std::io::{self, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use tempfile::NamedTempFile;
 
-use super::failure::{self, Failure};
-pub(crate) use crate::output::Format;
-use crate::output::{Dataset, write_together};
+use crate::failure::{self, Failure};
 #[cfg(feature = "raster")]
-use dalembert_plot::draw::Rendered;
+use dalembert_plot::draw::ParsedSvg;
 use dalembert_plot::draw::Size;
 
-/// Each format with its word after `--format`, its ending, and whom it is for.
+/// A format of output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Table,
+    Json,
+    Csv,
+    Npz,
+    Markdown,
+    Svg,
+    Png,
+    Pdf,
+}
+
+/// Each format with its word after `--format`, the ending of its files, and its purpose.
 const FORMATS: [(Format, &str, &str, &str); 8] = [
     (Format::Table, "table", "txt", "For a person"),
     (Format::Json, "json", "json", "For a program"),
     (Format::Csv, "csv", "csv", "For a spreadsheet"),
     (Format::Npz, "npz", "npz", "For NumPy: an array for each column"),
     (Format::Markdown, "markdown", "md", "For a page: nothing that depends on the machine"),
-    (Format::Svg, "svg", "svg", ""),
-    (Format::Png, "png", "png", ""),
-    (Format::Pdf, "pdf", "pdf", ""),
+    (Format::Svg, "svg", "svg", "A picture"),
+    (Format::Png, "png", "png", "A picture"),
+    (Format::Pdf, "pdf", "pdf", "A picture"),
 ];
 
 pub(crate) const PICTURES: &[Format] = &[Format::Svg, Format::Png, Format::Pdf];
@@ -28,12 +42,12 @@ pub(crate) const ROWS: &[Format] = &[Format::Table, Format::Json, Format::Csv];
 pub(crate) const ROWS_OR_PICTURE: &[Format] =
     &[Format::Table, Format::Json, Format::Csv, Format::Svg, Format::Png, Format::Pdf];
 
-/// What `--format` takes where these are written.
+/// Returns a parser of the words of `known` formats.
 pub(crate) fn formats(known: &'static [Format]) -> impl TypedValueParser<Value = Format> {
     let known = FORMATS.iter().filter(|format| known.contains(&format.0));
     let values = known.map(|(_, word, _, help)| PossibleValue::new(*word).help(*help));
-    let of = |word: String| FORMATS.iter().find(|format| format.1 == word).map(|format| format.0);
-    PossibleValuesParser::new(values).try_map(move |word| of(word).ok_or("no format"))
+    let named = |word: String| FORMATS.iter().find(|format| format.1 == word).map(|format| format.0);
+    PossibleValuesParser::new(values).try_map(move |word| named(word).ok_or("expected a format"))
 }
 
 impl Format {
@@ -41,107 +55,187 @@ impl Format {
         PICTURES.contains(&self)
     }
 
+    /// Returns the ending of a file of this format, without its dot.
     pub(crate) fn ending(self) -> &'static str {
         FORMATS[self as usize].2
     }
+}
 
-    /// What is written to `path`, one of those `known`: a picture by its ending, else what is `asked`, else what the
-    /// ending says; without an ending the first.
-    pub(crate) fn of(path: Option<&Path>, asked: Option<Format>, known: &[Format]) -> Result<Format, Failure> {
-        let named = path.filter(|path| *path != Path::new("-"));
-        let ending = named.map(|path| path.extension().unwrap_or_default().to_string_lossy().to_lowercase());
-        let by_ending = known.iter().find(|known| ending.as_deref() == Some(known.ending()));
-        // Where a picture can be meant, its file says so.
-        let first = ending.as_deref().is_none_or(|ending| {
-            ending.is_empty() && (known[0] == Format::Table || !known.iter().any(|known| known.is_picture()))
-        });
-        let by_ending = by_ending.or(first.then_some(&known[0])).copied();
-        let format = by_ending.filter(|format| format.is_picture()).or(asked).or(by_ending);
-        let path = named.unwrap_or(Path::new("-")).display();
-        let Some(format) = format else {
-            let endings: Vec<String> = known.iter().map(|known| format!(".{}", known.ending())).collect();
+/// Returns the format of the file `path`, one of `known`: that of its ending for a picture, else the `requested` one,
+/// else that of its ending. Standard output, and where rows are known a file without an ending, has the first.
+pub(crate) fn format(path: &Path, requested: Option<Format>, known: &[Format]) -> Result<Format, Failure> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let only_rows = known[0] == Format::Table || !known.iter().any(|format| format.is_picture());
+    let has_default = path == Path::new("-") || (ending.is_empty() && only_rows);
+    let by_ending = known.iter().find(|format| format.ending() == ending).or(has_default.then_some(&known[0])).copied();
+    let format = by_ending.filter(|format| format.is_picture()).or(requested).or(by_ending);
+    let path = path.display();
+    match format {
+        None => {
+            let endings: Vec<String> = known.iter().map(|format| format!(".{}", format.ending())).collect();
             let endings = endings.join(", ");
             let endings = endings.rsplit_once(", ").map_or(endings.clone(), |(most, last)| format!("{most} or {last}"));
             let or = if known.contains(&Format::Json) { ", or --format to say what the file holds" } else { "" };
-            return Err(failure!("found {path}, expected a file that ends in {endings}{or}"));
-        };
-        match format {
-            Format::Png | Format::Pdf if !cfg!(feature = "raster") => {
-                Err(failure!("found {path} in a build without the feature `raster`, expected .svg"))
-            }
-            format => Ok(format),
+            Err(failure!("found {path}, expected a file that ends in {endings}{or}"))
         }
+        Some(Format::Png | Format::Pdf) if !cfg!(feature = "raster") => {
+            Err(failure!("found {path} in a build without the feature `raster`, expected .svg"))
+        }
+        Some(format) => Ok(format),
     }
 }
 
-/// That `path`, or standard output, cannot be written.
-pub(crate) fn unwritten(path: Option<&Path>) -> impl FnOnce(std::io::Error) -> Failure + use<> {
-    let path = path.filter(|path| *path != Path::new("-"));
-    failure::cannot(&format!("write {}", path.map_or("standard output".into(), |path| path.display().to_string())))
+/// A file or standard output, and the format of what is written there.
+#[derive(Clone, Debug)]
+pub(crate) struct Destination {
+    /// Path of the file; `None` stands for standard output.
+    pub(crate) path: Option<PathBuf>,
+    pub(crate) format: Format,
 }
 
-/// Writes to a file whole or not at all, or to standard output.
-pub(crate) fn write(path: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
-    write_all(&[(path, bytes)])
+impl Destination {
+    /// Returns whether a table is printed on standard output.
+    pub(crate) fn is_printed_table(&self) -> bool {
+        self.path.is_none() && self.format == Format::Table
+    }
+
+    fn name(&self) -> String {
+        self.path.as_ref().map_or_else(|| "standard output".into(), |path| path.display().to_string())
+    }
+
+    /// Writes what `fill` writes: to the file when it is complete, or to standard output.
+    pub(crate) fn write_with(&self, fill: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
+        let write = || match &self.path {
+            Some(path) => Ok(stage(path, fill)?.persist(path).map(drop)?),
+            None => {
+                let mut file = tempfile::tempfile()?;
+                fill(&mut file)?;
+                file.rewind()?;
+                to_stdout(|out| io::copy(&mut file, out).map(drop))
+            }
+        };
+        write().map_err(failure::cannot(&format!("write {}", self.name())))
+    }
 }
 
-/// Writes all of several files, or none.
-fn write_all(files: &[(Option<&Path>, &[u8])]) -> Result<(), Failure> {
-    write_together(files).map_err(|(k, error)| unwritten(files[k].0)(error))
-}
-
-/// Writes each file, all of them or none; rows are printed too, if no file holds any.
-pub(crate) fn write_each(
-    paths: &[PathBuf],
-    asked: Option<Format>,
+/// Writes the bytes of each destination: all files appear, each complete, or none.
+pub(crate) fn write_all(
+    destinations: &[Destination],
     bytes: impl Fn(Format) -> Result<Vec<u8>, Failure>,
 ) -> Result<(), Failure> {
-    let (mut files, mut printed) = (Vec::new(), false);
-    for path in paths {
-        let format = Format::of(Some(path), asked, ROWS_OR_PICTURE)?;
-        printed |= !format.is_picture();
-        files.push((Some(path.as_path()), bytes(format)?));
+    let contents = destinations.iter().map(|destination| bytes(destination.format)).collect::<Result<Vec<_>, _>>()?;
+    let cannot_write = |destination: &Destination| failure::cannot(&format!("write {}", destination.name()));
+    let mut staged = Vec::new();
+    for (destination, bytes) in destinations.iter().zip(&contents) {
+        if let Some(path) = &destination.path {
+            let file = stage(path, |file| file.write_all(bytes)).map_err(cannot_write(destination))?;
+            staged.push((destination, path, file));
+        }
     }
-    if !printed {
-        files.push((None, bytes(asked.unwrap_or(Format::Table))?));
+    for (destination, path, file) in staged {
+        file.persist(path).map_err(|error| cannot_write(destination)(error.into()))?;
     }
-    write_all(&files.iter().map(|(path, bytes)| (*path, bytes.as_slice())).collect::<Vec<_>>())
+    for (destination, bytes) in destinations.iter().zip(&contents).filter(|(destination, _)| destination.path.is_none())
+    {
+        to_stdout(|out| out.write_all(bytes)).map_err(cannot_write(destination))?;
+    }
+    Ok(())
 }
 
-pub(crate) fn made(what: &str, made: Result<impl Into<Vec<u8>>, impl std::fmt::Display>) -> Result<Vec<u8>, Failure> {
-    made.map(Into::into).map_err(|error| failure!("cannot write {what}: {error}"))
+/// Writes each destination, all files or none; prints the rows in `format` too, if no destination holds any.
+pub(crate) fn write_with_rows(
+    mut destinations: Vec<Destination>,
+    format: Option<Format>,
+    bytes: impl Fn(Format) -> Result<Vec<u8>, Failure>,
+) -> Result<(), Failure> {
+    if destinations.iter().all(|destination| destination.format.is_picture()) {
+        destinations.push(Destination { path: None, format: format.unwrap_or(Format::Table) });
+    }
+    write_all(&destinations, bytes)
 }
 
-pub(crate) fn rows(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
-    match format {
-        Format::Table => Ok(data.table().into_bytes()),
-        Format::Json => Ok(json(&data.json())),
-        Format::Npz => made("NPZ", data.npz()),
-        _ => made("CSV", data.csv()),
+/// Prints `text` on standard output.
+pub(crate) fn print(text: &[u8]) -> Result<(), Failure> {
+    to_stdout(|out| out.write_all(text)).map_err(failure::cannot("write standard output"))
+}
+
+fn to_stdout(write: impl FnOnce(&mut io::StdoutLock<'_>) -> io::Result<()>) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match write(&mut out).and_then(|()| out.flush()) {
+        // A reader that has seen enough, such as `head`.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => other,
     }
 }
 
-pub(crate) fn json(value: &serde_json::Value) -> Vec<u8> {
-    format!("{value:#}\n").into_bytes()
+/// Returns a temporary file beside `path` that `fill` has written.
+fn stage(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
+    if path.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".dalembert-");
+    // The permissions of a plain new file, not those of a private temporary one.
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666))
+    };
+    let mut file = builder.tempfile_in(folder).map_err(|error| without_file_name(&error, folder))?;
+    fill(file.as_file_mut()).map_err(|error| io::Error::from(error.kind()))?;
+    Ok(file)
 }
 
-/// A picture as the bytes of its file.
+/// Returns the error of making a temporary file in `folder`, without the name of that file.
+fn without_file_name(error: &io::Error, folder: &Path) -> io::Error {
+    let problem = match error.kind() {
+        // Some folders of the system hold no files of others, and report the same.
+        ErrorKind::NotFound if folder.is_dir() => "no file can be made in",
+        ErrorKind::NotFound => "no folder",
+        kind => return kind.into(),
+    };
+    io::Error::new(ErrorKind::NotFound, format!("{problem} {}", folder.display()))
+}
+
+/// Writes named files into a folder, which is made if it does not exist: all of them, or none.
+pub(crate) fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> {
+    if !folder.is_dir() {
+        let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let made = std::fs::create_dir(folder).map_err(|error| without_file_name(&error, parent));
+        made.map_err(failure::cannot(&format!("write {}", folder.display())))?;
+    }
+    let mut staged = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        let file = stage(&path, |file| file.write_all(bytes));
+        staged.push((file.map_err(failure::cannot(&format!("write {}", folder.display())))?, path));
+    }
+    for (file, path) in staged {
+        file.persist(&path).map_err(|error| failure::cannot(&format!("write {}", path.display()))(error.into()))?;
+    }
+    Ok(())
+}
+
+/// Returns a picture as the bytes of its file.
 #[cfg(feature = "raster")]
 pub(crate) fn picture(format: Format, svg: String, size: Size) -> Result<Vec<u8>, Failure> {
     if format == Format::Svg {
         return Ok(svg.into_bytes());
     }
-    let drawn = Rendered::of(&svg).and_then(|rendered| {
-        let missing = rendered.missing();
+    let drawn = ParsedSvg::new(&svg).and_then(|parsed| {
+        let missing = parsed.missing_letters();
         if !missing.is_empty() {
-            eprintln!("note: the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters");
+            crate::terminal::note(format!(
+                "the font of PNG and PDF has no {missing}, which stay empty; an SVG has all letters"
+            ));
         }
-        if format == Format::Pdf { rendered.pdf() } else { rendered.png(size.scale()) }
+        if format == Format::Pdf { parsed.pdf() } else { parsed.png(size.scale()) }
     });
     drawn.map_err(|error| failure!("cannot draw: {error}"))
 }
 
-/// A picture as the bytes of its file: SVG, as others are refused before anything is solved.
+/// Returns a picture as the bytes of its file: SVG, as others are refused before anything is solved.
 #[cfg(not(feature = "raster"))]
 pub(crate) fn picture(_: Format, svg: String, _: Size) -> Result<Vec<u8>, Failure> {
     Ok(svg.into_bytes())

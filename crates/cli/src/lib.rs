@@ -1,4 +1,4 @@
-//! The command: one file per subcommand; `args`, `answer`, `source`, `file` and `failure` are what they share.
+//! The command `dalembert`, one file for each subcommand.
 
 #[macro_use]
 mod failure;
@@ -8,18 +8,19 @@ mod args;
 mod commands;
 mod file;
 mod output;
+mod progress;
+mod quantities;
 mod source;
 pub mod sweep;
+mod terminal;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::output::SCHEMA;
-use commands::{
-    check, compare, cost, explain, figures, plot, reference, regimes, sample, scenes, solve, sweep as sweeping,
-};
+use commands::{check, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command};
 use failure::Failure;
 
 const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "raster")) {
@@ -38,27 +39,40 @@ const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "raster")) {
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Print no notes, warnings or progress
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Colours of messages and help
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        default_value_t,
+        hide_possible_values = true,
+        value_name = "auto|always|never"
+    )]
+    color: ColorChoice,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Solve a scene: events, contacts, restitution, energies, stress history
     Solve(solve::Solve),
-    /// Values of a quantity at chosen times
+    /// Values of quantities at chosen times, over time or along the rod
     Sample(sample::Sample),
     /// Pictures of a scene, or of several to compare: the rod over time, stress, motion, energy, restitution
     Plot(plot::Plot),
-    /// Golden files: all quantities at chosen times as CSV, JSON or NPZ, or the exact solution as a function
-    Reference(reference::Reference),
+    /// Golden files: `sample` with all quantities as CSV, both limits at jumps; or the exact solution as a function
+    Reference(sample::Reference),
     /// The plan: which effects a scene calls for, which engine and numbers solve it, and what is left out
     Explain(explain::Explain),
-    /// What accuracy costs in time: one quantity by every route that can give it
+    /// The time that accuracy takes: one quantity by every route that can give it
     Cost(cost::Cost),
     /// Your data against the exact history: norms, contacts, an audit, and hints at what may be wrong
     Compare(compare::Compare),
     /// Numbers of a scene over a grid of its values, on all cores
-    Sweep(sweeping::Sweep),
-    /// When and whether the first contact ends, over all dampings and impact speeds
+    Sweep(sweep_command::Sweep),
+    /// The end of the first contact, over all dampings and impact speeds
     Regimes(regimes::Regimes),
     /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
     Figures(figures::Figures),
@@ -68,7 +82,7 @@ enum Command {
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,
-    /// Print the JSON Schema of what `solve`, `sample`, `reference`, `compare` and `sweep` write with --format json
+    /// Print the JSON Schema of the output that `solve`, `sample`, `reference`, `compare` and `sweep` write with --format json
     Schema,
     /// Print a completion script for a shell
     Completions {
@@ -77,26 +91,51 @@ enum Command {
     },
 }
 
-/// Parses, runs and reports; the first of `arguments` is the name of the program. The exit code is 2 for what cannot be
-/// parsed or run.
+/// Parses `arguments`, the first of which is the name of the program, runs the command and reports a failure. The exit
+/// code is 2 for arguments that cannot be parsed or run.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let parsed = command().color(color(&arguments)).try_get_matches_from(arguments);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         // Help and the version are on standard output, with the code 0.
-        Err(said) => {
-            let failed = said.use_stderr();
-            let written = said.print();
-            return if failed || written.is_err() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+        Err(error) => {
+            let is_failure = error.use_stderr();
+            let printed = error.print();
+            return if is_failure || printed.is_err() { ExitCode::from(2) } else { ExitCode::SUCCESS };
         }
     };
+    terminal::configure(cli.quiet, cli.color);
     run(cli).unwrap_or_else(|failure| {
         eprintln!("{failure}");
         ExitCode::from(2)
     })
 }
 
-/// Runs the command. The exit code is 1 where `check` finds a promise that is not kept, `compare` a norm above its
-/// bound, and no point of a `sweep` has a number.
+/// Returns the grammar of the command, in which every option takes negative numbers.
+fn command() -> clap::Command {
+    Cli::command().mut_subcommands(|subcommand| {
+        subcommand.mut_args(|argument| {
+            let takes_value = !argument.is_positional() && argument.get_action().takes_values();
+            if takes_value && !argument.is_allow_hyphen_values_set() {
+                argument.allow_negative_numbers(true)
+            } else {
+                argument
+            }
+        })
+    })
+}
+
+/// Returns the value of `--color`, which holds for errors of the other arguments too.
+fn color(arguments: &[OsString]) -> ColorChoice {
+    let texts = || arguments.iter().filter_map(|argument| argument.to_str());
+    let joined = texts().find_map(|argument| argument.strip_prefix("--color="));
+    let apart = texts().zip(texts().skip(1)).find_map(|(option, value)| (option == "--color").then_some(value));
+    joined.or(apart).and_then(|value| value.parse().ok()).unwrap_or_default()
+}
+
+/// Runs the command. The exit code is 1 if `check` finds a promise that is not kept, `compare` a norm above its bound,
+/// and no point of a `sweep` has a number.
 fn run(cli: Cli) -> Result<ExitCode, Failure> {
     let done = match cli.command {
         Command::Solve(command) => command.run(),
@@ -113,15 +152,15 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Scenes(command) => return command.run(),
         Command::Man => {
             let mut page = Vec::new();
-            let done = clap_mangen::Man::new(Cli::command()).render(&mut page);
+            let done = clap_mangen::Man::new(command()).render(&mut page);
             done.map_err(failure::cannot("write the page"))?;
-            file::write(None, &page)
+            file::print(&page)
         }
-        Command::Schema => file::write(None, SCHEMA.as_bytes()),
+        Command::Schema => file::print(SCHEMA.as_bytes()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
-            clap_complete::generate(shell, &mut Cli::command(), "dalembert", &mut script);
-            file::write(None, &script)
+            clap_complete::generate(shell, &mut command(), "dalembert", &mut script);
+            file::print(&script)
         }
     };
     done.map(|()| ExitCode::SUCCESS)

@@ -1,39 +1,81 @@
-//! Which pictures there are of a scene, and what each asks of a history.
+//! Kinds of pictures.
+
+use std::str::FromStr;
+
+use strum::{Display, EnumIter, EnumMessage, EnumString, IntoEnumIterator, IntoStaticStr, VariantArray};
 
 use dalembert::quantity::{Measure, Needs, Quantity, Units};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Picture of one or several scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter, EnumMessage)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Picture {
-    /// The rod over time: rays, field, contacts.
-    Along,
-    /// The stress at the ground.
+    /// Field, rays and contacts in the x–t plane.
+    #[strum(serialize = "xt")]
+    SpaceTime,
+    /// Stress at the ground.
     Stress,
-    /// Both ends and the centre of mass.
+    /// Displacements of both ends and of the centre of mass.
+    #[strum(serialize = "motion", serialize = "ends")]
     Motion,
-    /// The parts of the energy, on top of each other.
+    /// Parts of the energy, stacked.
     Energy,
-    /// The coefficients of restitution of each bounce.
+    /// Coefficients of restitution of each bounce.
     Restitution,
-    /// A column as `reference` names it.
+    /// Quantity over time.
+    #[strum(disabled)]
     Quantity(Quantity),
 }
 
-/// What is drawn as colour along the rod.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    strum::Display,
-    strum::EnumMessage,
-    strum::EnumString,
-    strum::IntoStaticStr,
-    strum::VariantArray,
-)]
+/// Refusal of a word that names no picture.
+#[derive(Debug, thiserror::Error)]
+#[error("found no picture of this name, expected one of {}", Picture::names().collect::<Vec<_>>().join(", "))]
+pub struct UnknownPicture;
+
+impl Picture {
+    /// Pictures of one scene, unless others are asked for.
+    pub const SHEET: [Picture; 4] = [Picture::SpaceTime, Picture::Stress, Picture::Motion, Picture::Energy];
+    /// Pictures of several scenes, unless others are asked for.
+    pub const COMPARED: [Picture; 4] = [
+        Picture::Stress,
+        Picture::Quantity(Quantity::EndDisplacement),
+        Picture::Quantity(Quantity::Centre),
+        Picture::Quantity(Quantity::VibrationalEnergy),
+    ];
+
+    /// Returns the words from which a picture is parsed.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        let quantities = Needs::Time.quantities().map(Quantity::name);
+        let quantities = quantities.filter(|name| matches!(name.parse(), Ok(Picture::Quantity(_))));
+        Picture::iter().flat_map(|picture| picture.get_serializations()).copied().chain(quantities)
+    }
+
+    /// Returns the quantities whose values over time the picture shows.
+    pub(crate) fn quantities(&self) -> Vec<Quantity> {
+        match self {
+            Picture::Motion => vec![Quantity::EndDisplacement, Quantity::Centre, Quantity::TopDisplacement],
+            Picture::Energy => vec![Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy],
+            Picture::Quantity(quantity) => vec![*quantity],
+            Picture::SpaceTime | Picture::Stress | Picture::Restitution => Vec::new(),
+        }
+    }
+}
+
+/// Parses a word such as `xt` or `stress`, or the name of a quantity over time.
+impl FromStr for Picture {
+    type Err = UnknownPicture;
+
+    fn from_str(name: &str) -> Result<Self, UnknownPicture> {
+        let quantity = || Needs::Time.named(name).filter(|found| !matches!(found, Quantity::Time | Quantity::Side));
+        let picture = Picture::iter().find(|picture| picture.get_serializations().contains(&name));
+        picture.or_else(|| quantity().map(Picture::Quantity)).ok_or(UnknownPicture)
+    }
+}
+
+/// Quantity that the colours along the rod show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Display, EnumMessage, EnumString, IntoStaticStr, VariantArray)]
 #[strum(serialize_all = "kebab-case")]
-pub enum Along {
+pub enum FieldQuantity {
     /// `E v_x`; without a material the strain
     #[default]
     Stress,
@@ -43,50 +85,13 @@ pub enum Along {
     Strain,
 }
 
-impl Picture {
-    /// Those that tell a scene.
-    pub const SHEET: [Picture; 4] = [Picture::Along, Picture::Stress, Picture::Motion, Picture::Energy];
-    /// Those that tell several scenes apart.
-    pub const COMPARED: [Picture; 4] = [
-        Picture::Stress,
-        Picture::Quantity(Quantity::EndDisplacement),
-        Picture::Quantity(Quantity::Centre),
-        Picture::Quantity(Quantity::VibrationalEnergy),
-    ];
-    /// Names other than those of columns.
-    pub const NAMES: [(&str, Picture); 6] = [
-        ("xt", Picture::Along),
-        ("stress", Picture::Stress),
-        ("motion", Picture::Motion),
-        ("ends", Picture::Motion),
-        ("energy", Picture::Energy),
-        ("restitution", Picture::Restitution),
-    ];
-
-    pub fn named(name: &str) -> Option<Picture> {
-        let own = Picture::NAMES.iter().find(|known| known.0 == name).map(|known| known.1);
-        let column = || Needs::Time.named(name).filter(|column| !matches!(column, Quantity::Time | Quantity::Side));
-        own.or_else(|| column().map(Picture::Quantity))
-    }
-
-    /// What is asked of a history for it.
-    pub(super) fn columns(&self) -> Vec<Quantity> {
+impl FieldQuantity {
+    /// Returns the unit of the field. Without a modulus the stress is the strain.
+    pub(crate) fn measure(self, units: &Units) -> Measure {
         match self {
-            Picture::Motion => vec![Quantity::EndDisplacement, Quantity::Centre, Quantity::TopDisplacement],
-            Picture::Energy => vec![Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy],
-            Picture::Quantity(column) => vec![*column],
-            Picture::Along | Picture::Stress | Picture::Restitution => Vec::new(),
-        }
-    }
-}
-
-impl Along {
-    /// What it is with these units, a stress where there is a modulus, with its symbol and its name.
-    pub(super) fn told(self, units: &Units) -> (Measure, &'static str, &'static str) {
-        match self {
-            Along::Stress if units.has_material() => (Measure::Stress, "E v_x", "stress"),
-            Along::Stress | Along::Strain => (Measure::Strain, "v_x", "strain"),
-            Along::Velocity => (Measure::Velocity, "v_t", "velocity"),
+            FieldQuantity::Stress if units.has_material() => Measure::Stress,
+            FieldQuantity::Stress | FieldQuantity::Strain => Measure::Strain,
+            FieldQuantity::Velocity => Measure::Velocity,
         }
     }
 }

@@ -1,21 +1,33 @@
-//! Independent opinions on the numbers of `dalembert`: the printed formulas, modal sums, finite differences, and the
-//! routes to an answer that `dalembert check` and `dalembert cost` hold against each other and against the truth.
+//! Independent opinions on the numbers of `dalembert`.
+//!
+//! - [`paper`]: the formulas of the paper as printed, by quadrature or in fractions.
+//! - [`modal`]: the first contact as a sum over the modes of the rod, with a proved bound.
+//! - `routes`: every way to one number of a problem, among them finite differences; [`RouteQuestion`] asks for it.
+//! - [`check`]: the catalogue of hard cases and of the paper's claims, each answered by every route that can.
+//! - [`cost`]: the time that accuracy costs on each route, and the time that each effect of a scene costs.
+//! - [`published`]: values that others have published of a scene, beside those of its history.
+//! - [`figures`]: the numbers of the paper's figures, reproduced and corrected.
+//! - [`regimes`]: the map of how the first contact ends, and grids of parameter values.
+//!
+//! ```
+//! use dalembert::{Parameters, Side};
+//! use dalembert_verify::{modal::Modal, paper::PrintedIntegrals};
+//! // Without damping the stress in the first round trip is −(μ + g t)/c: −(3 + 1)/1 at t = 1.
+//! let rod = Parameters { length: 1.0, wave_speed: 1.0, damping: 0.0, gravity: 1.0, speed: 3.0 };
+//! let by_modes = Modal::new(&rod, 64).strain(&1.0, Side::Right);
+//! assert!((by_modes.value() + 4.0_f64).abs() <= by_modes.bound());
+//! assert!((PrintedIntegrals::new(&rod, 1e-10).strain(1.0) + 4.0).abs() < 1e-12);
+//! ```
 
-mod account;
 pub mod check;
 pub mod cost;
-mod differences;
+mod error;
 pub mod figures;
-#[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
-mod long;
+pub mod modal;
 pub mod paper;
-mod quantity;
+pub mod published;
 pub mod regimes;
-mod route;
-mod target;
-mod truth;
-mod value;
+mod routes;
 
-pub use quantity::Question;
-pub use route::plan;
-pub use target::Published;
+pub use error::VerifyError;
+pub use routes::{RouteQuestion, Truth};

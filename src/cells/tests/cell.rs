@@ -3,7 +3,7 @@ use crate::cells::series::evaluate;
 
 #[test]
 fn a_constant_velocity_decays() {
-    // z_x = 0, z_t = e^{−2rt}: p = q = e^{−κ·2(ξ+η)}, so P̂ = e^{−κs} on both sides.
+    // The field z_x = 0, z_t = e^{−2rt} has p = q = e^{−κ·2(ξ+η)}, so P̂ = e^{−κs} on both sides.
     let basis = Basis::new(&1.0f64, 24, 12);
     let (a, h) = (0.3f64, 0.45f64);
     let (mut p, mut q) = (basis.exponential(&-a, 16), basis.exponential(&-h, 16));

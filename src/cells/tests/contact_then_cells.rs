@@ -1,12 +1,12 @@
 use super::*;
 use crate::number::Number;
 
-/// A release that is displaced by hand moves every later event by no more than the bound says that it may, and the
-/// bound does not exceed that by orders of magnitude with each impact.
+/// Checks that a release displaced by hand moves every later event by at most the bound, and that the bound does not
+/// exceed this by orders of magnitude with each impact.
 #[test]
 fn events_move_with_a_displaced_release_as_the_bound_says() {
     let number = |text: &str| text.parse::<Number>().unwrap_or_else(|error| unreachable!("{error}"));
-    // Below g t₁ = 2 the first release is at a root of the stress; a displaced one at a ray would leave a stripe.
+    // Below g t₁ = 2 the first release is at a root of the stress; a displaced release at a ray would leave a stripe.
     for (damping, speed, displaced) in [
         ("0.0122", "1.41", -1e-7),
         ("0.0122", "1.41", 1e-7),

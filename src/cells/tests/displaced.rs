@@ -1,5 +1,5 @@
-//! The bounds of a run from a state that is displaced by hand: they hold without room to spare, while roundings alone
-//! stay far below them.
+//! Bounds of a run from a state displaced by hand: these errors nearly reach the bounds, while roundings alone stay far
+//! below them.
 
 use proptest::prelude::*;
 
@@ -14,17 +14,17 @@ use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Problem, Run};
 use crate::reason::Warning;
 
-/// A rod of `c = L = g = 1`, and by how much its state at the first release is displaced.
+/// A rod of `c = L = g = 1`, and the displacement of its state at the first release.
 #[derive(Clone, Debug)]
 struct Displaced {
     damping: f64,
     speed: f64,
     impacts: u32,
-    /// The most that `q` is displaced by.
+    /// Greatest displacement of `q`.
     size: f64,
-    /// The part of that in the first two coefficients of each segment, from −1 to 1.
+    /// Part of `size` in the first coefficient of each segment, from −1 to 1, and whether the second one increases.
     shape: Vec<(f64, bool)>,
-    /// Parts of the history, and of the rod, at which it is compared.
+    /// Times and points of the comparison, as fractions of the history and of the rod.
     samples: Vec<(f64, f64)>,
 }
 
@@ -44,8 +44,8 @@ fn displaced() -> impl Strategy<Value = Displaced> {
 
 type History = Damped<f64>;
 
-/// The run from the closed form of the first contact, and the one from the displaced state; `None` where the rod does
-/// not leave the ground.
+/// Solves from the closed form of the first contact, and from the displaced state; `None` if the rod does not leave the
+/// ground.
 fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
     let number = |x: f64| format!("{x:.5}").parse::<Number>().unwrap_or_else(|error| unreachable!("{error}"));
     let one = Number::from(1);
@@ -54,7 +54,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
     let contact = ContactHistory::<Estimate<f64>>::solve(&problem, &())?;
     let Some(release) = contact.events().get(1) else { return Ok(None) };
     let run = |size: f64| -> Result<History, Error> {
-        // A run whose events are in doubt never comes to rest within its bounds: it ends here.
+        // A run whose events are in doubt never comes to rest within its bounds; the limit of cells ends it.
         let effort = Effort { cells: 200_000, ..Effort::of(13.0) };
         let (medium, data) = medium::<f64>(&problem, &(), effort.digits, 1)?;
         let held = Held::until(contact.form(), &data, release.t.value());
@@ -64,7 +64,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
             segment.q[1] += size * (1.0 - part.abs()) * if *up { 1.0 } else { -1.0 };
         }
         let leaves = release.v_end.value() / data.units.velocity;
-        // Nothing is known but the state.
+        // The state is the only input with a known error.
         let rate = Estimate::new(0.0, f64::INFINITY);
         let release = ((leaves, release.t_error / data.units.time), rate);
         let state = (held, (state, error + size));
@@ -74,7 +74,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
     Ok(Some((run(0.0)?, run(case.size)?)))
 }
 
-/// Whether hops are not told apart from contact before this time, or the order of events is in doubt.
+/// Returns whether hops are not separated from contact before this time, or the order of events is in doubt.
 fn doubtful(history: &History, before: f64) -> bool {
     history.warnings().iter().any(|warning| match warning {
         Warning::HopsUnresolved { from, .. } | Warning::EventsOverlap { from } => *from <= before,
@@ -83,7 +83,7 @@ fn doubtful(history: &History, before: f64) -> bool {
 }
 
 fn compare(case: &Displaced) -> Result<(), TestCaseError> {
-    // A rod that does not leave the ground has nothing to be displaced.
+    // A rod that does not leave the ground has no state to displace.
     let Some((a, b)) = both(case)? else { return Ok(()) };
     let within = |what: &str, a: &Estimate<f64>, b: &Estimate<f64>| {
         let (off, bound) = ((a.value() - b.value()).abs(), a.bound() + b.bound());
@@ -113,7 +113,7 @@ fn compare(case: &Displaced) -> Result<(), TestCaseError> {
     for (k, (x, y)) in a.contacts().iter().zip(b.contacts()).enumerate() {
         let (Some(to), Some(_)) = (&x.release, &y.release) else { continue };
         within(&format!("impulse {k}"), &x.impulse, &y.impulse)?;
-        // A peak leaves out what lasts no longer than hops that are not told apart.
+        // A peak excludes parts shorter than the unresolved hops.
         if !doubtful(&b, to.to_f64() + 1e-3) {
             within(&format!("peak {k}"), &x.peak_strain, &y.peak_strain)?;
         }
@@ -146,7 +146,7 @@ fn compare(case: &Displaced) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Every number of the displaced run is off by no more than both bounds.
+    /// Checks that every number of the displaced run is off by at most both bounds.
     #[test]
     fn a_displaced_run_stays_within_its_bounds(case in displaced()) {
         compare(&case)?;

@@ -3,7 +3,7 @@ use std::collections::VecDeque;
 use super::*;
 use crate::cells::series::evaluate;
 
-/// A state with jumps, after a few strips of contact, taken apart.
+/// Builds a separated state with jumps, after a few strips of contact.
 fn vibration(damping: f64, gravity: f64) -> (Medium<f64>, State<f64>, Flight<f64>) {
     let medium = Medium::new(&damping, (gravity, -gravity / 2.0), true, -53.0, 1);
     let mut segments = VecDeque::new();
@@ -54,7 +54,7 @@ fn the_end_is_where_the_trace_brings_it() {
             medium.strip(&mut state, false, &mut |_| {});
             assert!((height - medium.ground_of(&state)).abs() < 1e-14);
         }
-        // In free fall there is nothing else.
+        // Free fall is the whole motion.
         let (rise, rate) = medium.rigid(&flight.at(&0.7), &0.25);
         let (h, dh) = flight.at(&(0.7 + 0.25 * 0.6));
         assert!((evaluate(&rise, &0.6) - h).abs() < 1e-14 && (evaluate(&rate, &0.6) - dh).abs() < 1e-14);

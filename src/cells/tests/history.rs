@@ -6,7 +6,7 @@ fn plain(history: &Damped<f64>) -> Course<f64> {
     history.course().clone().map(Estimate::into_value)
 }
 
-/// A rod with c = L = 1.
+/// Builds a rod with c = L = 1.
 fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
     let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(gravity), Number::from(speed));
     problem.rod.damping = damping.parse().ok();
@@ -81,7 +81,7 @@ fn energy_is_lost_to_damping_alone() {
             lost += w * (pair[1] - pair[0]) * motion;
         }
     }
-    // V = 3, t₁ = 2, c t₁ = 2.
+    // The units are V = 3, t₁ = 2, c t₁ = 2.
     let lost = 2.0 * 0.3 * lost * 9.0 * 2.0 * 2.0;
     let energy = |time: f64| *history.energy(&Estimate::exact(time)).unwrap().total.value();
     let change = energy(2.0 * end) - energy(0.0);

@@ -1,5 +1,5 @@
-//! What is proved of a motion whose start is known to so much only holds of the one whose start is off by as much: no
-//! rounding is near, so that it is the propagation of errors that is held to account.
+//! Proof tests: the bounds for initial data known within an error hold for initial data displaced by that error.
+//! Rounding errors are far smaller, so that these tests check the propagation of errors.
 
 use rug::Float;
 
@@ -13,7 +13,7 @@ use crate::problem::{Problem, Profile, Run, Start};
 
 const BITS: u32 = 190;
 
-/// A run whose account begins with these sups and masses.
+/// Solves a run whose account begins with these sups and masses.
 fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
     let effort = Effort { until_lost: false, ..Effort::of(50.0) };
     let (medium, data) = medium::<Float>(problem, &BITS, effort.digits, 1).unwrap();
@@ -25,7 +25,7 @@ fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
     Damped::record_of(&task, (medium, data), None, found).unwrap()
 }
 
-/// The most that a number is off, as a part of its bound; and how many were compared.
+/// Greatest ratio of error and bound, and the number of comparisons.
 #[derive(Default)]
 struct Held {
     most: f64,
@@ -94,7 +94,7 @@ fn a_start_with_another_velocity_is_within_what_is_proved() {
                 let profile = Profile { displacement: Vec::new(), velocity };
                 Problem { start: Start::Profile(profile), ..rod(damping, 4) }
             };
-            // 1e-30 faster.
+            // Initial speed greater by 1e-30.
             let faster = number(&(-number(speed).to_rational() - number("1e-30").to_rational()).to_string());
             let known = proved(&start(number(&format!("-{speed}"))), (1e-30, 0.0));
             let truth = proved(&start(faster), (0.0, 0.0));
@@ -111,7 +111,7 @@ fn a_start_with_another_kink_is_within_what_is_proved() {
         for speed in ["0.6", "2", "7"] {
             let start = |kink: &str| {
                 let kink = number(kink);
-                // v_x = bend up to the kink, and nothing beyond it.
+                // v_x = bend up to the kink, and zero beyond it.
                 let height = number(&(number(bend).to_rational() * kink.to_rational()).to_string());
                 let displacement = vec![(0.into(), 0.into()), (kink, height.clone()), (1.into(), height)];
                 let velocity = [0, 1].map(|x: i64| (x.into(), number(&format!("-{speed}")))).to_vec();

@@ -1,4 +1,4 @@
-//! A damped march in floats of fixed limbs, beside the same in more digits.
+//! A damped march in floats of fixed limbs, compared with the march in more digits.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use crate::number::{Rational, Scalar, Wide};
 use crate::problem::{Problem, Run};
 use crate::special::RoundedSpecial;
 
-/// Ten impacts of a rod with r = 1/10, μ = 10.
+/// Builds a rod with r = 1/10, μ = 10 and ten impacts.
 fn rod() -> Problem {
     let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(10));
     problem.rod.damping = "0.1".parse().ok();
@@ -17,7 +17,7 @@ fn rod() -> Problem {
     problem
 }
 
-/// The times of all events, and their bounds.
+/// Computes the times of all events, and their bounds.
 fn march<S: RoundedSpecial>(precision: &S::Precision, digits: f64, exactly: impl Fn(&S) -> Rational) -> Vec<Time> {
     let problem = rod();
     let effort = Effort { digits, cells: u64::MAX, until_lost: false };
@@ -37,7 +37,7 @@ struct Time {
 }
 
 /// Counts the events, and asserts that each is within both bounds of the other, and that its own is as narrow as the
-/// digits say.
+/// digits require.
 fn agree(rough: &[Time], fine: &[Time], least_digits: f64) {
     assert_eq!(rough.len(), fine.len());
     assert_eq!(rough.iter().filter(|time| time.kind == EventKind::Impact).count(), 10);
@@ -67,7 +67,7 @@ fn events_are_those_of_twice_the_bits() {
     agree(&wide::<4>(45.0), &float(512, 55.0), 37.0);
 }
 
-/// Times of a march beside those of MPFR: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
+/// Prints times of a march beside those of MPFR: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
 #[cfg(feature = "mp")]
 #[test]
 #[ignore = "a measurement"]

@@ -2,13 +2,13 @@ use super::*;
 use crate::number::{Estimate, Float};
 use crate::problem::Problem;
 
-/// In longer numbers: the field lies below what it is said to have faded to, and by the square of `1 + Rτ` at most,
+/// Checks in longer numbers that the field lies below its fading bound, by a factor of at most the square of `1 + Rτ`,
 /// some 1e4.
 #[test]
 fn motions_fade_as_is_said() -> Result<(), crate::Error> {
     for (damping, trips) in [("3.1", 36.25), ("3.1415", 33.5), ("2.9", 40.75)] {
         let rod = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(2).build()?;
-        // A quarter of 512 bits is what they count as faded from.
+        // The fading bound starts at a quarter of 512 bits.
         let faded = FirstContact::new(&Parameters::<Estimate<Float>>::of(&rod, &512)?).faded(trips);
         let faded = faded.map_or(f64::NAN, f64::exp2);
         let contact = FirstContact::new(&Parameters::<Estimate<Float>>::of(&rod, &1200)?);

@@ -1,5 +1,5 @@
-//! Puts the page together: `pack WASM PAGE OUT` reads the module that cargo has built and the sources of the page, and
-//! writes one HTML file that asks for no other.
+//! Assembles the page: `pack WASM PAGE OUT` reads the module that cargo has built and the folder with the sources of
+//! the page, and writes one HTML file that loads no other.
 
 use std::fs;
 use std::io::Write;
@@ -10,8 +10,8 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use flate2::{Compression, write::GzEncoder};
 use wasm_bindgen_cli_support::Bindgen;
 
-/// The most that the page may have.
-const MOST_BYTES: usize = 700_000;
+/// Maximum size of the page.
+const MAX_BYTES: usize = 750_000;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,8 +40,8 @@ fn main() -> Result<()> {
     fill("engine", &format!("<script type=\"text/plain\" id=\"engine\">{}</script>", STANDARD.encode(&packed)))?;
     fill("script", &format!("<script type=\"module\">\n{}</script>", modules(&read)?))?;
 
-    if html.len() > MOST_BYTES {
-        bail!("the page has {} bytes, expected at most {MOST_BYTES}", html.len());
+    if html.len() > MAX_BYTES {
+        bail!("the page has {} bytes, expected at most {MAX_BYTES}", html.len());
     }
     fs::write(out, &html).with_context(|| format!("cannot write {out}"))?;
     let (html, module, packed) = (html.len(), module.len(), packed.len());
@@ -49,7 +49,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The modules of the page in the order of `main.js`' imports, then `main.js`, as one: no name stands in two of them.
+/// Joins the modules of the page, in the order of the imports of `main.js`, and `main.js` itself. No two of them may
+/// define the same name.
 fn modules(read: &impl Fn(&str) -> Result<String>) -> Result<String> {
     let main = read("main.js")?;
     let imported = main.lines().filter(|line| line.starts_with("import "));

@@ -1,16 +1,16 @@
 //! `dalembert check`.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
+use crate::args::OutputArgs;
 use crate::failure::Failure;
-use crate::file::{self, Format, formats};
-use crate::output::{check_json, check_page, check_summary, check_table};
-use crate::source;
-use dalembert_verify::Published;
-use dalembert_verify::check::{CATALOGUE, Case, Checked, Group, Verdict, select};
+use crate::file::{Format, formats, write_all};
+use crate::output::{check_json, check_page, check_summary, check_table, json_bytes};
+use crate::{source, terminal};
+use dalembert_verify::check::{CATALOGUE, Case, CheckedCase, Group, UnknownName, Verdict, select};
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
@@ -22,52 +22,62 @@ pub(crate) struct Check {
     /// Print one line a case, and how many came to each verdict
     #[arg(long, conflicts_with = "format")]
     summary: bool,
-    /// What to print
-    #[arg(long, value_parser = formats(FORMATS), default_value = "table")]
-    format: Format,
-    /// Write to this file, whole or not at all; `-` is standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    /// Format of the output; by default that of the ending of FILE, or a table
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
-/// The published values among the names of groups.
+/// The name of the published values among the names of groups.
 const TARGETS: &str = "targets";
 
 const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Markdown];
 
 impl Check {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let destinations = self.output.destinations(self.format, FORMATS)?;
         let (targets, cases): (Vec<&String>, Vec<&String>) = self.only.iter().partition(|name| *name == TARGETS);
-        let everything = self.only.is_empty();
+        let is_everything = self.only.is_empty();
         let cases: Vec<String> = cases.into_iter().cloned().collect();
-        let groups = if everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
-        let groups = groups.map_err(|name| {
-            let groups = CATALOGUE.map(|group| group.name).join(", ") + ", " + TARGETS;
-            let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
-            failure!("found --only {name}, expected a group ({groups}) or a case ({})", cases.join(", "))
-        })?;
-        let count = groups.iter().map(|(_, cases)| cases.len() as u64).sum();
-        let bar = source::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
+        let groups = if is_everything || !cases.is_empty() { select(&cases) } else { Ok(Vec::new()) };
+        let groups = groups.map_err(unknown)?;
+        let count = groups.iter().map(|selection| selection.cases.len() as u64).sum();
+        let bar = terminal::bar(Some(count), "{bar:40} {pos}/{len}, {msg}");
         let run = |case: &'static Case| {
             bar.set_message(case.name);
             let checked = case.run();
             bar.inc(1);
             checked
         };
-        let groups = groups.into_iter().map(|(group, cases)| (group, cases.into_iter().map(run).collect()));
-        let checked: Vec<(Group, Vec<Checked>)> = groups.collect();
+        let groups =
+            groups.into_iter().map(|selection| (selection.group, selection.cases.into_iter().map(run).collect()));
+        let checked: Vec<(Group, Vec<CheckedCase>)> = groups.collect();
         bar.finish_and_clear();
-        let published = if everything || !targets.is_empty() { Published::builtin()? } else { Vec::new() };
-        let text = match self.format {
-            Format::Table if self.summary => check_summary(&checked, &published),
-            Format::Table => check_table(&checked, &published),
-            Format::Json => format!("{:#}\n", check_json(&checked, &published)),
-            _ => check_page(&checked, &published),
-        };
-        file::write(self.output.as_deref(), text.as_bytes())?;
-        let failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
-        let (count, agreed) = Published::count(&published);
-        let failed = failed || agreed < count;
-        Ok(if failed { ExitCode::from(1) } else { ExitCode::SUCCESS })
+        let published = if is_everything || !targets.is_empty() { PublishedScene::builtin()? } else { Vec::new() };
+        write_all(&destinations, |format| {
+            Ok(match format {
+                Format::Table if self.summary => check_summary(&checked, &published).into_bytes(),
+                Format::Table => check_table(&checked, &published).into_bytes(),
+                Format::Json => json_bytes(&check_json(&checked, &published)),
+                _ => check_page(&checked, &published).into_bytes(),
+            })
+        })?;
+        let has_failed = checked.iter().flat_map(|(_, cases)| cases).any(|case| case.verdict == Verdict::Failed);
+        let (count, agreed) = PublishedScene::count(&published);
+        Ok(ExitCode::from(u8::from(has_failed || agreed < count)))
+    }
+}
+
+/// Builds the failure for a name that is neither a group nor a case.
+fn unknown(UnknownName(name): UnknownName) -> Failure {
+    let groups: Vec<&str> = CATALOGUE.iter().map(|group| group.name).chain([TARGETS]).collect();
+    let cases: Vec<&str> = CATALOGUE.iter().flat_map(|group| group.cases).map(|case| case.name).collect();
+    let suggestion = source::nearest(&name, groups.iter().chain(&cases).copied());
+    let failure =
+        failure!("found --only {name}, expected a group ({}) or a case ({})", groups.join(", "), cases.join(", "));
+    match suggestion {
+        Some(near) => failure.help(format!("did you mean `{near}`?")),
+        None => failure,
     }
 }

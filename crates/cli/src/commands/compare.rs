@@ -6,10 +6,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 
+use crate::args::OutputArgs;
 use crate::failure::Failure;
-use crate::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats};
-use crate::output::{compare_data, compare_svg};
-use crate::source;
+use crate::file::{self, Destination, Format, ROWS, ROWS_OR_PICTURE, formats, write_all, write_with_rows};
+use crate::output::{compare_data, compare_svg, json_bytes, rows_bytes};
+use crate::progress::Progress;
+use crate::{source, terminal};
 use dalembert::quantity::Units;
 use dalembert_compare::data::Source;
 use dalembert_compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
@@ -27,7 +29,7 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nWords of the report:\n{LEGEND}"))]
 pub(crate) struct Compare {
-    /// A scene file, `-`, or a built-in scene. It is followed as far as the data go
+    /// A scene file, `-`, or a built-in scene; it is followed as far as the data go
     scene: String,
     /// Data: text with columns, .npy, .npz, or a folder with a .npy for each quantity; `-` is standard input. Several
     /// show the order of convergence
@@ -39,22 +41,21 @@ pub(crate) struct Compare {
     /// energy=0.02 and impulse=0.05 (relative), momentum, penetration, tension, missed=0, invented=0
     #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
     fail_above: Vec<Limit>,
-    /// The same where something is below a bound: order.u=0.9 or order.force.l1=0.4 of several files, coverage=0.99
+    /// Exit with code 1 where something is below a bound: order.u=0.9 or order.force.l1=0.4 of several files, coverage=0.99
     #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
     fail_below: Vec<Limit>,
     /// Bounds in a file: tables [above] and [below] of names such as "u.l2" with their bounds
     #[arg(long, value_name = "FILE")]
     gates: Option<PathBuf>,
-    /// Write what came of every bound as JUnit's XML, whole or not at all
+    /// Write the outcome of every bound as JUnit's XML, whole or not at all
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// What to print; by default a table
+    /// Format of the output; by default that of the ending of FILE (a picture, .json, .csv with every sample), or a
+    /// table. Beside pictures the table is printed as well
     #[arg(long, value_parser = formats(ROWS))]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: .svg, .png or .pdf, .json, .csv with every sample, or a table; `-`
-    /// is standard output. Can be given several times. Beside pictures the table is printed as well
-    #[arg(short, long, value_name = "FILE")]
-    output: Vec<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 const BOUNDS: &str = "--fail-above NAME=BOUND and --fail-below NAME=BOUND, or a file of --gates";
@@ -66,7 +67,7 @@ struct Gates {
     below: BTreeMap<String, f64>,
 }
 
-/// A test for every bound.
+/// Returns JUnit's XML, with a test for every bound.
 fn junit(outcomes: &[Outcome]) -> String {
     let escaped =
         |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
@@ -87,31 +88,30 @@ fn junit(outcomes: &[Outcome]) -> String {
 
 impl Compare {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        self.check()?;
+        let destinations = self.destinations()?;
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let units = Units::of(&scene.problem, scene.units);
         let prepared =
             Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
-        let progress = source::Progress::of(&scene, &prepared.plan);
+        let progress = Progress::new(&scene, &prepared.plan);
         let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
         drop(progress);
-        for warning in &comparison.warnings {
-            eprintln!("warning: {warning}");
-        }
+        comparison.warnings.iter().for_each(terminal::warn);
         let (title, first) = (scene.title.as_deref(), &comparison.files[0]);
         let bytes = |format| match format {
-            Format::Json => Ok(file::json(&comparison.json(title, &units))),
-            Format::Csv => file::rows(&compare_data(first), format),
+            Format::Json => Ok(json_bytes(&comparison.json(title, &units))),
+            Format::Csv => rows_bytes(&compare_data(first), format),
             Format::Table => Ok(comparison.table(title, &units).into_bytes()),
             picture => file::picture(picture, compare_svg(first, title, &units), Size::Page),
         };
         // Before anything is written.
         let outcomes = comparison.outcomes(&limits).map_err(|error| failure!("{error}").help(BOUNDS))?;
-        file::write_each(&self.output, self.format, bytes)?;
+        write_with_rows(destinations, self.format, bytes)?;
         if let Some(path) = &self.junit {
-            file::write(Some(path), junit(&outcomes).as_bytes())?;
+            let destination = Destination { path: Some(path.clone()), format: Format::Table };
+            write_all(&[destination], |_| Ok(junit(&outcomes).into_bytes()))?;
         }
         let failures: Vec<&Outcome> = outcomes.iter().filter(|outcome| outcome.failure.is_some()).collect();
         for failure in &failures {
@@ -120,41 +120,41 @@ impl Compare {
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
-    /// All bounds: those of the file, and those of the command line.
+    /// Returns the bounds of the command line and of the file.
     fn limits(&self) -> Result<Vec<Limit>, Failure> {
         let mut limits = self.fail_above.clone();
-        limits.extend(self.fail_below.iter().cloned().map(Limit::turned));
+        limits.extend(self.fail_below.iter().cloned().map(Limit::into_minimum));
         let Some(path) = &self.gates else { return Ok(limits) };
         let shown = path.display();
         let text = std::fs::read_to_string(path).map_err(|error| failure!("{shown}: cannot be read: {error}"))?;
         let gates: Gates = toml::from_str(&text).map_err(|error| failure!("{shown}: {}", error.to_string().trim()))?;
         for (bounds, below) in [(gates.above, false), (gates.below, true)] {
             for (name, bound) in bounds {
-                limits.push(Limit::new(&name, bound, below).map_err(|error| failure!("{shown}: {error}"))?);
+                let limit = Limit::new(&name, bound).map_err(|error| failure!("{shown}: {error}"))?;
+                limits.push(if below { limit.into_minimum() } else { limit });
             }
         }
         Ok(limits)
     }
 
-    fn check(&self) -> Result<(), Failure> {
-        for path in &self.output {
-            let format = Format::of(Some(path), self.format, ROWS_OR_PICTURE)?;
-            let path = path.display();
-            if self.data.len() > 1 && !matches!(format, Format::Table | Format::Json) {
-                return Err(failure!("found {path} with several files of data, expected one for a picture or CSV"));
-            }
-        }
-        if self.data.len() > 1 && self.format == Some(Format::Csv) {
-            return Err(failure!("found --format csv with several files of data, expected one"));
+    /// Returns where the output goes. Several files of data are refused for a picture or CSV.
+    fn destinations(&self) -> Result<Vec<Destination>, Failure> {
+        let destinations = self.output.destinations(self.format, ROWS_OR_PICTURE)?;
+        let is_of_one = |format: Format| !matches!(format, Format::Table | Format::Json);
+        if self.data.len() > 1
+            && let Some(destination) = destinations.iter().find(|destination| is_of_one(destination.format))
+        {
+            let path = destination.path.as_ref().map_or("--format csv".into(), |path| path.display().to_string());
+            return Err(failure!("found {path} with several files of data, expected one for a picture or CSV"));
         }
         if self.data.iter().filter(|path| *path == Path::new("-")).count() + usize::from(self.scene == "-") > 1 {
             return Err(failure!("found `-` twice, expected standard input to be read once"));
         }
-        Ok(())
+        Ok(destinations)
     }
 }
 
-/// The failure, with the flag that mends it.
+/// Builds the failure with the option that mends it.
 fn with_flag(error: CompareError) -> Failure {
     let key = error.key();
     let failure = Failure::from(error);

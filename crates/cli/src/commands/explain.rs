@@ -5,9 +5,9 @@ use serde_json::json;
 
 use crate::args::{NumberArgs, OutputArgs};
 use crate::failure::Failure;
-use crate::file::{self, Format};
-use crate::output::{WIDTH, wrapped};
-use crate::source;
+use crate::file::{Format, formats, write_all};
+use crate::output::{json_bytes, wrapped};
+use crate::{source, terminal};
 use dalembert::solve::{Numbers, Plan, Question, Sensitivity};
 use dalembert::{Effect, EffectUse, Scene};
 use dalembert_compare::aligned::table;
@@ -18,17 +18,28 @@ pub(crate) struct Explain {
     scene: String,
     #[command(flatten)]
     numbers: NumberArgs,
+    /// Format of the output; by default that of the ending of FILE, or a table
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
+    /// Keep each row of a table on one line, however wide
+    #[arg(long)]
+    wide: bool,
 }
+
+const FORMATS: &[Format] = &[Format::Table, Format::Json];
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let scene = source::read(&self.scene)?;
         let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
-        match self.output.format()? {
-            Format::Json => self.output.write(&file::json(&json!({
+        write_all(&self.output.destinations(self.format, FORMATS)?, |format| {
+            if format == Format::Table {
+                return Ok(self.text(&scene, &effects, &plan).into_bytes());
+            }
+            Ok(json_bytes(&json!({
                 "schema": 1,
                 "title": scene.title,
                 "effects": effects,
@@ -40,21 +51,19 @@ impl Explain {
                 "limits": plan.limits(),
                 "sensitivity": Sensitivity::of(&scene.problem),
                 "plan": plan,
-                "warnings": scene.problem.neglected().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
-            }))),
-            Format::Table => self.output.write(self.text(&scene, &effects, &plan).as_bytes()),
-            _ => Err(failure!("found --format csv, expected table or json: a plan is no list of numbers")),
-        }
+                "warnings": scene.problem.warnings().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
+            })))
+        })
     }
 
     fn text(&self, scene: &Scene, effects: &[EffectUse], plan: &Plan) -> String {
-        let fold = |text: &str, left: usize| match self.output.wide {
+        let fold = |text: &str, left: usize| match self.wide {
             true => text.to_string(),
-            false => wrapped(text, WIDTH - left, ""),
+            false => wrapped(text, terminal::width() - left, ""),
         };
         let rows = effects.iter().map(|used| {
             let line = used.line.map_or_else(|| "–".to_string(), |line| line.to_string());
-            let because = fold(&used.because, BECAUSE);
+            let because = fold(&used.because, REASON_COLUMN);
             vec![used.effect.to_string(), if used.called { "yes" } else { "no" }.into(), line, because]
         });
         let mut out = scene.title.as_ref().map_or_else(String::new, |title| fold(title, 0) + "\n\n");
@@ -65,7 +74,7 @@ impl Explain {
         let limits = plan.limits().into_iter().enumerate();
         let limits = limits.map(|(k, limit)| (if k == 0 { "limits:" } else { "" }, limit));
         let measured = Sensitivity::of(&scene.problem).map(|measured| ("measured:", measured.to_string()));
-        let warnings = scene.problem.neglected().into_iter().map(|neglected| ("warning:", neglected.to_string()));
+        let warnings = scene.problem.warnings().into_iter().map(|warning| ("warning:", warning.to_string()));
         for (name, text) in lines.into_iter().chain(reasons).chain(limits).chain(measured).chain(warnings) {
             out += &(format!("{name:10}") + &fold(&text, 10).replace('\n', "\n          ") + "\n");
         }
@@ -73,10 +82,10 @@ impl Explain {
     }
 }
 
-/// Characters to the left of the reasons in the table.
-const BECAUSE: usize = 40;
+/// Number of characters to the left of the reasons in the table.
+const REASON_COLUMN: usize = 40;
 
-/// The effects of the scene, and those that the question calls for.
+/// Returns the effects of the scene, and those that the question calls for.
 fn effects(scene: &Scene, plan: &Plan) -> Vec<EffectUse> {
     let mut precision = scene.effect(Effect::ArbitraryPrecision);
     if let Numbers::Double(_) = plan.numbers {

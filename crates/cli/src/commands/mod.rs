@@ -6,7 +6,6 @@ pub(crate) mod cost;
 pub(crate) mod explain;
 pub(crate) mod figures;
 pub(crate) mod plot;
-pub(crate) mod reference;
 pub(crate) mod regimes;
 pub(crate) mod sample;
 pub(crate) mod scenes;

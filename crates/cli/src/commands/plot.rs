@@ -1,47 +1,45 @@
 //! `dalembert plot`.
 
-use std::cell::RefCell;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
+use clap::builder::PossibleValue;
 
-use crate::answer::{Visit, solve, warned};
-use crate::args::NumberArgs;
-use crate::args::words;
+use crate::answer::{Answer, solve};
+use crate::args::{NumberArgs, OutputArgs, words};
 use crate::failure::Failure;
-use crate::file::{self, Format, PICTURES};
-use crate::output::Head;
-use crate::source;
+use crate::file::{self, Format, PICTURES, formats, write_all};
+use crate::output::RunInfo;
+use crate::quantities::{NameParser, Scope};
+use crate::{source, terminal};
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::quantity::{Needs, Quantity};
-use dalembert::solve::{Numbers, Question, Target, TypedHistory};
-use dalembert_plot::draw::Size;
-use dalembert_plot::{Along, Asked, Gathered, Picture, heading, sheet};
+use dalembert::quantity::Units;
+use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
+use dalembert_plot::draw::{Size, without_subscripts};
+use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
 #[derive(Args, Debug)]
-#[command(after_help = format!("\
+#[command(after_help = "\
     Without --quantity, one scene is told in four pictures: the field along the rod with its rays and contacts, the \
     stress at the ground, the motion of both ends and of the centre of mass, and the energy; several scenes are drawn \
     over each other.\n\n\
-    Quantities: {}; the columns are those of `dalembert reference`.\n\n\
     Examples:\n  dalembert plot doyen-ern-piperno -o bounces.png\n  \
     dalembert plot rod.toml --quantity xt --field velocity --to 12 -o xt.svg\n  \
-    dalembert plot figure-4-r01 figure-4-r03 --quantity stress,h --size column -o damping.svg",
-    known()
-))]
+    dalembert plot figure-4-r01 figure-4-r03 --quantity stress,h --size column -o damping.svg")]
 pub(crate) struct Plot {
     /// Scene files, `-`, or built-in scenes
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
-    /// What to draw, separated by commas; by default what tells the scene
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = named)]
-    quantity: Vec<Picture>,
-    /// What the colours of xt show
-    #[arg(long, value_parser = words::<Along>(), default_value_t)]
-    field: Along,
-    /// In xt, where points of the rod are in place of the field
+    /// Pictures, quantities and groups of them, separated by commas; by default those that tell the scene
+    #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
+    #[arg(value_parser = NameParser::new(&[Scope::OverTime], pictures()))]
+    quantity: Vec<String>,
+    /// Quantity that the colours of xt show
+    #[arg(long, value_parser = words::<FieldQuantity>(), default_value_t)]
+    field: FieldQuantity,
+    /// Draw the places of points of the rod in xt, in place of the field
     #[arg(long)]
     deformed: bool,
     /// The first time to draw; by default the start, or shortly before the first impact
@@ -50,34 +48,33 @@ pub(crate) struct Plot {
     /// The last time to draw, whatever the scene's own run says; by default what shows the first contacts
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     to: Option<Number>,
-    /// What the picture is made for
+    /// Size of the picture
     #[arg(long, value_parser = words::<Size>(), default_value_t)]
     size: Size,
     #[command(flatten)]
     numbers: NumberArgs,
-    /// Write to this file, whole or not at all: .svg, .png or .pdf; `-` is standard output, for SVG
-    #[arg(short, long, value_name = "FILE", required = true)]
-    output: Vec<PathBuf>,
+    /// Format of the picture; by default that of the ending of FILE, or SVG
+    #[arg(long, value_parser = formats(PICTURES))]
+    format: Option<Format>,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
-/// The accuracy of a picture where none is asked for: finer than any line.
+/// Accuracy of a picture without --accuracy: finer than any line.
 const ACCURACY: f64 = 1e-6;
 
-fn known() -> String {
-    let columns = Needs::Time.quantities().map(Quantity::name);
-    let columns = columns.filter(|name| matches!(Picture::named(name), Some(Picture::Quantity(_))));
-    Picture::NAMES.iter().map(|known| known.0).chain(columns).collect::<Vec<_>>().join(", ")
-}
-
-fn named(name: &str) -> Result<Picture, String> {
-    Picture::named(name.trim()).ok_or_else(|| format!("found no picture of this name, expected one of {}", known()))
+/// Returns the names of pictures that are no quantities.
+fn pictures() -> impl Iterator<Item = PossibleValue> {
+    let names = Picture::names().filter(|name| !matches!(name.parse(), Ok(Picture::Quantity(_))));
+    names.map(|name| PossibleValue::new(name).help("a picture"))
 }
 
 impl Plot {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        // Before anything is solved.
-        let format = |path: &PathBuf| Format::of(Some(path), None, PICTURES);
-        let formats = self.output.iter().map(format).collect::<Result<Vec<_>, _>>()?;
+        if !self.output.is_given() {
+            return Err(failure!("found no file, expected --output FILE, such as -o bounces.svg"));
+        }
+        let destinations = self.output.destinations(self.format, PICTURES)?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
@@ -88,42 +85,59 @@ impl Plot {
             return Err(failure!("found --to {to}, expected a time after {from}, where the picture begins"));
         }
         let pictures = match (self.quantity.is_empty(), self.scenes.len()) {
-            (false, _) => self.quantity.clone(),
+            (false, _) => self.pictures()?,
             (true, 1) => Picture::SHEET.to_vec(),
             (true, _) => Picture::COMPARED.to_vec(),
         };
-        let along = pictures.contains(&Picture::Along);
-        if !along && (self.deformed || self.field != Along::default()) {
+        let has_field = pictures.contains(&Picture::SpaceTime);
+        if !has_field && (self.deformed || self.field != FieldQuantity::default()) {
             let option = if self.deformed { "--deformed" } else { "--field" };
             return Err(failure!("found {option} without xt, expected it with --quantity xt"));
         }
-        if self.deformed && self.field != Along::default() {
+        if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
-        let asked = Asked { pictures, along: self.field, deformed: self.deformed, from, to };
+        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to };
         let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, _>>()?;
-        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &asked);
+        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &request);
         let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {
             [scene] => {
                 // What comes from standard input has no name.
                 let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
-                heading(scene.title.as_deref().or(name), &scene.problem, &gathered[0], &asked)
+                gathered[0].heading(scene.title.as_deref().or(name), &scene.problem, &request)
             }
             _ => {
-                told_apart(&mut gathered);
-                Vec::new()
+                name_by_differences(&mut gathered);
+                let part = |scene: &SceneData| {
+                    Some(format!("{}: {}", without_subscripts(&scene.name), scene.shown_part(&request)?))
+                };
+                gathered.iter().filter_map(part).collect()
             }
         };
-        let sheet = sheet(&asked, &gathered, title).map_err(|found| failure!("{found}, expected one unit"))?;
+        let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
         let svg = sheet.svg(self.size);
-        for (path, format) in self.output.iter().zip(formats) {
-            file::write(Some(path), &file::picture(format, svg.clone(), self.size)?)?;
-        }
-        Ok(())
+        write_all(&destinations, |format| file::picture(format, svg.clone(), self.size))
     }
 
-    fn gather(&self, name: &str, scene: &Scene, asked: &Asked) -> Result<Gathered, Failure> {
+    /// Returns the requested pictures.
+    fn pictures(&self) -> Result<Vec<Picture>, Failure> {
+        let mut pictures = Vec::new();
+        for name in &self.quantity {
+            match name.parse::<Picture>() {
+                Ok(picture) => pictures.push(picture),
+                Err(_) => {
+                    let quantities = Scope::OverTime.resolve(std::slice::from_ref(name), true)?;
+                    let drawn = quantities.iter().map(|quantity| quantity.name().parse::<Picture>().ok());
+                    let drawn = drawn.collect::<Option<Vec<_>>>();
+                    pictures.extend(drawn.ok_or_else(|| failure!("found --quantity {name}, which has no picture"))?);
+                }
+            }
+        }
+        Ok(pictures)
+    }
+
+    fn gather(&self, name: &str, scene: &Scene, request: &Request) -> Result<SceneData, Failure> {
         let numbers = match self.numbers.numbers(scene) {
             Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
             numbers => numbers,
@@ -133,73 +147,69 @@ impl Plot {
             None => Question::run(numbers),
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
-        let gather = Gather { name: file, scene, asked, found: RefCell::new(None) };
-        solve(scene, &question, &gather)?;
-        gather.found.into_inner().ok_or_else(|| failure!("found no history of {name}"))
+        let Answer { history, info, progress } = solve(scene, &question)?;
+        let found = history.visit(Gather { name: file, request, units: info.units.clone() })?;
+        drop(progress);
+        RunInfo { warnings: history.warnings(), ..info }.print_warnings();
+        note_span(file, request, &found, &history);
+        Ok(found)
     }
 }
 
-/// More values than this that differ between scenes are not told in their names.
-const MOST_DIFFERENT: usize = 3;
+/// Prints notes on the part of a history that is drawn.
+fn note_span(name: &str, request: &Request, found: &SceneData, history: &History) {
+    let ([from, to], end) = (found.span, found.end);
+    let note = |text: String| terminal::note(format!("{name}: {text}"));
+    let short = |time: f64| time.decimal(6);
+    let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
+    let is_short = request.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
+    if end < history.end().to_f64() {
+        note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
+    } else if request.shows_span() && request.to.is_none() && (to < end || from > request.from.unwrap_or(0.0)) {
+        let (from, to, end) = (short(from), short(to), short(end));
+        note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
+    } else if is_short {
+        note(format!("the history ends at t = {}: {}", short(end), history.ending()));
+    }
+    if let Some(columns) = found.coarse_columns() {
+        note(format!(
+            "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
+            columns.decimal(2)
+        ));
+    }
+}
 
-/// Calls scenes by the values in which they differ, where these are few.
-fn told_apart(scenes: &mut [Gathered]) {
-    let values = |scene: &Gathered| {
+/// Most values that the name of a scene states.
+const MAX_DIFFERENT: usize = 3;
+
+/// Names scenes by the values in which they differ, if these are few.
+fn name_by_differences(scenes: &mut [SceneData]) {
+    let values = |scene: &SceneData| {
         let rod = &scene.rod;
         [("L", rod.length), ("c", rod.wave_speed), ("r", rod.damping), ("g", rod.gravity), ("μ", rod.speed)]
     };
     let all: Vec<_> = scenes.iter().map(values).collect();
     let different: Vec<usize> = (0..5).filter(|k| all.iter().any(|values| values[*k] != all[0][*k])).collect();
-    if different.is_empty() || different.len() > MOST_DIFFERENT {
+    if different.is_empty() || different.len() > MAX_DIFFERENT {
         return;
     }
     for (scene, values) in scenes.iter_mut().zip(&all) {
-        let told = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
-        scene.name = told.collect::<Vec<_>>().join(", ");
+        let values = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
+        scene.name = values.collect::<Vec<_>>().join(", ");
     }
 }
 
-/// Asks a history for what the pictures show.
+/// A request for the data of the pictures of a history, whatever its numbers.
 struct Gather<'a> {
     name: &'a str,
-    scene: &'a Scene,
-    asked: &'a Asked,
-    found: RefCell<Option<Gathered>>,
+    request: &'a Request,
+    units: Units,
 }
 
-impl Visit for Gather<'_> {
-    fn visit<S: Target>(
-        &self,
-        history: &TypedHistory<S>,
-        head: Head,
-        progress: source::Progress,
-    ) -> Result<(), Failure> {
-        let found = self.asked.gather(self.name.into(), &self.scene.problem, head.units.clone(), history)?;
-        drop(progress);
-        warned(Head { warnings: history.warnings(), ..head }, false);
-        let ([from, to], end) = (found.span, found.end);
-        let note = |text: String| eprintln!("note: {}: {text}", self.name);
-        let short = |time: f64| time.decimal(6);
-        let runs_on = matches!(history.ending(), Ending::Time | Ending::NextImpact);
-        let short_of = self.asked.to.map_or(!runs_on, |asked| asked > end * (1.0 + 1e-12));
-        if end < history.end().to_f64() {
-            note(format!("drawn up to t = {}, as far as the events are settled", short(to)));
-        } else if self.asked.over_time()
-            && self.asked.to.is_none()
-            && (to < end || from > self.asked.from.unwrap_or(0.0))
-        {
-            let (from, to, end) = (short(from), short(to), short(end));
-            note(format!("drawn from t = {from} to {to} of {end}; --from and --to draw another span"));
-        } else if short_of {
-            note(format!("the history ends at t = {}: {}", short(end), history.ending()));
-        }
-        if let Some(columns) = found.coarse() {
-            note(format!(
-                "xt has {} columns for a round trip, too few for its waves; --from and --to draw another span",
-                columns.decimal(2)
-            ));
-        }
-        self.found.replace(Some(found));
-        Ok(())
+impl Visitor for Gather<'_> {
+    type Output = Result<SceneData, dalembert::Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        self.request.gather(self.name.into(), self.units, history)
     }
 }

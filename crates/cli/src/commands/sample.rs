@@ -1,113 +1,361 @@
-//! `dalembert sample`.
+//! `dalembert sample`, and `dalembert reference`: the same with the defaults of a golden file, and functions.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::answer::{Visit, gathered, print, solve};
-use crate::args::words;
-use crate::args::{NumberArgs, OutputArgs};
-use crate::failure::Failure;
-use crate::file;
-use crate::output::{Head, Quantity, Samples, samples, samples_data, shared};
-use crate::source;
-use dalembert::Error;
-use dalembert::engine::Motion;
-use dalembert::number::{List, Scalar};
+use crate::answer::{Answer, solve};
+use crate::args::{NumberArgs, OutputArgs, list, words};
+use crate::failure::{Failure, cannot};
+use crate::file::{Destination, Format, formats, write_all};
+use crate::output::{
+    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
+};
+use crate::quantities::{NameParser, Scope, has_material};
+use crate::{source, terminal};
+use dalembert::number::{List, Number};
 use dalembert::problem::Parameter;
-use dalembert::solve::{Question, Target, TypedHistory};
-use dalembert::{Ending, Side};
+use dalembert::quantity::{Quantity, SLICE, Slice};
+use dalembert::solve::{Derivatives, History, Places, Question};
+use dalembert::{Ending, Error, Scene, Side, Value};
 
 #[derive(Args, Debug)]
-#[command(
-    after_help = "Examples:\n  dalembert sample paper-strong --quantity stress --times 0.3,1.2,2 --side left\n  \
+#[command(after_help = "Without times, the rows are the start, every impact and release, and the end.\n\n\
+    Examples:\n  dalembert sample paper-strong --quantity strain --times 0.3,1.2,2 --side left\n  \
     dalembert sample doyen-ern-piperno --quantity end,energy --times 0..16/3:9 --exact\n  \
     dalembert sample paper-weak --quantity field --times 1/3 --points 0.25,0.9\n  \
-    dalembert sample figure-4-r02 --quantity stress --times 0.1,0.3 --derivatives speed,damping"
-)]
+    dalembert sample figure-4-r02 --quantity strain --times 0.1,0.3 --derivatives impact_speed,damping\n  \
+    dalembert sample rod.toml --quantity u_end,force --dt 0.001 --to 5 -o values.npz")]
 pub(crate) struct Sample {
-    /// A scene file, `-`, or a built-in scene. It is followed as far as the last time, whatever its own run says
+    #[command(flatten)]
+    args: SampleArgs,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = "The same as `dalembert sample`, with the defaults of a golden file: CSV, all quantities, and \
+    both limits where a jump passes.\n\n\
+    Examples:\n  dalembert reference doyen-ern-piperno --dt 0.001 --to 5 -o golden.csv\n  \
+    my_code --print-times | dalembert reference rod.toml --times-from - --quantity t,u_end,force\n  \
+    dalembert reference rod.toml --times 0..2:5 --points 0..1:101 -o field.npz\n  \
+    dalembert reference getfem-dynamic-contact --as python -o golden.py")]
+pub(crate) struct Reference {
+    #[command(flatten)]
+    args: SampleArgs,
+    /// Instead of rows: the exact solution of an undamped rod as a function uExact(x, t, d)
+    #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
+    #[arg(conflicts_with_all = ["when", "quantity", "points", "side", "derivatives", "uncertainty", "format", "bare"])]
+    language: Option<Language>,
+}
+
+#[derive(Args, Debug)]
+struct SampleArgs {
+    /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
-    /// What to sample: one, or several over time with commas between them, whose columns are then named as in reference
-    #[arg(long, value_enum, value_delimiter = ',', required = true)]
-    quantity: Vec<Quantity>,
+    /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a golden
+    /// file has the columns as they are listed, by default all
+    #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
+    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []))]
+    quantity: Vec<String>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
-    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
-    times: List,
-    /// Points of the rod for the field, in the same form; by default its two ends and its middle
-    #[arg(long, value_name = "LIST", value_parser = List::equally_spaced, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
+    times: Option<List>,
+    /// Times from a file, `-` for standard input: one a line, `#` begins a comment
+    #[arg(long, value_name = "FILE", group = "when")]
+    times_from: Option<PathBuf>,
+    /// Times 0, DT, 2 DT … up to --to
+    #[arg(long, value_name = "DT", requires = "to", group = "when", allow_hyphen_values = true)]
+    dt: Option<Number>,
+    /// The last time of --dt
+    #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
+    to: Option<Number>,
+    /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is both
+    /// ends and the middle
+    #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
-    /// Which limit where there are two
-    #[arg(long, value_parser = words::<Side>(), default_value_t)]
-    side: Side,
+    /// Meaning of the field on the grid of the points
+    #[arg(long, value_parser = words::<Slice>(), default_value_t, requires = "points")]
+    field: Slice,
+    /// Limit where a jump passes: from earlier times, from later ones, or both in two rows; right by default, both in a
+    /// golden file
+    #[arg(long, value_enum)]
+    side: Option<SideArg>,
     /// Derivatives of the values by values of the scene, as with solve; time and point stay where they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
+    /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
+    #[arg(long)]
+    uncertainty: bool,
     #[command(flatten)]
     numbers: NumberArgs,
+    /// Format of the output; by default that of the ending of FILE, or a table, or CSV for a golden file
+    #[arg(long, value_parser = formats(FORMATS))]
+    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
+    /// Keep each row of a table on one line, however wide
+    #[arg(long)]
+    wide: bool,
+    /// Leave out the comments above a CSV
+    #[arg(long)]
+    bare: bool,
+}
+
+/// The formats of values over time; those of a golden file begin with CSV.
+const FORMATS: &[Format] = &[Format::Table, Format::Csv, Format::Json, Format::Npz];
+const GOLDEN_FORMATS: &[Format] = &[Format::Csv, Format::Json, Format::Npz, Format::Table];
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum SideArg {
+    /// The limit from earlier times
+    Left,
+    /// The limit from later times
+    Right,
+    /// Two rows where the limits differ, the limit from earlier times first
+    Both,
 }
 
 impl Sample {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = source::read(&self.scene)?;
-        let (Some(first), Some(last)) = (self.times.least(), self.times.greatest()) else {
-            return Err(failure!("found no times, expected at least one"));
-        };
-        let of_field = self.quantity.contains(&Quantity::Field);
-        if self.points.is_some() && !of_field {
-            return Err(failure!("found --points, expected them with --quantity field only"));
-        }
-        if of_field && self.quantity.len() > 1 {
-            return Err(failure!(
-                "found field beside others, expected it alone: its rows are points, theirs are times"
-            ));
-        }
-        if let Some(k) = (1..self.quantity.len()).find(|k| self.quantity[..*k].contains(&self.quantity[*k])) {
-            return Err(failure!("found --quantity {} twice, expected each once", self.quantity[k].name()));
-        }
-        if last.to_f64() < 0.0 {
-            return Err(failure!("found time {last}, expected times from 0 on"));
-        }
-        solve(&scene, &Question::between(first, last, self.numbers.numbers(&scene)), self)
-    }
-
-    fn gather<S: Scalar>(&self, history: &dyn Motion<S>, head: &Head) -> Result<(Samples, Vec<S>), Error> {
-        let length = history.scales().length;
-        let precision = length.precision();
-        let points = match &self.points {
-            Some(points) => points.lift::<S>(&precision),
-            None => vec![length.zero(), length.clone() / length.int(2), length],
-        };
-        samples(history, &self.quantity, (&self.times.lift(&precision), &points), self.side, head)
+        self.args.run(false)
     }
 }
 
-impl Visit for Sample {
-    fn visit<S: Target>(
-        &self,
-        history: &TypedHistory<S>,
-        head: Head,
-        progress: source::Progress,
-    ) -> Result<(), Failure> {
-        let head = Head { wide: self.output.wide, ..head };
-        let mut samples = gathered(history, &progress, |motion| self.gather(motion, &head))?;
-        for by in self.derivatives.iter().copied() {
-            let too_long = || Error::Derivative { parameter: by.name(), expected: "times and points of fewer digits" };
-            let points = match (&self.points, &self.quantity[..]) {
-                (Some(points), _) => points.numbers(),
-                (None, [Quantity::Field]) => List::Range(0.into(), history.problem().rod.length.clone(), 3).numbers(),
-                (None, _) => Some(Vec::new()),
-            };
-            let (times, points) = self.times.numbers().zip(points).ok_or_else(too_long)?;
-            let found = history.derivatives_at(by, &samples.quantities, &times, &points, self.side)?;
-            samples.derivatives.push((by, shared(found)));
+impl Reference {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let Some(language) = self.language else { return self.args.run(true) };
+        let scene = source::read(&self.args.scene)?;
+        let question = Question::run(self.args.numbers.numbers(&scene));
+        let destinations = self.args.output.destinations(Some(Format::Table), FORMATS)?;
+        let Answer { history, info, progress } = solve(&scene, &question)?;
+        let info = RunInfo { warnings: history.warnings(), ..info };
+        progress.suspend(|| info.print_warnings());
+        let header = Header::new(&history, info, scene.source(), "each coefficient", true);
+        let text = code(&history, language, &header)?;
+        drop(progress);
+        write_all(&destinations, |_| Ok(text.clone().into_bytes()))
+    }
+}
+
+impl SampleArgs {
+    fn run(&self, is_golden: bool) -> Result<(), Failure> {
+        let scene = source::read(&self.scene)?;
+        let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
+        let destinations = self.output.destinations(self.format, known)?;
+        if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
+            return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
-        let head = Head { warnings: history.warnings(), ..head };
-        print(&self.output, head, progress, |head, format| file::rows(&samples_data(samples, head), format))?;
-        // Where that is not for the time asked for, as at rest.
-        if !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
-            eprintln!("note: {}", history.ending());
+        let times = self.times()?;
+        let mut points = self.points.clone();
+        if points.is_none() && self.quantity.iter().any(|name| name == "field") {
+            points = Some(List::Range(0.into(), scene.problem.rod.length.clone(), 3));
+        }
+        let quantities = self.quantities(&scene, points.is_some(), is_golden)?;
+        let side = match (self.side, is_golden && self.derivatives.is_empty()) {
+            (Some(SideArg::Left), _) => Some(Side::Left),
+            (Some(SideArg::Both), _) | (None, true) => None,
+            (Some(SideArg::Right), _) | (None, false) => Some(Side::Right),
+        };
+        if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
+            return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
+        }
+        let numbers = self.numbers.numbers(&scene);
+        let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
+            None => Question::run(numbers),
+            Some((Some(first), _)) if first.to_f64() < 0.0 => {
+                return Err(failure!("found time {first}, expected times from 0 on"));
+            }
+            // The history before the first time is part of these.
+            Some((Some(_), Some(last))) if quantities.iter().any(|quantity| quantity.is_of_past()) => {
+                Question::between(0.into(), last, numbers)
+            }
+            Some((Some(first), Some(last))) => Question::between(first, last, numbers),
+            Some(_) => return Err(failure!("found no times, expected at least one")),
+        };
+        let rows = Rows { args: self, scene: &scene, times, points, quantities, side };
+        rows.write(solve(&scene, &question)?, &destinations)
+    }
+
+    /// Returns the columns of the rows.
+    fn quantities(&self, scene: &Scene, is_field: bool, is_golden: bool) -> Result<Vec<Quantity>, Failure> {
+        let has_material = has_material(scene);
+        let scope = if is_field { Scope::AlongRod } else { Scope::OverTime };
+        if !is_field && self.quantity.iter().any(|name| name == "x") {
+            return Err(failure!("found the quantity x without points, expected --points with it"));
+        }
+        let listed = scope.resolve(&self.quantity, has_material)?;
+        Ok(match (listed.is_empty(), is_field) {
+            (true, true) if is_golden => SLICE.to_vec(),
+            (true, true) => self.with_keys(scope.resolve(&["field".into()], has_material)?, true),
+            (true, false) if is_golden => scope.quantities(),
+            (true, false) => return Err(failure!("found no quantity, expected some after --quantity, such as end")),
+            (false, _) if is_golden || listed.contains(&Quantity::Time) => listed,
+            (false, _) => self.with_keys(listed, is_field),
+        })
+    }
+
+    /// Returns `quantities` after the time, the side and, of a field, the point.
+    fn with_keys(&self, quantities: Vec<Quantity>, is_field: bool) -> Vec<Quantity> {
+        let keys = if is_field { &SLICE[..3] } else { &SLICE[..2] };
+        let others = quantities.into_iter().filter(|quantity| !keys.contains(quantity));
+        keys.iter().copied().chain(others).collect()
+    }
+
+    /// Returns the requested times; `None` for the start, every impact and release, and the end.
+    fn times(&self) -> Result<Option<List>, Failure> {
+        match (&self.times, &self.times_from, &self.dt, &self.to) {
+            (Some(list), ..) => Ok(Some(list.clone())),
+            (_, Some(path), ..) => read_times(path).map(Some),
+            (_, _, Some(dt), Some(to)) => List::steps(dt, to).map(Some).map_err(|error| failure!("{error}")),
+            _ => Ok(None),
+        }
+    }
+}
+
+/// Reads the times of a file, or of standard input for `-`: one a line; empty lines and the text after a `#` do not
+/// count.
+fn read_times(path: &Path) -> Result<List, Failure> {
+    let is_stdin = path == Path::new("-");
+    let name = if is_stdin { "standard input".to_string() } else { path.display().to_string() };
+    let cannot_read = || cannot(&format!("read {name}"));
+    let opened: Box<dyn Read> =
+        if is_stdin { Box::new(std::io::stdin()) } else { Box::new(File::open(path).map_err(cannot_read())?) };
+    let mut times = Vec::new();
+    for (line, row) in BufReader::new(opened).lines().zip(1..) {
+        let line = line.map_err(cannot_read())?;
+        let text = line.split('#').next().unwrap_or_default().trim_start_matches('\u{feff}').trim();
+        let values = text.split(|c: char| c == ',' || c == ';' || c.is_whitespace()).filter(|part| !part.is_empty());
+        match values.count() {
+            0 if text.is_empty() => continue,
+            1 => (),
+            count => return Err(failure!("{name}, row {row}: found {count} values, expected one time a line")),
+        }
+        let time: Number = text.parse().map_err(|error| failure!("{name}, row {row}: {error}"))?;
+        if time.to_f64() < 0.0 {
+            return Err(failure!("{name}, row {row}: found time {time}, expected times from 0 on"));
+        }
+        times.push(time);
+    }
+    if times.is_empty() {
+        Err(failure!("{name}: found no times, expected one a line"))
+    } else {
+        Ok(List::Numbers(times))
+    }
+}
+
+/// Rows that are computed at once.
+const CHUNK: usize = 1 << 14;
+
+/// Rows to write, each of a time or of a time and a point.
+struct Rows<'a> {
+    args: &'a SampleArgs,
+    scene: &'a Scene,
+    /// Times; `None` stands for the start, the events and the end.
+    times: Option<List>,
+    points: Option<List>,
+    quantities: Vec<Quantity>,
+    /// Limit at a jump; `None` stands for both.
+    side: Option<Side>,
+}
+
+impl Rows<'_> {
+    /// Returns the values of a part of the times, column by column.
+    fn values(&self, history: &History, part: Range<usize>) -> Result<Vec<Vec<Value>>, Error> {
+        let times = self.times.as_ref().map_or(Places::Events, |list| Places::Part(list, part));
+        match &self.points {
+            None => history.sample(&self.quantities, &times, self.side),
+            Some(points) => history.sample_along(&self.quantities, self.args.field, &points.into(), &times, self.side),
+        }
+    }
+
+    /// Returns the derivatives of `quantities` by each parameter.
+    fn derivatives(&self, history: &History, quantities: &[Quantity]) -> Result<Vec<Derivatives<Value>>, Error> {
+        let parameters = &self.args.derivatives;
+        let (Some(times), Some(side), Some(first)) = (&self.times, self.side, parameters.first()) else {
+            return Ok(Vec::new());
+        };
+        let points = self.points.as_ref().map_or_else(|| Some(Vec::new()), List::numbers);
+        let too_long = Error::Derivative { parameter: first.name(), expected: "times and points of fewer digits" };
+        let (times, points) = times.numbers().zip(points).ok_or(too_long)?;
+        parameters.iter().map(|by| history.derivatives_at(*by, quantities, &times, &points, side)).collect()
+    }
+
+    /// Writes rows while the next ones are computed.
+    fn write(&self, answer: Answer, destinations: &[Destination]) -> Result<(), Failure> {
+        let Answer { history, info, progress } = answer;
+        let info = RunInfo { wide: self.args.wide, ..info };
+        let is_key = |quantity: &&Quantity| SLICE[..3].contains(*quantity);
+        let derived: Vec<Quantity> = self.quantities.iter().filter(|quantity| !is_key(quantity)).copied().collect();
+        let derivatives = self.derivatives(&history, &derived)?;
+        let by = || self.args.derivatives.iter().copied().zip(&derivatives);
+        let (derived_columns, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
+            by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
+        let columns = self.quantities.iter().map(|quantity| Column::new(*quantity, &info.units));
+        let columns: Vec<Column> = columns.chain(derived_columns).collect();
+        let writer = |destination: &Destination| {
+            // A table has derivatives below it.
+            let count = if destination.format == Format::Table { self.quantities.len() } else { columns.len() };
+            RowWriter::new(destination.format, &columns[..count], self.args.uncertainty, info.digits)
+        };
+        let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        let mut write = |cells: &[Vec<Cell>]| writers.iter_mut().try_for_each(|writer| writer.push(cells));
+        let count = self.times.as_ref().map_or(1, List::len);
+        // Derivatives are computed all at once.
+        let at_once = match derivatives.is_empty() {
+            true => CHUNK / self.points.as_ref().map_or(1, List::len).min(CHUNK),
+            false => count,
+        };
+        progress.set_stage("values of the answer");
+        let (mut cells, mut written) = (Vec::new(), Ok(()));
+        for begin in (0..count).step_by(at_once) {
+            let (part, mut values) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
+            std::thread::scope(|scope| {
+                scope.spawn(|| written = write(&cells));
+                values = self.values(&history, part);
+            });
+            std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
+            cells = values?.into_iter().map(|column| column.into_iter().map(Cell::Number).collect()).collect();
+        }
+        cells.extend(derived_cells);
+        write(&cells).map_err(cannot("keep the rows"))?;
+        let mut tables = String::new();
+        if destinations.iter().any(|destination| destination.format == Format::Table) {
+            let symbols: Vec<_> = derived.iter().map(|quantity| quantity.symbol()).enumerate().collect();
+            let labels = self.labels(&cells, &info);
+            tables.extend(by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, &info)));
+        }
+        let info = RunInfo { warnings: history.warnings(), ..info };
+        if !destinations.iter().any(Destination::is_printed_table) {
+            progress.suspend(|| info.print_warnings());
+        }
+        drop(progress);
+        let below = format!("\n{tables}{}", info.below_values(&self.quantities));
+        let key_count = self.quantities.iter().take_while(is_key).count().max(1);
+        let layout = Layout { below, keys: (!self.args.wide).then_some(key_count), bare: self.args.bare };
+        let header = Header::new(&history, info, self.scene.source(), "each column", self.times.is_none());
+        for (writer, destination) in writers.into_iter().zip(destinations) {
+            writer.finish(&header, destination, &layout)?;
+        }
+        // Values beyond the end of a history that rests are those of rest.
+        if self.times.is_some() && !matches!(history.ending(), Ending::Time | Ending::NextImpact) {
+            terminal::note(history.ending());
         }
         Ok(())
+    }
+
+    /// Returns a label for each row of derivatives: `t = 1/2   x = 0`.
+    fn labels(&self, columns: &[Vec<Cell>], info: &RunInfo) -> Vec<String> {
+        let place = |key: Quantity| self.quantities.iter().position(|quantity| *quantity == key);
+        let text = |name: &str, key: Quantity, row: usize| match &columns[place(key)?][row] {
+            Cell::Number(value) => Some(format!("{name} = {}", info.text(value))),
+            Cell::Plain(_) | Cell::Numbers(_) => None,
+        };
+        let label = |row: usize| {
+            let texts = [text("t", Quantity::Time, row), text("x", Quantity::Point, row)];
+            texts.into_iter().flatten().collect::<Vec<_>>().join("   ")
+        };
+        (0..columns.first().map_or(0, Vec::len)).map(label).collect()
     }
 }

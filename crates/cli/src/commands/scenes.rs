@@ -7,12 +7,12 @@ use clap::Args;
 
 use crate::args::OutputArgs;
 use crate::failure::{Failure, cannot};
-use crate::file::{self, Format};
-use crate::output::targets_data;
-use crate::source;
+use crate::file::{Format, ROWS, formats, write_all};
+use crate::output::{rows_bytes, targets_data};
+use crate::{source, terminal};
 use dalembert::builtin;
 use dalembert_compare::aligned::table;
-use dalembert_verify::Published;
+use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
 #[command(
@@ -27,8 +27,14 @@ pub(crate) struct Scenes {
     /// ones
     #[arg(long)]
     targets: bool,
+    /// Format of the published values; by default that of the ending of FILE, or a table
+    #[arg(long, value_parser = formats(ROWS))]
+    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
+    /// Keep each row of a table on one line, however wide
+    #[arg(long)]
+    wide: bool,
 }
 
 impl Scenes {
@@ -36,7 +42,7 @@ impl Scenes {
         if self.targets {
             return self.published();
         }
-        if self.output.format.is_some_and(|format| format != Format::Table) {
+        if self.format.is_some_and(|format| format != Format::Table) {
             return Err(failure!("found --format, expected it with --targets: a list of scenes is a text"));
         }
         let text = match &self.name {
@@ -48,38 +54,43 @@ impl Scenes {
                 Some(scene) => scene.source.to_string(),
                 None => {
                     let failure = failure!("found no built-in scene called `{name}`");
-                    return Err(failure.help("expected one of the names that `dalembert scenes` lists"));
+                    let suggestion = source::nearest(name, builtin::names());
+                    let suggestion = suggestion.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                    let expected = "expected one of the names that `dalembert scenes` lists";
+                    return Err(failure.help(format!("{expected}{suggestion}")));
                 }
             },
         };
-        self.output.write(text.as_bytes())?;
+        write_all(&self.output.destinations(Some(Format::Table), ROWS)?, |_| Ok(text.clone().into_bytes()))?;
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The published values of a scene, of the scenes in a folder, or of all that are built in; 1 where one differs.
+    /// Writes the published values of a scene, of the scenes in a folder, or of all built-in scenes. The exit code is 1
+    /// if one differs.
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
-            None => Published::builtin()?,
+            None => PublishedScene::builtin()?,
             Some(name) => scene_files(name)?
                 .into_iter()
                 .map(|name| {
-                    let found = Published::of(&name, &source::read(&name)?);
+                    let found = PublishedScene::new(&name, &source::read(&name)?);
                     found.map_err(|error| failure!("{name}: {error}"))
                 })
                 .collect::<Result<Vec<_>, _>>()?,
         };
         for published in &all {
             for warning in &published.warnings {
-                eprintln!("warning: {}: {warning}", published.scene);
+                terminal::warn(format!("{}: {warning}", published.name));
             }
         }
-        self.output.write(&file::rows(&targets_data(&all, self.output.wide), self.output.format()?)?)?;
-        let (count, agreed) = Published::count(&all);
-        Ok(if agreed < count { ExitCode::from(1) } else { ExitCode::SUCCESS })
+        let data = targets_data(&all, self.wide);
+        write_all(&self.output.destinations(self.format, ROWS)?, |format| rows_bytes(&data, format))?;
+        let (count, agreed) = PublishedScene::count(&all);
+        Ok(ExitCode::from(u8::from(agreed < count)))
     }
 }
 
-/// The scene itself, or the scene files of a folder in the order of their names.
+/// Returns the scene itself, or the scene files of a folder in the order of their names.
 fn scene_files(name: &str) -> Result<Vec<String>, Failure> {
     if !Path::new(name).is_dir() {
         return Ok(vec![name.to_string()]);

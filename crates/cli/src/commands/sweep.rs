@@ -2,21 +2,22 @@
 
 use std::io::ErrorKind;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Args;
 use serde_json::json;
 
-use crate::args::in_threads;
-use crate::args::{NumberArgs, quantity};
+use crate::args::{NumberArgs, OutputArgs, in_threads};
 use crate::failure::{self, Failure};
-use crate::file::{self, Format, formats};
-use crate::output::sweep_data;
-use crate::source;
-use crate::sweep::{self, Asked, Axis, Grid, Journal, Point, SweepError, journal_of};
+use crate::file::{Format, formats, write_all};
+use crate::output::{rows_bytes, sweep_data};
+use crate::quantities::{NameParser, Scope, has_material};
+use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
+use crate::{source, terminal};
 use dalembert::number::Number;
-use dalembert::quantity::{Needs, Quantity};
+use dalembert::quantity::Needs;
+use dalembert_verify::regimes::GridError;
 
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
@@ -27,14 +28,15 @@ use dalembert::quantity::{Needs, Quantity};
 pub(crate) struct Sweep {
     /// A scene file, `-`, or a built-in scene
     scene: String,
-    /// What is varied: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
+    /// A value to vary: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
     /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
-    /// What is asked of each point, separated by commas
-    #[arg(long, value_parser = quantity(), value_delimiter = ',', required = true)]
-    quantity: Vec<Quantity>,
-    /// When, for what has a value at every time; by default at the first bounce
+    /// Quantities of each point and groups of them, separated by commas
+    #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',', required = true)]
+    #[arg(value_parser = NameParser::new(&[Scope::SingleNumber], []))]
+    quantity: Vec<String>,
+    /// The time of quantities over time; by default the first bounce
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     #[command(flatten)]
@@ -45,73 +47,79 @@ pub(crate) struct Sweep {
     /// Go on with the sweep that FILE.unfinished holds
     #[arg(long, requires = "output")]
     resume: bool,
-    /// How many points are solved at the same time; by default one for each core
+    /// Number of threads; by default one for each core
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// What to print; by default a table, or what the ending of FILE says
+    /// Format of the output; by default that of the ending of FILE, or a table
     #[arg(long, value_parser = formats(FORMATS))]
     format: Option<Format>,
-    /// Write to this file, whole or not at all: .csv, .json, .npz, or a table
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
 }
 
 const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Csv, Format::Npz];
 
-/// A part, counted from 1, and how many there are.
+/// Parses the number of a part, counted from 1, and the number of parts.
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let numbers = text.split_once('/').and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
     let known = numbers.filter(|[part, parts]| (1..=*parts).contains(part));
     known.ok_or_else(|| format!("found `{text}`, expected I/N such as 3/8, the third of eight parts"))
 }
 
+/// Parses an axis. An error shows the grammar, or the nearest path.
+fn axis(text: &str) -> Result<Axis, Failure> {
+    let grammar = "--vary is PATH=V1,V2,…, PATH=A..B:N for N values from A to B, or PATH=A..B:N:log";
+    text.parse().map_err(|error| match &error {
+        // The message names the nearest path.
+        GridError::UnknownPath(_) => Failure::from(error),
+        _ => Failure::from(error).help(grammar),
+    })
+}
+
 impl Sweep {
-    /// The exit code is 1 where no point has a number.
+    /// Solves all points and writes them. The exit code is 1 if no point has a number.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        let format = Format::of(self.output.as_deref(), self.format, FORMATS)?;
+        let destinations = self.output.destinations(self.format, FORMATS)?;
         let scene = source::read(&self.scene)?;
-        let axes = self.vary.iter().map(|text| text.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?;
+        let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
-            return Err(SweepError::new(format!("time {time}"), "one from 0 on").into());
+            return Err(failure!("found time {time}, expected one from 0 on"));
         }
-        for (k, quantity) in self.quantity.iter().enumerate() {
-            if let Some(time) = self.time.as_ref().filter(|_| quantity.needs() != Needs::Time) {
-                let expected = format!("none: {} is not asked at a time", quantity.name());
-                return Err(SweepError::new(format!("time {time}"), expected).into());
-            }
-            if self.quantity[..k].contains(quantity) {
-                return Err(SweepError::new(format!("{} asked twice", quantity.name()), "each quantity once").into());
-            }
+        let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(&scene))?;
+        if let Some(time) = &self.time
+            && let Some(quantity) = quantities.iter().find(|quantity| quantity.needs() != Needs::Time)
+        {
+            return Err(failure!("found time {time}, expected none: {quantity} is not asked at a time"));
         }
-        let (quantities, time, numbers) = (self.quantity.clone(), self.time.clone(), self.numbers.numbers(&scene));
-        let asked = Asked { quantities, time, numbers, units: scene.units };
-        let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, asked };
+        let (time, numbers) = (self.time.clone(), self.numbers.numbers(&scene));
+        let request = Request { quantities, time, numbers, units: scene.units };
+        let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, request };
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
-        let vary = |axis: &Axis| json!({"path": axis.path, "values": axis.values});
-        // All that the points depend on.
+        let vary = |axis: &Axis| json!({"path": axis.parameter.path(), "values": axis.values});
+        // Everything that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),
             "scene": scene.source(),
             "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
-            "quantity": sweep.asked.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
-            "time": sweep.asked.time,
-            "number": sweep.asked.numbers.to_string(),
+            "quantity": sweep.request.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
+            "time": sweep.request.time,
+            "number": sweep.request.numbers.to_string(),
             "points": [points.start, points.end],
         });
-        let path = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let path = destinations.iter().find_map(|destination| destination.path.as_deref());
         let open = |path| Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error));
         let (journal, known) = path.map(open).transpose()?.unzip();
         let found = self.solve(&sweep, points, known.unwrap_or_default(), journal.as_ref())?;
-        let bytes = file::rows(&sweep_data(&sweep, &found, scene.title.as_deref()), format)?;
-        file::write(path, &bytes)?;
+        let data = sweep_data(&sweep, &found, scene.title.as_deref());
+        write_all(&destinations, |format| rows_bytes(&data, format))?;
         if let Some((journal, path)) = journal.zip(path) {
-            journal.remove().map_err(failure::cannot(&format!("remove {}", journal_of(path).display())))?;
+            journal.remove().map_err(failure::cannot(&format!("remove {}", journal_path(path).display())))?;
         }
-        let mut cells = found.iter().flat_map(|point| &point.cells);
-        let fails = !found.is_empty() && cells.all(|cell| cell.value.is_null());
-        Ok(if fails { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+        let mut numbers = found.iter().flat_map(|point| &point.numbers);
+        let fails = !found.is_empty() && numbers.all(|number| number.value.is_null());
+        Ok(ExitCode::from(u8::from(fails)))
     }
 
     fn solve(
@@ -121,7 +129,7 @@ impl Sweep {
         known: Vec<Point>,
         journal: Option<&Journal>,
     ) -> Result<Vec<Point>, Failure> {
-        let bar = source::bar(Some(points.len() as u64), "{bar:40} {pos}/{len} points, {eta} left");
+        let bar = terminal::bar(Some(points.len() as u64), "{bar:40} {pos}/{len} points{left}");
         bar.inc(known.len() as u64);
         bar.reset_eta();
         let done = |point: &Point| {
@@ -134,16 +142,15 @@ impl Sweep {
     }
 }
 
+/// Builds the failure for a journal that cannot be opened.
 fn unopened(output: &Path, error: std::io::Error) -> Failure {
-    let journal = journal_of(output).display().to_string();
+    let journal = journal_path(output).display().to_string();
     match error.kind() {
-        ErrorKind::AlreadyExists => SweepError::new(
-            format!("{journal}, which an interrupted sweep left"),
-            "--resume to go on with it, or the file removed",
-        )
-        .into(),
+        ErrorKind::AlreadyExists => failure!(
+            "found {journal}, which an interrupted sweep left, expected --resume to go on with it, or the file removed"
+        ),
         ErrorKind::InvalidData => {
-            SweepError::new(format!("{journal} of another sweep"), "the same command, or the file removed").into()
+            failure!("found {journal} of another sweep, expected the same command, or the file removed")
         }
         _ => failure::cannot(&format!("write {journal}"))(error),
     }

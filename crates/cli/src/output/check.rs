@@ -1,13 +1,14 @@
-//! The catalogue as a page, a table or JSON.
+//! The catalogue of `check` as a page, a table or JSON.
 
-use serde_json::{Value, json};
+use serde_json::{Value as Json, json};
 
 use super::cost::duration;
 use super::target::{published_json, published_page, targets_data};
 use dalembert_compare::aligned::table;
-use dalembert_verify::Published;
-use dalembert_verify::check::{Checked, CheckedQuestion, Group};
+use dalembert_verify::check::{CheckedCase, CheckedQuestion, Group};
+use dalembert_verify::published::PublishedScene;
 
+/// Returns the number of correct digits as text.
 fn digits(right: Option<f64>) -> String {
     match right {
         None => "–".into(),
@@ -16,11 +17,11 @@ fn digits(right: Option<f64>) -> String {
     }
 }
 
-pub(crate) type Groups = [(Group, Vec<Checked>)];
+pub(crate) type Groups = [(Group, Vec<CheckedCase>)];
 
-/// How many cases came to each verdict, in the order of their first appearance.
+/// Returns the number of cases of each verdict, in the order of their first appearance.
 fn count(groups: &Groups) -> String {
-    let cases: Vec<&Checked> = groups.iter().flat_map(|(_, cases)| cases).collect();
+    let cases: Vec<&CheckedCase> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for checked in &cases {
         let name = checked.verdict.name();
@@ -33,21 +34,21 @@ fn count(groups: &Groups) -> String {
     format!("{} cases: {}", cases.len(), counts.join(", "))
 }
 
-/// For a person: every route with its answer, the digits that are right, and what it took.
-pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
+/// Returns a table of every route: its answer, the number of correct digits, and the time it took.
+pub(crate) fn check_table(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
     for (group, cases) in groups {
         out += &format!("{}\n\n", group.title);
         for checked in cases {
             let case = checked.case;
             out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
-            for CheckedQuestion { what, truth, rows } in &checked.asked {
-                let rows = rows.iter().map(|row| {
-                    let (found, right) = (row.found(), digits(row.digits));
+            for CheckedQuestion { label, truth, routes } in &checked.questions {
+                let rows = routes.iter().map(|row| {
+                    let (found, right) = (row.answer(), digits(row.digits));
                     let outcome = row.outcome.name().to_string();
                     vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
                 });
-                out += &format!("  {what} = {}\n", truth);
+                out += &format!("  {label} = {truth}\n");
                 let header = ["route", "promises", "", "answers", "digits", "time"];
                 let text = table(&header, rows.collect(), 3);
                 out += &text.lines().map(|line| format!("    {line}\n")).collect::<String>();
@@ -55,13 +56,13 @@ pub(crate) fn check_table(groups: &Groups, published: &[Published]) -> String {
             out += "\n";
         }
     }
-    out + &below(groups, published)
+    out + &published_and_counts(groups, published)
 }
 
-/// The published values, and the counts.
-fn below(groups: &Groups, published: &[Published]) -> String {
+/// Returns a table of the published values, and the numbers of cases of each verdict.
+fn published_and_counts(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::new();
-    if Published::count(published).0 > 0 {
+    if PublishedScene::count(published).0 > 0 {
         out += &targets_data(published, true).table();
     }
     if !groups.is_empty() {
@@ -70,17 +71,19 @@ fn below(groups: &Groups, published: &[Published]) -> String {
     out
 }
 
-pub(crate) fn check_summary(groups: &Groups, published: &[Published]) -> String {
+/// Returns a line for each case, and the numbers of cases of each verdict.
+pub(crate) fn check_summary(groups: &Groups, published: &[PublishedScene]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {
         vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
     });
     let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
-    if groups.is_empty() { below(groups, published) } else { cases + &below(groups, published) }
+    let below = published_and_counts(groups, published);
+    if groups.is_empty() { below } else { cases + &below }
 }
 
-/// For the repository: nothing in it depends on the machine.
-pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
+/// Returns a page of the catalogue that does not depend on the machine.
+pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::from(
         "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
          of several routes that share as little as they can, and each route is held to what it promises. The truth \
@@ -96,11 +99,11 @@ pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
         for checked in cases {
             let case = checked.case;
             out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
-            for CheckedQuestion { what, truth, rows } in &checked.asked {
+            for CheckedQuestion { label, truth, routes } in &checked.questions {
                 // A jump at a point, `[v_x](0, t₁)`, is no link.
-                let what = what.replace("](", "]\\(");
-                out += &format!("{what} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
-                for row in rows {
+                let label = label.replace("](", "]\\(");
+                out += &format!("{label} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
+                for row in routes {
                     out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
                 }
                 out += "\n";
@@ -113,12 +116,12 @@ pub(crate) fn check_page(groups: &Groups, published: &[Published]) -> String {
     out.trim_end().to_string() + "\n"
 }
 
-/// Schema 1.
-pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
+/// Returns the catalogue as JSON, schema 1.
+pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Json {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let cases = cases.map(|(group, checked)| {
-        let asked = checked.asked.iter().map(|asked| {
-            let rows = asked.rows.iter().map(|row| {
+        let asked = checked.questions.iter().map(|asked| {
+            let rows = asked.routes.iter().map(|row| {
                 let right = match row.digits {
                     Some(f64::INFINITY) => json!("all"),
                     digits => json!(digits),
@@ -127,12 +130,12 @@ pub(crate) fn check_json(groups: &Groups, published: &[Published]) -> Value {
                     "route": row.route,
                     "promise": row.promise.to_string(),
                     "outcome": row.outcome.name(),
-                    "found": row.found(),
+                    "found": row.answer(),
                     "digits": right,
                     "seconds": row.seconds,
                 })
             });
-            json!({ "what": asked.what, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
+            json!({ "what": asked.label, "truth": asked.truth, "rows": rows.collect::<Vec<_>>() })
         });
         let case = checked.case;
         json!({

@@ -1,11 +1,13 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
-use super::reference::Preamble;
+use super::header::Header;
+use dalembert::Error;
 use dalembert::engine::{WavePiece, Waves};
 use dalembert::number::{Scalar, bound_of_log2};
 use dalembert::problem::Top;
+use dalembert::solve::{History, Target, TypedHistory, Visitor};
 
-/// A language of functions.
+/// A programming language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Language {
     /// A module without dependencies; in fractions where the numbers are
@@ -16,7 +18,7 @@ pub(crate) enum Language {
     C,
 }
 
-/// What every such function says of itself.
+/// Comment at the head of every function.
 const FORMULA: &[&str] = &[
     "u(x,t) = (P(t - x/c) + sign P(t + x/c - 2L/c))/2 + a + b x + d x^2, d'Alembert's waves, with a",
     "piecewise quadratic function P: each row of the table is from, P, P', P'' there.",
@@ -25,11 +27,31 @@ const FORMULA: &[&str] = &[
     "the length may be passed by a few roundings.",
 ];
 
-/// The length and the end may be passed by this factor: steps that add up to them are some roundings off.
+/// Factor by which a time or a point may exceed the end or the length: sums of steps are some roundings off.
 const NEAR: &str = "1 + 2e-15";
 
-/// The function `uExact(x, t, d)` of `waves`, which reach to `end`.
-pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, preamble: &Preamble<'_>) -> String {
+/// Returns the function `uExact(x, t, d)` of a history of an undamped rod.
+pub(crate) fn code(history: &History, language: Language, header: &Header<'_>) -> Result<String, Error> {
+    history.visit(Code { language, header })
+}
+
+/// A request for the function of a history, whatever its numbers.
+struct Code<'a> {
+    language: Language,
+    header: &'a Header<'a>,
+}
+
+impl Visitor for Code<'_> {
+    type Output = Result<String, Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
+        Ok(code_of_waves(&waves, &S::carry(history.end()), self.language, self.header))
+    }
+}
+
+/// Returns the function of `waves`, which reach to `end`.
+fn code_of_waves<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, header: &Header<'_>) -> String {
     // Fractions stay fractions where the language has them.
     let exact = language == Language::Python && end.bits().is_none() && end.ends(1).is_none();
     let number = |x: &S| match exact {
@@ -55,7 +77,7 @@ pub(crate) fn code<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, pre
     for number in waves.numbers() {
         error = error.max(number.log2_error());
     }
-    written((constants, rows, error), (language, exact, sign), preamble)
+    written((constants, rows, error), (language, exact, sign), header)
 }
 
 /// The numbers as texts: constants by their names, pieces, and `log₂` of the greatest bound.
@@ -65,13 +87,13 @@ type Numbers = ([(&'static str, String); 7], Vec<[String; 4]>, f64);
 fn written(
     (constants, rows, error): Numbers,
     (language, exact, sign): (Language, bool, &str),
-    preamble: &Preamble<'_>,
+    header: &Header<'_>,
 ) -> String {
     let worth = match exact {
         true => "The coefficients are exact.".to_string(),
         false => format!("Each coefficient is within {} before it is rounded to a double.", bound_of_log2(error)),
     };
-    let lines = preamble.lines().chain(FORMULA.iter().map(|line| line.to_string())).chain([worth]);
+    let lines = header.lines().into_iter().chain(FORMULA.iter().map(|line| line.to_string())).chain([worth]);
     let (mark, template) = match language {
         Language::Python => ("#", include_str!("code/uExact.py")),
         Language::Matlab => ("%", include_str!("code/uExact.m")),

@@ -1,29 +1,29 @@
-//! Ours beside other people's data, and the difference: rows, and a picture.
+//! Exact values beside the data of others, and the difference: rows, and a picture.
 
 use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
 use dalembert::quantity::{Measure, Units};
-use dalembert_compare::{Compared, ComparedFile};
-use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, plain, thinned};
+use dalembert_compare::{ComparedColumn, ComparedFile};
+use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};
 
-/// Two panels for each quantity: ours as a thin line over theirs, and theirs − ours.
+/// Returns two panels for each quantity: the exact values as a thin line over the data, and the difference.
 pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
     let times = &compared.agreement.grid.times;
     let file = std::path::Path::new(&compared.file).file_name().and_then(|name| name.to_str()).unwrap_or("theirs");
     let span = [times.first(), times.last()].map(|end| end.copied().unwrap_or(0.0));
     let panel = |title: &str, unit: &str, curves: Vec<(Vec<f64>, &str, Stroke)>| {
         let values = curves.iter().flat_map(|curve| &curve.0).copied();
-        let y = Axis::new(&plain(title), unit, Axis::range(values, false));
-        let mut panel = Panel::new(plain(title), Axis::new("t", units.name(Measure::Time), span), y);
+        let y = Axis::new(&without_subscripts(title), unit, Axis::range(values, false));
+        let mut panel = Panel::new(without_subscripts(title), Axis::new("t", units.name(Measure::Time), span), y);
         for (values, name, stroke) in curves {
             let points = times.iter().zip(values).map(|(time, value)| DVec2::new(*time, value)).collect();
             panel.lines("curve", vec![thinned(points)], stroke);
-            panel.legend.push(Key::Line(plain(name), stroke));
+            panel.legend.push(Key::line(without_subscripts(name), stroke));
         }
         panel
     };
-    let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
+    let panels = compared.agreement.quantities.iter().flat_map(|ComparedColumn { what, ours, theirs, .. }| {
         let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };
         let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.5));
         let apart = theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect();
@@ -32,20 +32,20 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
             panel(what.name(), unit, vec![(apart, "theirs − ours", Stroke::new("#0072b2", 0.3))]),
         ]
     });
-    let title = plain(title.unwrap_or("Theirs and ours"));
+    let title = without_subscripts(title.unwrap_or("Theirs and ours"));
     Sheet { title: vec![title], panels: panels.collect() }.svg(Size::Page)
 }
 
-/// Every sample: time, point of a field, and for each quantity ours, theirs and the difference.
+/// Returns a row for each sample: time, point of a field, and for each quantity ours, theirs and the difference.
 pub(crate) fn compare_data(ComparedFile { agreement, .. }: &ComparedFile) -> Dataset {
     let points = agreement.grid.points.as_ref();
     let mut columns: Vec<Column> = ["t"].into_iter().chain(points.map(|_| "x")).map(Column::new).collect();
-    for Compared { what, .. } in &agreement.quantities {
+    for ComparedColumn { what, .. } in &agreement.quantities {
         columns.extend(["ours", "theirs", "difference"].map(|whose| Column::new(format!("{}_{whose}", what.name()))));
     }
     let row = |(k, time): (usize, &f64)| {
         let place = [time.to_string()].into_iter().chain(points.map(|points| points[k].to_string()));
-        let values = agreement.quantities.iter().flat_map(|Compared { ours, theirs, .. }| {
+        let values = agreement.quantities.iter().flat_map(|ComparedColumn { ours, theirs, .. }| {
             [ours[k], theirs[k], theirs[k] - ours[k]].map(|value| format!("{value:e}"))
         });
         place.chain(values).map(Into::into).collect()

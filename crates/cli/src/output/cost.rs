@@ -1,14 +1,14 @@
-//! What accuracy and effects cost: rows, and the work–precision diagram.
+//! The time that accuracy and effects take: rows, and the work–precision diagram.
 
 use glam::DVec2;
 use serde_json::json;
 
 use super::dataset::{Column, Dataset};
 use dalembert::number::Number;
-use dalembert_plot::draw::{Axis, Key, Mark, Panel, Shape, Sheet, Size, Stroke, plain, power_of_ten};
-use dalembert_verify::cost::{Difference, Family, Row, Table};
+use dalembert_plot::draw::{Axis, Key, Mark, Panel, Sheet, Size, Stroke, power_of_ten, without_subscripts};
+use dalembert_verify::cost::{CostRow, CostTable, EffectCost, Family};
 
-/// A time in the unit that suits it, to three digits: `3.21 ms`.
+/// Returns a time to three digits in the unit that suits it: `3.21 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
     let (unit, name) = match seconds.abs() {
         0.0 => return "0 s".into(),
@@ -22,8 +22,8 @@ pub(crate) fn duration(seconds: f64) -> String {
     format!("{value:.places$} {name}")
 }
 
-/// `3.2e-15`, however small; `0` where there is no error.
-fn error(row: &Row) -> String {
+/// Returns the relative error of a row, however small: `3.2e-15`; `0` without an error.
+fn error(row: &CostRow) -> String {
     if row.log10_error == f64::NEG_INFINITY {
         return "0".into();
     }
@@ -36,17 +36,17 @@ fn error(row: &Row) -> String {
     format!("{mantissa}e{exponent}")
 }
 
-/// What is asked: `t_b`, or `h(t) at t = 1.5`.
-fn asked(table: &Table) -> String {
+/// Returns the quantity and its time: `t_b`, or `h(t) at t = 1.5`.
+fn quantity_text(table: &CostTable) -> String {
     match &table.time {
         Some(time) => format!("{} at t = {time}", table.quantity.symbol()),
         None => table.quantity.symbol().into(),
     }
 }
 
-/// Every route with what it takes. The plan's choice has an arrow.
-pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
-    let row = |row: &Row| {
+/// Returns a row for each route, with its error and its time. An arrow marks the choice of the plan.
+pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
+    let row = |row: &CostRow| {
         let timing = &row.timing;
         let mark = if row.chosen { "← the plan" } else { "" };
         vec![
@@ -67,7 +67,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
     let left_out = cost
         .left_out
         .iter()
-        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why }));
+        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why.to_string() }));
     let mut below = "\n\nerror: relative, against ".to_string();
     below += &match cost.truth.log10_half_width {
         width if width == f64::NEG_INFINITY => "the exact fraction".into(),
@@ -79,7 +79,7 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
         let setting = item.setting.as_ref().map_or_else(String::new, |setting| format!(", {setting}"));
         below += &format!("not here: {}{setting}: {}\n", item.family.name(), item.why);
     }
-    let truth = cost.truth.value.to_f64();
+    let truth = cost.truth.to_f64();
     let above = title.map_or_else(String::new, |title| format!("{title}\n"));
     let unit = if cost.unit.is_empty() { String::new() } else { format!(" {}", cost.unit) };
     Dataset {
@@ -95,13 +95,14 @@ pub(crate) fn cost_data(cost: &Table, title: Option<&str>) -> Dataset {
             ("left_out", left_out.collect()),
         ],
         list: "rows",
-        around: [format!("{above}{} = {truth:?}{unit}\n\n", asked(cost)), below],
-        ..Dataset::of(cost.rows.iter().map(row))
+        around: [format!("{above}{} = {truth:?}{unit}\n\n", quantity_text(cost)), below],
+        ..Dataset::from_rows(cost.rows.iter().map(row))
     }
 }
 
-pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset {
-    let row = |row: &Difference| {
+/// Returns a row for each effect of a scene, with the time that it costs.
+pub(crate) fn effects_data(rows: &[EffectCost], title: Option<&str>) -> Dataset {
+    let row = |row: &EffectCost| {
         vec![
             (Column::new("effect").text(), row.name().into()),
             (Column::table("called for").text(), if row.called { "yes" } else { "no" }.into()),
@@ -128,18 +129,17 @@ pub(crate) fn effects_data(rows: &[Difference], title: Option<&str>) -> Dataset 
         header: vec![("schema", 1.into()), ("title", title.into()), ("quantity", "effects".into())],
         list: "rows",
         around: [title.map_or_else(String::new, |title| format!("{title}\n\n")), below.into()],
-        ..Dataset::of(rows.iter().map(row))
+        ..Dataset::from_rows(rows.iter().map(row))
     }
 }
 
-/// Where the scale of errors is drawn together: the digits of a double get as much of the picture as the thousand
-/// beyond them.
+/// Number of digits from which on the scale of errors is compressed: beyond it equal lengths are equal factors.
 const DOUBLES_END: f64 = 18.0;
-/// Digits at the ticks beyond, equally far apart.
-const BEYOND: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
+/// Digits at the ticks of the compressed scale, equally far apart.
+const COMPRESSED_TICKS: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0, 30_000.0];
 
-/// Colours that stay apart for every kind of sight (Okabe and Ito), and a mark for each route.
-fn look(family: Family) -> (&'static str, Mark) {
+/// Returns the colour and the mark of a route. The colours differ for every kind of colour vision (Okabe and Ito).
+fn color_and_mark(family: Family) -> (&'static str, Mark) {
     match family {
         Family::ClosedForm => ("#0072b2", Mark::Dot),
         Family::Lattice => ("#009e73", Mark::Square),
@@ -152,32 +152,36 @@ fn look(family: Family) -> (&'static str, Mark) {
     }
 }
 
-/// The place of an error of `10^−digits` on the scale, upwards; a tick is 1.
+/// Returns the place of an error of `10^−digits` on the scale, upwards; ticks are 1 apart.
 fn place_of(digits: f64, decades: f64) -> f64 {
     if digits <= DOUBLES_END {
         return -digits / decades;
     }
-    let k = BEYOND.iter().rposition(|tick| *tick <= digits).unwrap_or(0).min(BEYOND.len() - 2);
-    let share = (digits / BEYOND[k]).ln() / (BEYOND[k + 1] / BEYOND[k]).ln();
+    let k = COMPRESSED_TICKS.iter().rposition(|tick| *tick <= digits).unwrap_or(0).min(COMPRESSED_TICKS.len() - 2);
+    let share = (digits / COMPRESSED_TICKS[k]).ln() / (COMPRESSED_TICKS[k + 1] / COMPRESSED_TICKS[k]).ln();
     -(DOUBLES_END / decades + k as f64 + share)
 }
 
-/// The digits at a place: the inverse at ticks.
+/// Returns the digits at the tick of a place: the inverse of [`place_of`].
 fn digits_at(place: f64, decades: f64) -> f64 {
     let beyond = -place - DOUBLES_END / decades;
-    if beyond < 0.5 { -place * decades } else { BEYOND[(beyond.round() as usize).min(BEYOND.len() - 1)] }
+    if beyond < 0.5 {
+        -place * decades
+    } else {
+        COMPRESSED_TICKS[(beyond.round() as usize).min(COMPRESSED_TICKS.len() - 1)]
+    }
 }
 
-/// Ticks at all whole numbers of a range.
-fn whole(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
+/// Returns ticks at all whole numbers of a range.
+fn whole_ticks(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, String)> {
     (from.ceil() as i32..=to.floor() as i32).map(|place| (place.into(), text(place.into()))).collect()
 }
 
-/// The work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
-/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the decades of
-/// the error are drawn together, as the ticks say.
-pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
-    let finite = |row: &&Row| row.log10_error.is_finite();
+/// Returns the work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
+/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the scale of
+/// the error is compressed, as the ticks state.
+pub(crate) fn cost_svg(cost: &CostTable, title: Option<&str>) -> String {
+    let finite = |row: &&CostRow| row.log10_error.is_finite();
     let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);
     let (least, most) = digits.fold((0.0, 0.0), |(least, most), d| (f64::min(least, d), f64::max(most, d)));
     let long = most > DOUBLES_END;
@@ -185,7 +189,7 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let exact = cost.rows.iter().any(|row| !row.log10_error.is_finite());
     // Answers without error have a line of their own below all others.
     let lowest = place_of(if long { most } else { DOUBLES_END }, decades).floor() - if exact { 1.0 } else { 0.0 };
-    let place = |row: &Row| {
+    let place = |row: &CostRow| {
         let error = if row.log10_error.is_finite() { place_of(-row.log10_error, decades) } else { lowest };
         DVec2::new(row.timing.seconds.max(1e-12).log10(), error)
     };
@@ -193,15 +197,15 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     let first = times.iter().copied().fold(f64::INFINITY, f64::min).floor();
     let last = times.iter().copied().fold(f64::NEG_INFINITY, f64::max).ceil().max(first + 1.0);
     let mut x = Axis::new("time [s]", "", [first, last]);
-    x.ticks = Some(whole(first, last, |power| power_of_ten(power as i32)));
+    x.ticks = Some(whole_ticks(first, last, |power| power_of_ten(power as i32)));
     // Marks on the lowest line are whole.
     let low = if exact { lowest - 0.4 } else { lowest };
     let mut y = Axis::new("relative error", "", [low, place_of(least, decades).ceil() + 0.3]);
-    y.ticks = Some(whole(y.from, y.to, |place| match place {
+    y.ticks = Some(whole_ticks(y.from, y.to, |place| match place {
         place if exact && place <= lowest + 0.5 => "no error".into(),
         place => power_of_ten(-digits_at(place, decades) as i32),
     }));
-    let mut panel = Panel::new(format!("{}: error against time", asked(cost)), x, y);
+    let mut panel = Panel::new(format!("{}: error against time", quantity_text(cost)), x, y);
     if long {
         panel.level("doubles-end", place_of(DOUBLES_END, decades), Stroke::new("#666666", 0.2).dashed("1.5 1"));
     }
@@ -209,17 +213,18 @@ pub(crate) fn cost_svg(cost: &Table, title: Option<&str>) -> String {
     for rows in cost.rows.chunk_by(|a, b| a.family == b.family) {
         let ladders = rows.chunk_by(|a, b| a.ladder == b.ladder);
         let lines: Vec<Vec<DVec2>> = ladders.map(|rows| rows.iter().map(place).collect()).collect();
-        let (color, mark) = look(rows[0].family);
+        let (color, mark) = color_and_mark(rows[0].family);
         panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
-        panel.add("marks", Shape::Marks(lines.concat(), mark, color));
-        panel.legend.push(Key::Mark(rows[0].family.name().into(), mark, color));
+        panel.marks("marks", lines.concat(), mark, color);
+        panel.legend.push(Key::mark(rows[0].family.name(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     for mark in [Mark::Ring, Mark::Star] {
-        panel.add("chosen", Shape::Marks(chosen.clone(), mark, "#000000"));
+        panel.marks("chosen", chosen.clone(), mark, "#000000");
     }
-    panel.legend.push(Key::Mark("the plan's choice".into(), Mark::Star, "#000000"));
-    Sheet { title: vec![plain(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }.svg(Size::Page)
+    panel.legend.push(Key::mark("the plan's choice", Mark::Star, "#000000"));
+    Sheet { title: vec![without_subscripts(title.unwrap_or("What accuracy costs"))], panels: vec![panel] }
+        .svg(Size::Page)
 }
 
 #[cfg(test)]

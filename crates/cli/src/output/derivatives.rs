@@ -1,29 +1,23 @@
-//! Derivatives of events and contacts: columns beside them in data, tables of their own for a person.
+//! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
-use std::rc::Rc;
-
-use super::dataset::{Cell, Column, Dataset, Shared};
-use super::record::Head;
-use dalembert::number::Scalar;
+use super::dataset::{Cell, Column, Dataset};
+use super::rows;
+use super::run_info::RunInfo;
+use super::table::TextTable;
+use dalembert::Value;
 use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity;
 use dalembert::solve::{Derivative, Derivatives};
 
-/// Derivatives in numbers that every writer takes.
-pub(crate) fn shared<S: Scalar>(found: Derivatives<S>) -> Derivatives<Shared> {
-    let share = |cell: Option<Derivative<S>>| cell.map(|cell| cell.map(|x| Rc::new(x) as Shared));
-    found.into_iter().map(|row| row.into_iter().map(share).collect()).collect()
-}
-
 /// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
-pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows): (Parameter, &Derivatives<Shared>)) {
+pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows): (Parameter, &Derivatives<Value>)) {
     for (k, quantity) in quantities.iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
         let (name, key) = (format!("{quantity}_by_{by}"), format!("derivatives/{quantity}/{by}"));
         let column = Column::data(name.clone()).keyed(key.clone());
         data.columns.push(column.bounded().optional());
         for (row, cell) in data.rows.iter_mut().zip(cells()) {
-            row.push(Cell::shared(cell.and_then(Derivative::value)));
+            row.push(Cell::number(cell.and_then(Derivative::value).cloned()));
         }
         // Most derivatives are the same from both sides.
         if !cells().flatten().any(|cell| cell.value().is_none()) {
@@ -35,36 +29,72 @@ pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows
             data.columns.push(Column::json(format!("{key}/undefined/{word}")).optional());
             for (row, cell) in data.rows.iter_mut().zip(cells()) {
                 let one = cell.filter(|cell| cell.value().is_none()).map(|cell| cell.sides()[side]);
-                row.push(Cell::shared(one.and_then(Result::ok)));
+                row.push(Cell::number(one.and_then(Result::ok).cloned()));
                 row.push(one.and_then(Result::err).map(|why| why.to_string()).into());
             }
         }
     }
 }
 
-/// A table of the derivatives by one value: `keys` say of what each row is, which is two where the sides differ.
-pub(super) fn table(
-    (what, keys): (&str, Vec<String>),
-    quantities: &[(usize, &str)],
-    (by, rows): (Parameter, &Derivatives<Shared>),
-    head: &Head,
-) -> String {
-    let mut data = Dataset { digits: head.digits, keys: (!head.wide).then_some(2), ..Dataset::default() };
-    data.columns = vec![Column::table(what.to_string()).text(), Column::table("side").text()];
-    data.columns.extend(quantities.iter().map(|(_, symbol)| Column::table(format!("∂ {symbol}"))));
-    for (key, row) in keys.into_iter().zip(rows) {
-        let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
-        let both = cells.iter().flatten().all(|cell| cell.value().is_some());
-        let sides: &[(usize, &str)] = if both { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
-        for (side, word) in sides {
-            let mut line: Vec<Cell> = vec![key.clone().into(), (*word).into()];
-            line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
-                Some(Ok(value)) => Cell::shared(Some(value)),
-                Some(Err(why)) => why.to_string().into(),
-                None => Cell::EMPTY,
-            }));
-            data.rows.push(line);
+/// Returns the columns of the derivatives of `quantities` by one value, with their cells.
+pub(crate) fn derivative_rows(
+    by: Parameter,
+    quantities: &[Quantity],
+    rows: &Derivatives<Value>,
+) -> Vec<(rows::Column, Vec<Cell>)> {
+    let mut columns = Vec::new();
+    for (k, quantity) in quantities.iter().enumerate() {
+        let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
+        // Most derivatives are the same from both sides.
+        let differ = cells().flatten().any(|cell| cell.value().is_none());
+        let sides = [("", None), ("_left", Some(0)), ("_right", Some(1))];
+        for (suffix, side) in sides.into_iter().take(if differ { 3 } else { 1 }) {
+            let cell = |cell: Option<&Derivative<Value>>| match (cell, side) {
+                (Some(Derivative::One(value)), None) => Cell::Number(value.clone()),
+                (Some(cell @ Derivative::Sides { .. }), Some(side)) => match cell.sides()[side] {
+                    Ok(value) => Cell::Number(value.clone()),
+                    Err(why) => why.name().into(),
+                },
+                (_, _) => Cell::number(None::<Value>),
+            };
+            let column = rows::Column {
+                name: format!("{quantity}_by_{by}{suffix}").into(),
+                symbol: format!("∂ {}", quantity.symbol()).into(),
+                meaning: format!("derivative of {quantity} by {by}").into(),
+                unit: "",
+                kind: rows::Kind::Number,
+            };
+            columns.push((column, cells().map(cell).collect()));
         }
     }
-    format!("\nby {by}:\n{}\n", data.table())
+    columns
+}
+
+/// Returns a table of the derivatives by one value. Each label names a row, which is two rows where the sides differ;
+/// `quantities` are places in a row with their symbols.
+pub(crate) fn derivative_table(
+    (head, labels): (&str, Vec<String>),
+    quantities: &[(usize, &str)],
+    (by, rows): (Parameter, &Derivatives<Value>),
+    info: &RunInfo,
+) -> String {
+    let symbols: Vec<String> = quantities.iter().map(|(_, symbol)| format!("∂ {symbol}")).collect();
+    let head: Vec<&str> = [head, "side"].into_iter().chain(symbols.iter().map(String::as_str)).collect();
+    let mut lines = Vec::new();
+    for (label, row) in labels.into_iter().zip(rows) {
+        let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
+        let is_same = cells.iter().flatten().all(|cell| cell.value().is_some());
+        let sides: &[(usize, &str)] = if is_same { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
+        for (side, word) in sides {
+            let mut line = vec![label.clone(), (*word).into()];
+            line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
+                Some(Ok(value)) => info.text(value),
+                Some(Err(why)) => why.to_string(),
+                None => "–".into(),
+            }));
+            lines.push(line);
+        }
+    }
+    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!info.wide).then_some(2) };
+    format!("\nby {by}:\n{}\n", table.format())
 }

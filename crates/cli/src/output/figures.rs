@@ -5,30 +5,31 @@ use glam::DVec2;
 use super::dataset::{Cell, Column, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use dalembert::number::Analytic;
-use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Shape, Sheet, Stroke};
-use dalembert_verify::figures::{DAMPINGS, Data, Failed, Figure, Of, STRONG, dot, limits};
+use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Sheet, Stroke};
+use dalembert_verify::VerifyError;
+use dalembert_verify::figures::{DAMPINGS, Figure, FigureData, FigureKind, HELD_DAMPINGS, Limits, threshold_speed};
 
 const LINE: f64 = 0.4;
 const THIN: f64 = 0.2;
 const BLACK: &str = "#000000";
-/// That of `r = 0` in the paper.
+/// Colour of `r = 0` in the paper.
 const UNDAMPED: &str = "#d55e00";
-/// Of A, B, C: where the odd continuation of `g` is `−g` and where it is `g`.
+/// Colours of the regions A, B, C: the odd continuation of `g` is `−g` in A and C, and `g` in B.
 const REGIONS: [&str; 3] = ["#d9c3dd", "#bfdcc4", "#d9c3dd"];
 
-/// The numbers of a figure, none with a digit beyond its bound.
-pub(crate) fn figure_data(figure: &Figure, data: &Data) -> Dataset {
+/// Returns the numbers of a figure, none with a digit beyond its bound.
+pub(crate) fn figure_data(figure: &Figure, data: &FigureData) -> Dataset {
     if let Some(map) = &data.map {
         return regimes_data(map);
     }
-    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::optional(value.as_ref())).collect();
+    let row = |row: &Vec<_>| row.iter().map(|value: &Option<_>| Cell::number(value.clone())).collect();
     let columns = data.columns.iter().map(|name| Column::new(*name)).collect();
     let notes = [figure.shown, figure.corrected].map(String::from).to_vec();
     Dataset { columns, rows: data.rows.iter().map(row).collect(), notes, ..Dataset::default() }
 }
 
-/// What stands beside the files, whose pictures have these `endings`.
-pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]) -> Result<String, Failed> {
+/// Returns the index of the files, whose pictures have these `endings`.
+pub(crate) fn figures_index(figures: &[&Figure], data: &[FigureData], endings: &[&str]) -> Result<String, VerifyError> {
     let names: Vec<String> = endings.iter().map(|ending| ending.to_uppercase()).collect();
     let mut text = format!(
         "# Figures\n\nOf F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an elastic \
@@ -52,12 +53,20 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
             links.collect::<String>()
         );
     }
-    if figures.iter().any(|figure| matches!(figure.of, Of::Restitution | Of::Translational | Of::Kept | Of::Decay)) {
+    if figures.iter().any(|figure| {
+        matches!(
+            figure.kind,
+            FigureKind::Restitution
+                | FigureKind::TranslationalShare
+                | FigureKind::EnergyKept
+                | FigureKind::EnergyOverDecay
+        )
+    }) {
         text += "\n## Limits\n\nFor μ → ∞ and t_b = t₁ (R = r t₁), where (4.75) has e^{−R}:\n\n\
                  | r | lim e_E = 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R} | e^{−R} | lim E_h/E | lim E/E(0) |\n\
                  |---|---|---|---|---|\n";
         for damping in DAMPINGS {
-            let limits = limits(damping)?;
+            let limits = Limits::new(damping)?;
             let numbers = [Some(limits.restitution), Some(limits.decay.sqrt()), limits.translational, limits.kept];
             let cells: Vec<String> = numbers.iter().flatten().map(|number| format!("{:.12}", number.value())).collect();
             text += &format!("| {damping} | {} |\n", cells.join(" | "));
@@ -68,24 +77,24 @@ pub(crate) fn figures_index(figures: &[&Figure], data: &[Data], endings: &[&str]
 
 type Row = Vec<Option<f64>>;
 
-pub(crate) fn figure_sheet(figure: &Figure, data: &Data) -> Result<Sheet, Failed> {
+pub(crate) fn figure_sheet(figure: &Figure, data: &FigureData) -> Result<Sheet, VerifyError> {
     let rows = &data.values();
-    let panel = match figure.of {
-        Of::Kernel => kernel(rows),
-        Of::Vibration => energies(rows, "E_z(t_b)", &[(3, "E_z")]),
-        Of::Shares => energies(rows, "share of E(0)", &[(4, "E_h(t_b)/E(0)"), (5, "E_z(t_b)/E(0)")]),
-        Of::Restitution => restitution(rows)?,
-        Of::Translational => shares(rows, "E_h(t₁)/E(t₁)"),
-        Of::Kept => shares(rows, "E(t₁)/E(0)"),
-        Of::Decay => shares(rows, "E(t₁)/(E(0) exp(−2r t₁))"),
-        Of::Regions => regions(rows),
-        Of::Regimes => data.map.as_ref().map(regimes_panel).ok_or("no map")?,
-        Of::Tenth => tenth(rows),
+    let panel = match figure.kind {
+        FigureKind::HeldStress => kernel(rows),
+        FigureKind::VibrationalEnergy => energies(rows, "E_z(t_b)", &[(3, "E_z")]),
+        FigureKind::EnergyShares => energies(rows, "share of E(0)", &[(4, "E_h(t_b)/E(0)"), (5, "E_z(t_b)/E(0)")]),
+        FigureKind::Restitution => restitution(rows)?,
+        FigureKind::TranslationalShare => shares(rows, "E_h(t₁)/E(t₁)"),
+        FigureKind::EnergyKept => shares(rows, "E(t₁)/E(0)"),
+        FigureKind::EnergyOverDecay => shares(rows, "E(t₁)/(E(0) exp(−2r t₁))"),
+        FigureKind::IntegrationRegions => regions(rows),
+        FigureKind::Regimes => data.map.as_ref().map(regimes_panel).ok_or(VerifyError::NoMap)?,
+        FigureKind::TenthBounce => tenth(rows),
     };
     Ok(Sheet { title: Vec::new(), panels: vec![panel] })
 }
 
-/// The points of two columns, in stretches where both are defined.
+/// Returns the points of two columns, in stretches where both are defined.
 fn stretches<'a>(rows: impl Iterator<Item = &'a Row>, x: usize, y: usize) -> Vec<Vec<DVec2>> {
     let mut lines = vec![Vec::new()];
     for row in rows {
@@ -99,18 +108,19 @@ fn stretches<'a>(rows: impl Iterator<Item = &'a Row>, x: usize, y: usize) -> Vec
     lines
 }
 
-fn of<'a>(rows: &'a [Row], damping: &str) -> impl Iterator<Item = &'a Row> + use<'a> {
+/// Returns the rows of a damping.
+fn of_damping<'a>(rows: &'a [Row], damping: &str) -> impl Iterator<Item = &'a Row> + use<'a> {
     let damping: Option<f64> = damping.parse().ok();
     rows.iter().filter(move |row| row[0] == damping)
 }
 
-/// The colour of a damping of Figures 4–7.
+/// Returns the colour of a damping of Figures 4–7.
 fn color(k: usize) -> &'static str {
     [UNDAMPED, LINES[0], LINES[2], LINES[3]][k % 4]
 }
 
 fn dots(panel: &mut Panel, points: Vec<DVec2>, color: &'static str) {
-    panel.add_over("marks", Shape::Marks(points, Mark::Dot, color));
+    panel.marks_unclipped("marks", points, Mark::Dot, color);
 }
 
 fn kernel(rows: &[Row]) -> Panel {
@@ -118,19 +128,19 @@ fn kernel(rows: &[Row]) -> Panel {
     let title = "the stress of a rod that is held: g = 0, t₁ = μ = c = 1";
     let mut panel = Panel::new(title, Axis::new("t", "", [0.0, 4.0]), y);
     panel.level("limit", 0.0, Stroke::new("#808080", THIN));
-    for (k, damping) in STRONG.into_iter().enumerate() {
-        let (rows, stroke) = (of(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
+    for (k, damping) in HELD_DAMPINGS.into_iter().enumerate() {
+        let (rows, stroke) = (of_damping(rows, damping).collect::<Vec<_>>(), Stroke::new(LINES[k], LINE));
         // A jump lies between two rows of one time.
         let points = |rows: &[&Row]| rows.iter().filter_map(|row| Some(DVec2::new(row[1]?, row[3]?))).collect();
         let stretches: Vec<Vec<DVec2>> = rows.chunk_by(|a, b| a[1] != b[1]).map(points).collect();
         let jumps = stretches.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?])).collect();
         panel.lines("jumps", jumps, Stroke::new(LINES[k], 0.15).dashed("0.5 0.5"));
         panel.lines("curve", stretches, stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
         let bounce = rows.first().and_then(|row| row[4]);
         bounce.into_iter().for_each(|time| dots(&mut panel, vec![DVec2::new(time, 0.0)], LINES[k]));
     }
-    panel.legend.push(Key::Mark("first bounce, t_b".into(), Mark::Dot, BLACK));
+    panel.legend.push(Key::mark("first bounce, t_b", Mark::Dot, BLACK));
     panel
 }
 
@@ -144,33 +154,33 @@ fn energies(rows: &[Row], label: &str, columns: &[(usize, &str)]) -> Panel {
         let dot = rows.iter().filter(|row| row[0] == Some(2.0)).filter_map(|row| row[*column]);
         dots(&mut panel, dot.map(|value| DVec2::new(2.0, value)).collect(), UNDAMPED);
         if columns.len() > 1 {
-            panel.legend.push(Key::Line((*name).into(), stroke));
+            panel.legend.push(Key::line(*name, stroke));
         }
     }
-    panel.legend.push(Key::Mark("μ = μ₀".into(), Mark::Dot, UNDAMPED));
+    panel.legend.push(Key::mark("μ = μ₀", Mark::Dot, UNDAMPED));
     panel
 }
 
-fn restitution(rows: &[Row]) -> Result<Panel, Failed> {
+fn restitution(rows: &[Row]) -> Result<Panel, VerifyError> {
     let (x, y) = (Axis::new("μ", "", [0.0, 12.5]), Axis::new("e_E²", "", [0.0, 1.05]));
     let mut panel = Panel::new("restitution of the first bounce: c = L = g = 1", x, y);
     let mut begins = Vec::new();
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
-        let limit = limits(damping)?.restitution.value().powi(2);
+        let limit = Limits::new(damping)?.restitution.value().powi(2);
         panel.level("limit", limit, Stroke { width: THIN, ..stroke.dashed("1.6 0.9") });
-        let curve = stretches(of(rows, damping), 1, 3);
+        let curve = stretches(of_damping(rows, damping), 1, 3);
         // Where t_b = t₁ begins: between two points of the curve.
-        let at = dot(damping);
+        let at = threshold_speed(damping);
         let pairs = curve.iter().flat_map(|line| line.windows(2));
         let about = pairs.filter(|pair| (pair[0].x..pair[1].x).contains(&at));
         begins.extend(about.map(|pair| pair[0].lerp(pair[1], (at - pair[0].x) / (pair[1].x - pair[0].x))));
         panel.lines("curve", curve, stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
     }
     dots(&mut panel, begins, BLACK);
-    panel.legend.push(Key::Mark("t_b = t₁ from here on".into(), Mark::Dot, BLACK));
-    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    panel.legend.push(Key::mark("t_b = t₁ from here on", Mark::Dot, BLACK));
+    panel.legend.push(Key::line("limit for μ → ∞", Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
     Ok(panel)
 }
 
@@ -181,17 +191,17 @@ fn shares(rows: &[Row], label: &str) -> Panel {
     let supposed = Stroke::new("#808080", THIN).dashed("0.4 0.6");
     for (k, damping) in DAMPINGS.into_iter().enumerate() {
         let stroke = Stroke::new(color(k), LINE);
-        if let Some(row) = of(rows, damping).next() {
+        if let Some(row) = of_damping(rows, damping).next() {
             let limit = Stroke { width: THIN, ..stroke.dashed("1.6 0.9") };
             for (value, stroke) in [(row[4], supposed), (row[3], limit)] {
                 value.into_iter().for_each(|value| panel.level("limit", value, stroke));
             }
         }
-        panel.lines("curve", stretches(of(rows, damping), 1, 2), stroke);
-        panel.legend.push(Key::Line(format!("r = {damping}"), stroke));
+        panel.lines("curve", stretches(of_damping(rows, damping), 1, 2), stroke);
+        panel.legend.push(Key::line(format!("r = {damping}"), stroke));
     }
-    panel.legend.push(Key::Line("limit for μ → ∞".into(), Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
-    panel.legend.push(Key::Line("as the paper supposes".into(), supposed));
+    panel.legend.push(Key::line("limit for μ → ∞", Stroke::new(BLACK, THIN).dashed("1.6 0.9")));
+    panel.legend.push(Key::line("as the paper supposes", supposed));
     panel
 }
 
@@ -207,12 +217,12 @@ fn regions(rows: &[Row]) -> Panel {
         let corners: Vec<DVec2> = rows.filter_map(|row| Some(DVec2::new(row[1]?, row[2]?))).collect();
         let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
         let edge = corners.iter().chain(corners.first()).copied().collect();
-        panel.add("area", Shape::Areas(vec![corners], color));
+        panel.areas("area", vec![corners], color);
         panel.lines("curve", vec![edge], Stroke::new(BLACK, THIN));
-        panel.add("note", Shape::Note(middle, Anchor::Middle, name.into()));
+        panel.note("note", middle, Anchor::Middle, name);
     }
     dots(&mut panel, vec![DVec2::new(0.5, 2.0)], BLACK);
-    panel.legend = vec![Key::Area("g continued as −g".into(), REGIONS[0]), Key::Area("as g".into(), REGIONS[1])];
+    panel.legend = vec![Key::area("g continued as −g", REGIONS[0]), Key::area("as g", REGIONS[1])];
     panel
 }
 
@@ -223,9 +233,8 @@ fn tenth(rows: &[Row]) -> Panel {
     let first = Stroke::new(UNDAMPED, LINE);
     // It jumps wherever an earlier landing comes or goes: points, without lines between them.
     let tenth = stretches(rows.iter(), 0, 2).concat();
-    panel.add("marks", Shape::Marks(tenth, Mark::Point, LINES[0]));
+    panel.marks("marks", tenth, Mark::Point, LINES[0]);
     panel.lines("curve", stretches(rows.iter(), 0, 1), first);
-    panel.legend =
-        vec![Key::Line("first bounce".into(), first), Key::Mark("tenth bounce".into(), Mark::Point, LINES[0])];
+    panel.legend = vec![Key::line("first bounce", first), Key::mark("tenth bounce", Mark::Point, LINES[0])];
     panel
 }

@@ -1,5 +1,4 @@
-//! Tables, JSON, CSV, and the pictures of what is no history. Output computes no physics: it asks the history and the
-//! quantities.
+//! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
 mod check;
 mod code;
@@ -8,14 +7,12 @@ mod cost;
 mod dataset;
 mod derivatives;
 mod figures;
-mod file;
-mod json;
+mod header;
 mod npz;
 mod outline;
-mod record;
-mod reference;
 mod regimes;
-mod sample;
+mod rows;
+mod run_info;
 mod solve;
 mod sweep;
 mod table;
@@ -26,18 +23,16 @@ pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub(crate) use code::{Language, code};
 pub(crate) use compare::{compare_data, compare_svg};
 pub(crate) use cost::{cost_data, cost_svg, effects_data};
-pub(crate) use dataset::{Dataset, Shown};
-pub(crate) use derivatives::shared;
+pub(crate) use dataset::Cell;
+pub(crate) use derivatives::{derivative_rows, derivative_table};
 pub(crate) use figures::{figure_data, figure_sheet, figures_index};
-pub(crate) use file::{write_files, write_filled, write_together};
-pub(crate) use json::{bound_json, number_json};
+pub(crate) use header::Header;
 pub(crate) use outline::outline;
-pub(crate) use record::{Derived, Head, Record};
-pub(crate) use reference::{Preamble, Rows};
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
-pub(crate) use sample::{Quantity, Samples, samples, samples_data};
-pub(crate) use solve::{Form, LEGEND, Part, history_json, history_part, history_table, record};
+pub(crate) use rows::{Column, Layout, RowWriter};
+pub(crate) use run_info::RunInfo;
+pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, STRAIGHT_ERROR};
 pub(crate) use sweep::sweep_data;
-pub(crate) use table::{WIDTH, wrapped};
+pub(crate) use table::wrapped;
 pub(crate) use target::targets_data;
-pub(crate) use writer::{Format, SCHEMA};
+pub(crate) use writer::{SCHEMA, json_bytes, rows_bytes};

@@ -1,26 +1,41 @@
-//! The stress at the ground as a line of blocks, for a glance at a terminal.
+//! The stress at the ground as a line of blocks, for a terminal.
 
-use super::record::Head;
+use super::run_info::RunInfo;
 use dalembert::StressPiece;
-use dalembert::engine::{Motion, straight};
+use dalembert::engine::straight;
 use dalembert::number::Scalar;
 use dalembert::quantity::Measure;
+use dalembert::solve::{History, Target, TypedHistory, Visitor};
 
 const BLOCKS: usize = 76;
 const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 const FLIGHT: char = '·';
-/// How far straight pieces may be off, as a share of the greatest: less than half a height.
-const STRAIGHT: f64 = 0.05;
+/// Largest error of straight pieces, as a share of the greatest value: less than half a height.
+const STRAIGHT_ERROR: f64 = 0.05;
 
-/// The least `v_x(0,t)` in each of [`BLOCKS`] equal parts of the history; empty where the rod is never pressed.
+/// Returns the least `v_x(0,t)` in each of [`BLOCKS`] equal parts of the history; empty where the rod is never pressed.
 ///
 /// **Accuracy**: 0.05 of the greatest `|v_x(0,t)|`.
-pub(crate) fn outline<S: Scalar>(motion: &dyn Motion<S>) -> Vec<f64> {
-    let pieces = motion.stress_pieces().into_iter().map(|piece| piece.map(|x| x.to_f64())).collect::<Vec<_>>();
-    parts(&straight(&pieces, STRAIGHT), motion.end().to_f64())
+pub(crate) fn outline(history: &History) -> Vec<f64> {
+    history
+        .visit(StressPieces)
+        .map_or_else(|_| Vec::new(), |pieces| least_values(&straight(&pieces, STRAIGHT_ERROR), history.end().to_f64()))
 }
 
-fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
+/// A request for the pieces of the stress at the ground in doubles, whatever their digits.
+struct StressPieces;
+
+impl Visitor for StressPieces {
+    type Output = Result<Vec<StressPiece<f64>>, dalembert::Error>;
+
+    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
+        let pieces = history.ask(|motion| Ok(motion.stress_pieces()), |_| Vec::new())?;
+        Ok(pieces.into_iter().map(|piece| piece.map(|x| x.to_f64())).collect())
+    }
+}
+
+/// Returns the least value of straight pieces in each part of a history up to `end`.
+fn least_values(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     let mut least = vec![0.0f64; BLOCKS];
     let width = end / BLOCKS as f64;
     for piece in pieces.iter().filter(|piece| piece.end > piece.start && piece.strain_start.min(piece.strain_end) < 0.0)
@@ -39,25 +54,25 @@ fn parts(pieces: &[StressPiece<f64>], end: f64) -> Vec<f64> {
     if least.iter().all(|value| *value == 0.0) { Vec::new() } else { least }
 }
 
-/// The line, below what it spans and its scale: the `peak` of all contacts.
-pub(super) fn sparkline(outline: &[f64], end: f64, peak: f64, head: &Head) -> String {
+/// Returns the line of blocks below its span and its scale, the `peak` of all contacts.
+pub(super) fn sparkline(outline: &[f64], end: f64, peak: f64, info: &RunInfo) -> String {
     let block = |value: &f64| match (8.0 * value / peak).ceil() as usize {
         0 => FLIGHT,
         height => HEIGHTS[height.min(8) - 1],
     };
     let line: String = outline.iter().map(block).collect();
-    let (measure, symbol) = match head.units.has_material() {
+    let (measure, symbol) = match info.units.has_material() {
         true => (Measure::Stress, "E v_x(0,t)"),
         false => (Measure::Strain, "v_x(0,t)"),
     };
-    let scale = head.units.factor(measure, &()).unwrap_or(1.0);
-    let unit = head.units.name(measure);
+    let scale = info.units.factor(measure, &()).unwrap_or(1.0);
+    let unit = info.units.name(measure);
     let space = if unit.is_empty() { "" } else { " " };
     let (end, peak) = (short(end), short(scale * peak));
     format!("{symbol} at the ground, t = 0 … {end}, peak {peak}{space}{unit}, {FLIGHT} flight\n {line}\n\n")
 }
 
-/// Four digits.
+/// Returns `x` to four digits.
 fn short(x: f64) -> String {
     if (1e-3..1e4).contains(&x.abs()) { x.decimal(4) } else { format!("{x:.3e}") }
 }

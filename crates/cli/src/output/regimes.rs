@@ -1,4 +1,4 @@
-//! The map of regimes: numbers, and a picture.
+//! The map of regimes as numbers and as a picture.
 
 use std::io::{self, Cursor};
 
@@ -7,10 +7,10 @@ use glam::DVec2;
 use super::dataset::{Column, Dataset};
 use super::npz::Npz;
 use dalembert::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
-use dalembert_plot::draw::{Axis, Key, Panel, Shape, Sheet, Size, Stroke};
-use dalembert_verify::regimes::{BANDS, Map, Regime, Spread, threshold, threshold_near};
+use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke};
+use dalembert_verify::regimes::{BANDS, CellAxis, Map, Regime, threshold, threshold_near};
 
-/// The colour of each band, and its name: those with a bounce, none, not decided.
+/// Colour and name of each band: with a bounce, without one, not decided.
 const COLORS: [(&str, &str); BANDS.len() + 2] = [
     ("#440154", "t_b = t₁"),
     ("#46327e", "to 1.25 t₁"),
@@ -24,7 +24,7 @@ const COLORS: [(&str, &str); BANDS.len() + 2] = [
     ("#e31a1c", "not decided"),
 ];
 
-/// `t_b/t₁`; empty where there is no bounce, with the reason in a word.
+/// Returns `t_b/t₁` at each point, empty without a bounce, and the regime in a word.
 pub(crate) fn regimes_data(map: &Map) -> Dataset {
     let row = |(k, regime): (usize, &Regime)| {
         let (m, r) = (&map.speed[k / map.damping.len()], &map.damping[k % map.damping.len()]);
@@ -39,7 +39,7 @@ pub(crate) fn regimes_data(map: &Map) -> Dataset {
     Dataset { columns, rows: map.regimes.iter().enumerate().map(row).collect(), ..Dataset::default() }
 }
 
-/// `R` of each column and the `M` above which the bounce comes at `t₁`; empty where no M is high enough.
+/// Returns `R` of each column and the `M` above which the bounce comes at `t₁`; empty if no `M` is high enough.
 pub(crate) fn threshold_data(map: &Map) -> Dataset {
     let row = |r: &Number| {
         let m = threshold(&Estimate::from_number(r, &()));
@@ -50,7 +50,7 @@ pub(crate) fn threshold_data(map: &Map) -> Dataset {
     Dataset { columns, rows: map.damping.iter().map(row).collect(), ..Dataset::default() }
 }
 
-/// How often each regime comes, in words.
+/// Returns the share of each regime in words.
 pub(crate) fn regimes_text(map: &Map) -> String {
     let count = map.regimes.len() as f64;
     let share = |is: fn(&Regime) -> bool| 100.0 * map.regimes.iter().filter(|regime| is(regime)).count() as f64 / count;
@@ -66,8 +66,8 @@ pub(crate) fn regimes_text(map: &Map) -> String {
     )
 }
 
-/// `damping_ratio`, `speed_ratio`, `bounce_ratio` (rows of one M; infinite where there is no bounce, NaN where none is
-/// shown), and `threshold` at each R.
+/// Returns the arrays `damping_ratio`, `speed_ratio`, `bounce_ratio` (a row for each `M`; infinite without a bounce, NaN
+/// if it is not decided) and `threshold` at each `R`.
 pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     let mut npz = Npz::new(&mut bytes, true);
@@ -88,26 +88,26 @@ pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     Ok(bytes.into_inner())
 }
 
-/// The axis of some values and where its parts begin and end: a value is the middle of its part.
-fn axis(label: &str, values: &[Number]) -> (Axis, Spread) {
-    let spread = Spread::of(values);
+/// Returns the axis of some values and the borders between them: a value is the middle of its cell.
+fn axis(label: &str, values: &[Number]) -> (Axis, CellAxis) {
+    let spread = CellAxis::new(values);
     let ends = [0.0, values.len() as f64].map(|steps| spread.border(steps));
     (if spread.log { Axis::log(label, ends) } else { Axis::new(label, "", ends) }, spread)
 }
 
-/// The map: a region for each band, the threshold and `R = π` as lines.
+/// Returns the map: a region for each band, the threshold and `R = π` as lines.
 pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let ((x, across), (y, up)) = (axis("R = r t₁", &map.damping), axis("M = μ/(g t₁)", &map.speed));
     let known = if map.regimes.contains(&Regime::Undecided) { COLORS.len() } else { COLORS.len() - 1 };
     let whole = [[x.from, y.from], [x.to, y.from], [x.to, y.to], [x.from, y.to]].map(DVec2::from_array).to_vec();
     let [bottom, top] = [y.from, y.to];
     let mut panel = Panel::new("when the first contact ends", x, y);
-    panel.add("bands", Shape::Region(vec![whole], COLORS[known - 1].0));
+    panel.region("bands", vec![whole], COLORS[known - 1].0);
     let place = |steps: DVec2| DVec2::new(across.border(steps.x), up.border(steps.y));
     // Each band lies over those after it.
     for (lines, (color, _)) in map.regions.iter().zip(COLORS).rev().filter(|(lines, _)| !lines.is_empty()) {
         let lines = lines.iter().map(|line| line.iter().map(|point| place(*point)).collect()).collect();
-        panel.add("bands", Shape::Region(lines, color));
+        panel.region("bands", lines, color);
     }
     // Closer and closer to I₀(R) = 2, where it is infinite.
     let (mut below, mut above) = (1.8, 1.81);
@@ -122,9 +122,9 @@ pub(crate) fn regimes_panel(map: &Map) -> Panel {
     let (solid, dashed) = (Stroke::new("#ff5a1f", 0.6), Stroke::new("#000000", 0.25).dashed("1.8 1.2"));
     panel.lines("threshold", vec![curve], solid);
     panel.lines("curve", vec![pi], dashed);
-    panel.legend = COLORS[..known].iter().map(|(color, text)| Key::Area((*text).into(), color)).collect();
-    panel.legend.push(Key::Line("M = (I₀(R) + I₁(R))/(2 − I₀(R))".into(), solid));
-    panel.legend.push(Key::Line("R = π".into(), dashed));
+    panel.legend = COLORS[..known].iter().map(|(color, text)| Key::area(*text, color)).collect();
+    panel.legend.push(Key::line("M = (I₀(R) + I₁(R))/(2 − I₀(R))", solid));
+    panel.legend.push(Key::line("R = π", dashed));
     panel
 }
 

@@ -3,14 +3,15 @@
 use serde_json::{Map, Value, json};
 
 use super::dataset::{Cell, Column, Dataset};
-use super::table::{WIDTH, wrapped};
-use crate::sweep::{self, Point, Sweep};
+use super::table::wrapped;
+use crate::sweep::{Point, PointNumber, Sweep};
+use crate::terminal;
 use dalembert::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
 
-/// What is said of the numbers of a point, each once.
+/// Returns the notes on the numbers of a point, each once.
 fn notes(point: &Point) -> String {
     let mut notes: Vec<&str> = Vec::new();
-    for note in point.cells.iter().filter_map(|cell| cell.note.as_deref()) {
+    for note in point.numbers.iter().filter_map(|cell| cell.note.as_deref()) {
         if !notes.contains(&note) {
             notes.push(note);
         }
@@ -18,8 +19,8 @@ fn notes(point: &Point) -> String {
     notes.join("; ")
 }
 
-/// No digit of a double beyond its uncertainty.
-fn shown(cell: &sweep::Cell) -> Cell {
+/// Returns a number without digits beyond its uncertainty.
+fn shown(cell: &PointNumber) -> Cell {
     match (cell.value.as_f64(), cell.uncertainty.as_f64()) {
         (Some(value), Some(bound)) => show(&Estimate::new(value, bound / value.unit()), DOUBLE_DIGITS).into(),
         _ if cell.value.is_null() => "".into(),
@@ -27,10 +28,16 @@ fn shown(cell: &sweep::Cell) -> Cell {
     }
 }
 
-/// A row for each point; a table has the notes below it, each once.
+/// Returns a row for each point; a table has the notes below it, each once.
 pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
     let mut columns = vec![Column::new("point")];
-    columns.extend(sweep.grid.axes.iter().map(|axis| Column::new(axis.path).keyed(format!("at/{}", axis.path))));
+    columns.extend(
+        sweep
+            .grid
+            .axes
+            .iter()
+            .map(|axis| Column::new(axis.parameter.path()).keyed(format!("at/{}", axis.parameter.path()))),
+    );
     for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
         let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
         columns.extend([
@@ -46,7 +53,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
     let mut row = |point: &Point| {
         let mut row: Vec<Cell> = vec![point.index.into()];
         row.extend(sweep.grid.values(point.index).iter().map(|value| value.to_string().into()));
-        for cell in &point.cells {
+        for cell in &point.numbers {
             let [value, uncertainty] = [&cell.value, &cell.uncertainty].map(|value| value.clone().into());
             row.extend([shown(cell), value, uncertainty, cell.note.clone().into()]);
         }
@@ -60,16 +67,19 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         row
     };
     let rows = points.iter().map(&mut row).collect();
-    let below = below.iter().enumerate().map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), WIDTH, "    ") + "\n");
+    let below = below
+        .iter()
+        .enumerate()
+        .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
-    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.path, "values": axis.values}));
+    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.parameter.path(), "values": axis.values}));
     let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
     Dataset {
         header: vec![
             ("schema", 1.into()),
             ("title", title.into()),
-            ("number", sweep.asked.numbers.to_string().into()),
-            ("time", json!(sweep.asked.time)),
+            ("number", sweep.request.numbers.to_string().into()),
+            ("time", json!(sweep.request.time)),
             ("units", units.collect::<Map<_, _>>().into()),
             ("vary", vary.collect::<Value>()),
         ],

@@ -1,36 +1,26 @@
-//! Rows as JSON, CSV and NPZ.
+//! Data sets as JSON, CSV and NPZ.
 
 use std::io::{self, Cursor};
 
-use serde_json::{Map, Value};
+use serde_json::{Map, Value as Json};
 
 use super::dataset::{Cell, Column, Dataset};
 use super::npz::Npz;
+use crate::failure::{Failure, cannot};
+use crate::file::Format;
 use dalembert::number::DOUBLE_DIGITS;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
-    Table,
-    Json,
-    Csv,
-    Npz,
-    Markdown,
-    Svg,
-    Png,
-    Pdf,
-}
 
 /// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
 pub(crate) const SCHEMA: &str = include_str!("schema.json");
 
-/// Where the bounds of numbers stand in a row, each under the key of its number.
+/// Key of the bounds of a row, each under the key of its number.
 const UNCERTAINTY: &str = "uncertainty";
-/// Where numbers may stand apart from the keys of a row; their bounds do without it.
+/// Prefix of the keys of numbers that stand in an object of their own; their bounds do without it.
 const VALUES: &str = "values/";
 
 impl Dataset {
-    /// The header, and an object for each row; without a header the list of these.
-    pub(crate) fn json(&self) -> Value {
+    /// Returns the header and an object for each row; without a header the list of objects.
+    pub(crate) fn json(&self) -> Json {
         if self.header.is_empty() {
             return self.objects().into();
         }
@@ -38,12 +28,12 @@ impl Dataset {
         header.chain([(self.list.to_string(), self.objects().into())]).collect()
     }
 
-    pub(super) fn objects(&self) -> Vec<Value> {
+    pub(super) fn objects(&self) -> Vec<Json> {
         self.rows.iter().map(|row| object(self, row)).collect()
     }
 
-    /// The rows below the names of their columns, the bounds of numbers in columns of their own after all others, and
-    /// the notes in comments above, which readers of CSV skip.
+    /// Returns the rows below the names of their columns, the bounds of numbers in columns after all others, and the
+    /// notes in comments above, which readers of CSV skip.
     pub(crate) fn csv(&self) -> Result<String, csv::Error> {
         let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
         let named = |column: &&Column| column.name.is_some();
@@ -61,11 +51,7 @@ impl Dataset {
                 writer.write_field(cell.text(digits, ""))?;
             }
             for (_, cell) in cells().filter(|(column, _)| column.is_bounded) {
-                writer.write_field(match cell {
-                    Cell::Plain(_) => String::new(),
-                    Cell::Number(x) => x.printed_bound(digits),
-                    Cell::Numbers(all) => all.iter().map(|x| x.printed_bound(digits)).collect::<Vec<_>>().join(" "),
-                })?;
+                writer.write_field(cell.bound_text(digits))?;
             }
             writer.write_record(None::<&[u8]>)?;
         }
@@ -74,7 +60,8 @@ impl Dataset {
         Ok(comments + &String::from_utf8_lossy(&bytes))
     }
 
-    /// Whole numbers where all are, doubles otherwise, not a number where there is none; and the shape of the grid.
+    /// Returns an array for each column, of whole numbers where all are, otherwise of doubles, NaN where a number is
+    /// missing; and the shape of the grid.
     pub(crate) fn npz(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Cursor::new(Vec::new());
         let mut npz = Npz::new(&mut bytes, true);
@@ -91,7 +78,7 @@ impl Dataset {
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,
-                None => npz.add(name, count, cells.map(Cell::double).collect())?,
+                None => npz.add(name, count, cells.map(Cell::to_f64).collect())?,
             }
         }
         npz.finish()?;
@@ -99,27 +86,32 @@ impl Dataset {
     }
 }
 
-fn object(data: &Dataset, row: &[Cell]) -> Value {
+/// Returns rows as the bytes of a file.
+pub(crate) fn rows_bytes(data: &Dataset, format: Format) -> Result<Vec<u8>, Failure> {
+    match format {
+        Format::Table => Ok(data.table().into_bytes()),
+        Format::Json => Ok(json_bytes(&data.json())),
+        Format::Npz => data.npz().map_err(cannot("write NPZ")),
+        _ => Ok(data.csv().map_err(|error| failure!("cannot write CSV: {error}"))?.into_bytes()),
+    }
+}
+
+/// Returns JSON as the bytes of a file.
+pub(crate) fn json_bytes(value: &Json) -> Vec<u8> {
+    format!("{value:#}\n").into_bytes()
+}
+
+/// Returns a row as an object, with the bounds of its numbers.
+fn object(data: &Dataset, row: &[Cell]) -> Json {
     let (mut object, mut bounds) = (Map::new(), Map::new());
     for (column, cell) in data.columns.iter().zip(row) {
         let Some(key) = column.key.as_deref() else { continue };
         if column.is_optional && cell.is_empty() {
             continue;
         }
-        let (value, bound) = match cell {
-            Cell::Plain(value) => (value.clone(), Value::Null),
-            Cell::Number(x) => (x.json(data.digits), x.json_bound(data.digits)),
-            Cell::Numbers(all) => {
-                let (values, bounds) = (
-                    all.iter().map(|x| x.json(data.digits)).collect::<Vec<_>>(),
-                    all.iter().map(|x| x.json_bound(data.digits)).collect::<Vec<_>>(),
-                );
-                (values.into(), bounds.into())
-            }
-        };
-        insert(&mut object, key, value);
+        insert(&mut object, key, cell.json());
         if column.is_bounded {
-            insert(&mut bounds, key.trim_start_matches(VALUES), bound);
+            insert(&mut bounds, key.trim_start_matches(VALUES), cell.bound_json());
         }
     }
     if !bounds.is_empty() {
@@ -128,12 +120,12 @@ fn object(data: &Dataset, row: &[Cell]) -> Value {
     object.into()
 }
 
-/// Puts `value` under `key`, which names the objects that it is in before a `/`.
-fn insert(object: &mut Map<String, Value>, key: &str, value: Value) {
+/// Inserts `value` under `key`, in which a `/` follows the name of an object inside.
+fn insert(object: &mut Map<String, Json>, key: &str, value: Json) {
     match key.split_once('/') {
         None => drop(object.insert(key.into(), value)),
         Some((outer, inner)) => {
-            if let Value::Object(object) = object.entry(outer).or_insert_with(|| Map::new().into()) {
+            if let Json::Object(object) = object.entry(outer).or_insert_with(|| Map::new().into()) {
                 insert(object, inner, value);
             }
         }

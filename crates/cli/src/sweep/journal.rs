@@ -1,7 +1,7 @@
 //! Finished points on disk, so that an interrupted sweep goes on where it was.
 //!
-//! A journal is a text of lines: what the sweep is, then a finished point a line, in the order in which they were
-//! finished. A last line that is not whole is that of a sweep that was killed while it wrote; its point is solved
+//! A journal is a text of lines: the identity of the sweep, then a finished point a line, in the order in which they
+//! were finished. A last line that is not whole is that of a sweep that was killed while it wrote; its point is solved
 //! again.
 
 use std::fs::{File, OpenOptions};
@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::run::Point;
 
+/// The finished points of a sweep in a file.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -20,12 +21,13 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// The journal beside `output`, and the points that it holds. `sweep` says all that the points depend on.
+    /// Opens the journal beside `output`, and returns the points that it holds. `sweep` is everything that the points
+    /// depend on.
     ///
     /// **Errors**: those of the file system; [`ErrorKind::AlreadyExists`] where there is a journal and none is to be
     /// resumed; [`ErrorKind::InvalidData`] for one of another sweep.
     pub(crate) fn open(output: &Path, sweep: &Value, resume: bool) -> Result<(Self, Vec<Point>), Error> {
-        let path = journal_of(output);
+        let path = journal_path(output);
         if !resume && path.exists() {
             return Err(ErrorKind::AlreadyExists.into());
         }
@@ -33,7 +35,7 @@ impl Journal {
             Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
             other => other?,
         };
-        // What follows the last end of a line was not finished.
+        // The text after the last end of a line was not finished.
         bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
         let whole = String::from_utf8(bytes).map_err(|_| ErrorKind::InvalidData)?;
         let mut lines = whole.lines();
@@ -54,6 +56,7 @@ impl Journal {
         Ok((Journal { path, file: Mutex::new(file) }, points))
     }
 
+    /// Adds a finished point.
     pub(crate) fn add(&self, point: &Point) -> Result<(), Error> {
         let line = serde_json::to_string(point)? + "\n";
         self.file.lock().unwrap_or_else(PoisonError::into_inner).write_all(line.as_bytes())
@@ -65,8 +68,8 @@ impl Journal {
     }
 }
 
-/// `FILE.unfinished`.
-pub(crate) fn journal_of(output: &Path) -> PathBuf {
+/// Returns the path `FILE.unfinished`.
+pub(crate) fn journal_path(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_os_string();
     name.push(".unfinished");
     name.into()

@@ -1,9 +1,9 @@
-//! Sweeps: one scene with some of its values varied, and a few numbers of each point.
+//! Sweeps: a scene over a grid of its values, and some numbers of each point.
 
 mod journal;
 mod run;
 
-pub(crate) use dalembert_verify::regimes::{Axis, Grid, SweepError};
-pub(crate) use journal::{Journal, journal_of};
-pub(crate) use run::{Asked, Point, Sweep};
-pub use run::{Cell, sweep};
+pub(crate) use dalembert_verify::regimes::{Axis, Grid};
+pub(crate) use journal::{Journal, journal_path};
+pub(crate) use run::{Point, Request, Sweep};
+pub use run::{PointNumber, sweep};

@@ -1,144 +1,121 @@
-//! What is asked of the points of a sweep, and their answers, on all threads.
+//! The numbers of the points of a sweep, computed on all threads.
 
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value as Json, json};
 
-use crate::output::{bound_json, number_json};
 use crate::sweep::Grid;
 use dalembert::Error;
-use dalembert::engine::Motion;
-use dalembert::number::{Number, Scalar, bound_of_log2, shown_bound};
-use dalembert::problem::{Problem, ProblemError, Run};
-use dalembert::quantity::{Needs, One, Quantity, UnitSystem, Units};
-use dalembert::solve::{ExactnessEnd, Numbers, Plan, Question, Solution, Target, TypedHistory, Visitor, unobserved};
+use dalembert::Value;
+use dalembert::number::Number;
+use dalembert::problem::{Problem, ProblemError};
+use dalembert::quantity::{Missing, Needs, One, Quantity, UnitSystem, Units};
+use dalembert::solve::{History, Numbers, Question, unobserved};
 
+/// A request for the numbers of every point.
 #[derive(Clone, Debug)]
-pub(crate) struct Asked {
+pub(crate) struct Request {
     pub(crate) quantities: Vec<Quantity>,
-    /// For quantities at a time; at the first bounce without it.
+    /// Time of the quantities over time; `None` for the first bounce.
     pub(crate) time: Option<Number>,
     pub(crate) numbers: Numbers,
     pub(crate) units: UnitSystem,
 }
 
-/// A point and its numbers, in the order of the quantities.
+/// A point with its numbers, in the order of the quantities.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Point {
     pub(crate) index: usize,
-    pub(crate) cells: Vec<Cell>,
+    pub(crate) numbers: Vec<PointNumber>,
 }
 
-/// One number of a point of a sweep, or why there is none.
+/// One number of a point of a sweep, or the reason why it does not exist.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Cell {
-    /// As JSON has it: a number for a double, otherwise a text, or an enclosure; null where there is none.
-    pub(crate) value: Value,
-    pub(crate) uncertainty: Value,
-    /// Why there is no value, or what a user should know of it: where exactness ends, and warnings of the history.
+pub struct PointNumber {
+    /// The number as JSON has it; null without one.
+    pub(crate) value: Json,
+    /// Bound of the error.
+    pub(crate) uncertainty: Json,
+    /// The reason why there is no number, or the end of exactness and the warnings of the history.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) note: Option<String>,
 }
 
-impl Cell {
-    /// The number; `None` where there is none.
+impl PointNumber {
+    /// Returns the number, if there is one.
     pub fn value(&self) -> Option<f64> {
         self.value.as_f64().or_else(|| self.value.as_str()?.parse().ok())
     }
 
-    /// How far it may be off; infinite where that is not known.
+    /// Returns the bound of the error; infinity if it is not known.
     pub fn bound(&self) -> f64 {
         let text = || self.uncertainty.as_str().and_then(|text| text.parse().ok());
         self.uncertainty.as_f64().or_else(text).unwrap_or(f64::INFINITY)
     }
 
-    /// Why there is no number, or what a user should know of it.
+    /// Returns the reason why there is no number, or notes on it.
     pub fn note(&self) -> Option<&str> {
         self.note.as_deref()
     }
 
-    fn none(why: impl std::fmt::Display) -> Self {
-        Cell { note: Some(why.to_string()), ..Cell::default() }
+    fn missing(why: impl std::fmt::Display) -> Self {
+        PointNumber { note: Some(why.to_string()), ..PointNumber::default() }
     }
 
-    fn noted(self, note: String) -> Self {
-        Cell { note: Some(self.note.map_or_else(|| note.clone(), |before| format!("{before}; {note}"))), ..self }
+    /// Returns the number of a history.
+    fn new(history: &History, one: &One) -> Self {
+        let found: Result<Result<Value, Missing>, Error> = history.one(one);
+        let number = match found {
+            Ok(Ok(value)) if !value.is_finite() => PointNumber::missing("no finite number"),
+            Ok(Ok(value)) => {
+                // An enclosure has its bound in itself, and here as a text too.
+                let uncertainty =
+                    if value.ends().is_some() { value.bound().to_string().into() } else { json!(value.bound()) };
+                PointNumber { value: json!(value), uncertainty, note: None }
+            }
+            Ok(Err(missing)) => PointNumber::missing(missing.why),
+            Err(error) => PointNumber::missing(error),
+        };
+        let digits = history.digits();
+        let end = history.exactness_end().map(|end| format!("{end}; the number is in {digits} digits"));
+        let notes = end.into_iter().chain(history.warnings().into_iter().map(|warning| warning.to_string()));
+        let notes: Vec<String> = number.note.iter().cloned().chain(notes).collect();
+        PointNumber { note: (!notes.is_empty()).then(|| notes.join("; ")), ..number }
     }
 }
 
-impl Asked {
-    /// The numbers of a problem. What cannot be answered is an answer too; quantities that the same run answers share
-    /// it.
-    fn cells_of(&self, problem: Result<Problem, ProblemError>) -> Vec<Cell> {
+impl Request {
+    /// Returns the numbers of a problem, or the reasons why they do not exist. Quantities that the same run answers
+    /// share it.
+    fn numbers_of(&self, problem: Result<Problem, ProblemError>) -> Vec<PointNumber> {
         let problem = match &problem {
             Ok(problem) => problem,
-            Err(error) => return vec![Cell::none(error); self.quantities.len()],
+            Err(error) => return vec![PointNumber::missing(error); self.quantities.len()],
         };
-        let units = Units::of(problem, self.units);
-        let mut runs: Vec<(Question, Result<Solution, String>)> = Vec::new();
-        let mut cells = Vec::with_capacity(self.quantities.len());
+        let mut runs: Vec<(Question, Result<History, Error>)> = Vec::new();
+        let mut numbers = Vec::with_capacity(self.quantities.len());
         for quantity in &self.quantities {
             let time = self.time.clone().filter(|_| quantity.needs() == Needs::Time);
-            let run = Question::of(*quantity, time.as_ref(), self.numbers);
-            let known = runs.iter().position(|(other, _)| *other == run);
+            let question = Question::of(*quantity, time.as_ref(), self.numbers);
+            let known = runs.iter().position(|(other, _)| *other == question);
             let known = known.unwrap_or_else(|| {
-                let solution = Plan::of(problem, &run).and_then(|plan| plan.solve_typed(problem, unobserved()));
-                runs.push((run, solution.map_err(|error| error.to_string())));
+                let history = problem.ask(&question, unobserved()).map(|history| history.in_units(self.units));
+                runs.push((question, history));
                 runs.len() - 1
             });
-            cells.push(match &runs[known].1 {
-                Ok(solution) => solution.visit(Found {
-                    one: &One::new(*quantity, time),
-                    units: &units,
-                    run: &problem.run,
-                    digits: solution.digits(),
-                    exactness_end: solution.exactness_end(),
-                }),
-                Err(why) => Cell::none(why),
+            numbers.push(match &runs[known].1 {
+                Ok(history) => PointNumber::new(history, &One::new(*quantity, time)),
+                Err(error) => PointNumber::missing(error),
             });
         }
-        cells
+        numbers
     }
 }
 
-struct Found<'a> {
-    one: &'a One,
-    units: &'a Units,
-    run: &'a Run,
-    digits: u32,
-    exactness_end: Option<&'a ExactnessEnd>,
-}
-
-impl Visitor for Found<'_> {
-    type Output = Cell;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Cell {
-        let digits = self.digits;
-        let query = |motion: &dyn Motion<S::Carried>| self.one.of(motion, self.units, self.run);
-        let found = history.ask(query, |found| found.iter().map(|[_, plain]| plain).collect());
-        let cell = match found {
-            Ok(Ok([value, _])) if !value.is_finite() => Cell::none("no finite number"),
-            Ok(Ok([value, _])) => Cell {
-                value: number_json(&value, digits),
-                uncertainty: match bound_json(&value, digits) {
-                    Value::Null => bound_of_log2(shown_bound(&value, digits)).into(),
-                    bound => bound,
-                },
-                note: None,
-            },
-            Ok(Err(missing)) => Cell::none(missing.why),
-            Err(error) => Cell::none(error),
-        };
-        let ends = self.exactness_end.map(|end| format!("{end}; the number is in {digits} digits"));
-        let warnings = history.warnings().into_iter().map(|warning| warning.to_string());
-        ends.into_iter().chain(warnings).fold(cell, Cell::noted)
-    }
-}
-
-/// The same numbers of many problems, on all cores: for each of `count` problems a cell for each quantity. Those that
-/// need a time are taken at `time`, or at the end of the first contact; impulses and energies are per `ρS` where a
+/// Returns the numbers of many problems, computed on all cores: for each of `count` problems one for each quantity.
+/// Quantities over time are taken at `time`, or at the end of the first contact; impulses and energies are per `ρS` where a
 /// problem has no material. `go_on` is asked before each problem.
 ///
 /// **Accuracy**: that of the numbers asked for, with the bound in each cell; the same for any number of cores.
@@ -163,34 +140,35 @@ pub fn sweep(
     time: Option<&Number>,
     numbers: Numbers,
     go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
-) -> Result<Vec<Vec<Cell>>, Error> {
+) -> Result<Vec<Vec<PointNumber>>, Error> {
     let (quantities, units) = (quantities.to_vec(), UnitSystem::default());
-    let asked = Asked { quantities, time: time.cloned(), numbers, units };
+    let request = Request { quantities, time: time.cloned(), numbers, units };
     (0..count)
         .into_par_iter()
         .map(|k| match go_on() {
-            ControlFlow::Continue(()) => Ok(asked.cells_of(problem(k))),
+            ControlFlow::Continue(()) => Ok(request.numbers_of(problem(k))),
             ControlFlow::Break(()) => Err(Error::Interrupted),
         })
         .collect::<Result<Vec<_>, _>>()
 }
 
+/// A grid of problems, and the numbers that each is asked for.
 #[derive(Debug)]
 pub(crate) struct Sweep {
     pub(crate) grid: Grid,
-    pub(crate) asked: Asked,
+    pub(crate) request: Request,
 }
 
 impl Sweep {
-    /// The quantities with their units, which are the same at every point.
+    /// Returns the quantities with their units, which are the same at every point.
     pub(crate) fn units(&self) -> impl Iterator<Item = (Quantity, &'static str)> {
         let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(index).ok());
-        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.asked.units));
-        self.asked.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
+        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.request.units));
+        self.request.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
     }
 
-    /// All `points`, in order: those that are `known`, and the others, which `done` receives as they are finished; it
-    /// may refuse to go on.
+    /// Solves `points` and returns all of them in order. Points that are `known` are not solved again; `done` receives
+    /// every other point as it is finished, and may refuse to go on.
     pub(crate) fn run<E: Send>(
         &self,
         points: Range<usize>,
@@ -208,7 +186,7 @@ impl Sweep {
                 Some(point) => Ok(point.clone()),
                 None => {
                     let index = points.start + place;
-                    let point = Point { index, cells: self.asked.cells_of(self.grid.problem(index)) };
+                    let point = Point { index, numbers: self.request.numbers_of(self.grid.problem(index)) };
                     done(&point).map(|()| point)
                 }
             })

@@ -31,8 +31,46 @@ fn wrong_usage_is_refused() {
     refused(&sample(&["--times", "1", "--points", "3/2"]), &["found point 1.5, expected one between 0 and 1"]);
     refused(
         &["sample", "paper-weak", "--quantity", "end", "--times", "1", "--points", "0"],
-        &["--quantity field only"],
+        &["found the quantity end along the rod, expected some of field"],
     );
+    refused(&sample(&["--times", "1..2"]), &["A..B:N for N numbers from A to B"]);
+    refused(
+        &["sweep", "paper-weak", "--vary", "impact.speed=1..2", "--quantity", "e_P"],
+        &["PATH=A..B:N for N values"],
+    );
+    // Negative numbers are values, not options.
+    refused(&["solve", "paper-weak", "--digits", "-5"], &["expected a whole number of digits"]);
+    refused(&["cost", "paper-weak", "--time", "-1", "--quantity", "h"], &["found time -1"]);
+}
+
+/// Misspelt names of every kind are answered with the nearest one.
+#[test]
+fn misspelt_names_get_suggestions() {
+    refused(&["slove", "paper-weak"], &["'solve'"]);
+    refused(&["solve", "getfem-dynamic-contct"], &["did you mean `getfem-dynamic-contact`?"]);
+    refused(&["scenes", "getfem-dynamic-contct"], &["did you mean `getfem-dynamic-contact`?"]);
+    refused(&["sample", "paper-weak", "--quantity", "u_ende"], &["'u_end'"]);
+    refused(&["sweep", "paper-weak", "--vary", "impact.sped=1", "--quantity", "e_P"], &["did you mean impact.speed?"]);
+    refused(&["check", "--only", "figur-4"], &["did you mean `figure-4`?"]);
+    refused(&["figures", "--only", "tenth-bonce", "-o", "figures"], &["did you mean tenth-bounce?"]);
+    refused_with(&["solve", "-"], &SCENE.replace("speed = 3", "sped = 3"), &["did you mean speed?"]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    std::fs::write(path("my_rod.toml"), SCENE).unwrap();
+    refused(&["solve", &path("my_rd.toml")], &["did you mean `", "my_rod.toml`?"]);
+    refused(&["solve", &path("my_rod")], &["my_rod.toml`?"]);
+}
+
+#[test]
+fn quiet_and_colour() {
+    let dragged = "rod = { length = 1, wave_speed = 10, damping = 2 }\nimpact.drop_height = 0.5\n\
+        gravity.acceleration = 9.81\n";
+    assert!(run_with(&["solve", "-", "--format", "json"], dragged).err.starts_with("warning: "));
+    assert_eq!(run_with(&["-q", "solve", "-", "--format", "json"], dragged).err, "");
+    assert_eq!(run_with(&["solve", "-", "--format", "json", "--quiet"], dragged).err, "");
+    assert!(run(&["--color", "always", "solve", "nope"]).err.contains('\u{1b}'));
+    assert!(run(&["solve", "--color=always"]).err.contains('\u{1b}'));
+    assert!(!run(&["--color", "never", "solve", "nope"]).err.contains('\u{1b}'));
 }
 
 #[cfg(not(feature = "mp"))]

@@ -4,63 +4,74 @@ use serde_json::Value;
 
 use crate::command::{Run, json, keys, quiet, refused, refused_with, run_with};
 
+/// The values of a column, row by row.
+#[track_caller]
+pub(crate) fn column<'a>(file: &'a Value, name: &str) -> Vec<&'a Value> {
+    let place = file["columns"].as_array().unwrap().iter().position(|column| column["name"] == name);
+    let place = place.unwrap_or_else(|| panic!("no column {name}"));
+    file["rows"].as_array().unwrap().iter().map(|row| &row[place]).collect()
+}
+
 #[test]
 fn samples() {
-    let out = quiet(&["sample", "paper-strong", "--quantity", "stress", "--times", "1,2", "--side", "left"]);
+    let out = quiet(&["sample", "paper-strong", "--quantity", "strain", "--times", "1,2", "--side", "left"]);
     let cells: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
     assert_eq!(cells[0], ["t", "side", "strain"]);
     // −(μ + g t)/c.
     assert_eq!(cells[2..], [["1", "left", "-4"], ["2", "left", "-5"]]);
 
     for (quantity, names) in [
-        ("stress", &["strain"][..]),
+        ("strain", &["strain"][..]),
         ("end", &["u_end", "v_end"]),
         ("top", &["u_top", "v_top"]),
         ("centre", &["h", "h_rate"]),
         ("energy", &["E_total", "E_h", "E_z"]),
         ("field", &["u", "v", "strain"]),
+        ("u_end", &["u_end"]),
+        ("E_z,end", &["E_z", "u_end", "v_end"]),
     ] {
         let args = ["sample", "paper-strong", "--quantity", quantity, "--times", "0..2:3"];
-        let samples = json(&[&args[..], &["--format", "json"]].concat());
-        assert_eq!((&samples["schema"], &samples["quantity"]), (&1.into(), &quantity.into()));
-        let rows = samples["rows"].as_array().unwrap();
+        let file = json(&[&args[..], &["--format", "json"]].concat());
+        let keys: &[&str] = if quantity == "field" { &["t", "side", "x"] } else { &["t", "side"] };
+        let expected = [keys, names].concat();
+        let found: Vec<_> = file["columns"].as_array().unwrap().iter().map(|column| &column["name"]).collect();
+        assert_eq!(found, expected);
         // The field has two ends and the middle for each time.
-        assert_eq!(rows.len(), if quantity == "field" { 9 } else { 3 });
-        for row in rows {
-            keys(row, &["t", "x", "side", "values", "uncertainty"]);
-            keys(&row["uncertainty"], names);
-            keys(&row["values"], names);
-            assert_eq!(row["side"], "right");
-            assert!(row["t"].is_number() && row["values"].as_object().unwrap().values().all(Value::is_number));
-            assert_eq!(row["x"].is_number(), quantity == "field");
+        assert_eq!(file["rows"].as_array().unwrap().len(), if quantity == "field" { 9 } else { 3 });
+        for name in names {
+            assert!(column(&file, name).iter().all(|value| value.is_number()), "{quantity}: {name}");
         }
-        assert_eq!(rows[rows.len() - 1]["t"], 2.0);
-        let csv = quiet(&[&args[..], &["--format", "csv"]].concat());
-        let unit = if quantity == "energy" { " [per ρS]" } else { "" };
-        let heads = ["", "_uncertainty"].map(|end| names.iter().map(move |name| format!("{name}{end}{unit}")));
-        let heads: Vec<String> = heads.into_iter().flatten().collect();
-        assert_eq!(csv.lines().next().unwrap(), format!("t,x,side,{}", heads.join(",")));
-        assert_eq!(csv.lines().count(), rows.len() + 1);
+        assert_eq!(column(&file, "t").last().unwrap(), &&Value::from(2.0));
+        let csv = quiet(&[&args[..], &["--format", "csv", "--bare", "--uncertainty"]].concat());
+        let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+        assert_eq!(head.iter().filter(|name| name.ends_with("_uncertainty")).count(), expected.len() - 1);
+        assert!(head.contains(&format!("{}_uncertainty", names[0]).as_str()), "{head:?}");
+        assert_eq!(csv.lines().count(), file["rows"].as_array().unwrap().len() + 1);
     }
+    refused(&["sample", "paper-strong", "--quantity", "end,top,u_end", "--times", "1"], &["--quantity u_end twice"]);
+    refused(
+        &["sample", "paper-strong", "--quantity", "field,energy", "--times", "1"],
+        &["found the quantity energy along the rod, expected some of field"],
+    );
 }
 
-/// Several quantities stand beside each other under the names that each has alone.
+/// `reference` is `sample` with other defaults.
 #[test]
-fn samples_of_several_quantities() {
-    let args = ["sample", "paper-strong", "--quantity", "end,energy", "--times", "0,1", "--format", "json"];
-    let several = json(&args);
-    assert_eq!(several["quantity"], "end,energy");
-    for (k, row) in several["rows"].as_array().unwrap().iter().enumerate() {
-        keys(&row["values"], &["u_end", "v_end", "E_total", "E_h", "E_z"]);
-        for (quantity, names) in [("end", ["u_end", "v_end"]), ("energy", ["E_total", "E_z"])] {
-            let alone = json(&[&args[..3], &[quantity], &args[4..]].concat());
-            for name in names {
-                assert_eq!(row["values"][name], alone["rows"][k]["values"][name], "{quantity}");
-            }
+fn a_golden_file_is_a_sample() {
+    let both = ["doyen-ern-piperno", "--times", "0..2:5", "--quantity"];
+    let golden = quiet(&[&["reference"], &both[..], &["t,side,u_end,force"]].concat());
+    let sample = [&["sample"], &both[..], &["u_end,force", "--side", "both", "--format", "csv"]].concat();
+    assert_eq!(golden, quiet(&sample));
+    let golden = quiet(&[&["reference"], &both[..], &["end", "--format", "table", "--side", "right"]].concat());
+    assert!(golden.starts_with("         u_end"), "{golden}");
+    // The stress is the strain times the modulus, at points and in the mean of cells.
+    let args = ["sample", "doyen-ern-piperno", "--times", "1/3", "--points", "0..10:3", "--format", "json"];
+    for field in ["points", "averages", "p1"] {
+        let file = json(&[&args[..], &["--quantity", "strain,stress", "--field", field]].concat());
+        for (strain, stress) in column(&file, "strain").into_iter().zip(column(&file, "stress")) {
+            let (strain, stress) = (strain.as_f64().unwrap(), stress.as_f64().unwrap());
+            assert!((stress - 900.0 * strain).abs() <= 1e-12 * stress.abs(), "{strain} {stress}");
         }
-    }
-    for (quantity, said) in [("field,energy", "expected it alone"), ("end,top,end", "--quantity end twice")] {
-        refused(&["sample", "paper-strong", "--quantity", quantity, "--times", "1"], &[said]);
     }
 }
 
@@ -72,12 +83,12 @@ fn samples_in_fractions_have_two_sides() {
         json(&[&args[..], &["--format", "json", "--side", side]].concat())
     };
     // At the release: −(μ + 2g)/c before it, nothing after it.
-    assert_eq!(at("left")["rows"][0]["values"]["strain"], "-5");
-    assert_eq!(at("right")["rows"][0]["values"]["strain"], "0");
-    assert_eq!(at("right")["rows"][1]["x"], "1/3");
+    assert_eq!(column(&at("left"), "strain")[0], "-5");
+    assert_eq!(column(&at("right"), "strain")[0], "0");
+    assert_eq!(column(&at("right"), "x")[1], "1/3");
     // A zero in digits is a zero, not what rounding leaves of it.
     let args = ["sample", "doyen-ern-piperno", "--quantity", "centre", "--times", "0", "--digits", "38"];
-    assert_eq!(json(&[&args[..], &["--format", "json"]].concat())["rows"][0]["values"]["h"], "0");
+    assert_eq!(column(&json(&[&args[..], &["--format", "json"]].concat()), "h")[0], "0");
 }
 
 /// The published values of the built-in scenes: ours round to them, or are within what the scene says.

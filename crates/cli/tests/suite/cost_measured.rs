@@ -80,6 +80,18 @@ fn schema() {
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }
 
+/// The end of the rod is on the ground after three quarters of a round trip; in the fall before, v(0,t) = gap − μt − gt²/2.
+#[test]
+fn a_quantity_is_asked_at_a_time_at_which_it_is_not_zero() {
+    let found = json(&["../../examples/bounce.toml", "--quantity", "u_end", "--seconds", "0.2"]);
+    let time = found["time"].as_f64().unwrap();
+    let expected = 0.005 - 0.4 * time - 9.7 * time * time / 2.0;
+    assert!((found["truth"].as_f64().unwrap() - expected).abs() < 1e-15 && expected > 1e-3, "{found:#}");
+    // A time that is given is kept.
+    let found = json(&["../../examples/bounce.toml", "--quantity", "u_end", "--time", "0.075", "--seconds", "0.2"]);
+    assert_eq!(found["truth"], 0.0);
+}
+
 #[test]
 fn effects() {
     let found = json(&["doyen-ern-piperno", "--effects", "--seconds", "0.1"]);

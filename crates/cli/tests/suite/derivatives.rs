@@ -50,11 +50,11 @@ fn the_second_landing() {
     };
     assert!((slope(2.0, 1.5) - 6.0).abs() < 1e-14 && (slope(3.0, 1.5) - 1.2).abs() < 1e-14);
     let doyen = uniform("10", "30", "10", "10", Run::Impacts(2));
-    let exact = doyen.exact().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let exact = doyen.exact().unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     // μ₀ = g t₁, so that ∂t₂/∂μ is that of t₂/t₁ by M over g = 10.
     let [left, right] = ["3/5", "3/25"].map(rational);
     assert_eq!(exact[2][0], Some(Derivative::Sides { left: Ok(left), right: Ok(right) }));
-    let found = doyen.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = doyen.doubles().unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     let [left, right] = found[2][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     meets(&left, 0.6);
     meets(&right, 0.12);
@@ -63,7 +63,7 @@ fn the_second_landing() {
     assert_eq!(exact[1][0], Some(Derivative::One(Rational::new())));
     for (n, m) in [(2.0, "1.1"), (2.0, "1.3"), (3.0, "1.7"), (3.0, "1.9")] {
         let rod = uniform("1", "2", "1", m, Run::Impacts(2));
-        let found = doubles(&rod.doubles().unwrap(), "speed", EventTime);
+        let found = doubles(&rod.doubles().unwrap(), "impact_speed", EventTime);
         meets(&found[2], slope(n, number(m).to_f64()));
     }
 }
@@ -73,7 +73,7 @@ fn the_second_landing() {
 fn a_weak_first_contact() {
     let rod = uniform("3", "2", "5", "7", Run::Impacts(1));
     let exact = rod.exact().unwrap();
-    for (by, expected) in [("speed", "-1/5"), ("gravity", "7/25"), ("length", "2"), ("wave_speed", "-3")] {
+    for (by, expected) in [("impact_speed", "-1/5"), ("gravity", "7/25"), ("length", "2"), ("wave_speed", "-3")] {
         let found = exact.derivatives(by_name(by), &[EventTime]).unwrap();
         assert_eq!(found[1][0], Some(Derivative::One(rational(expected))), "{by}");
         meets(&doubles(&rod.doubles().unwrap(), by, EventTime)[1], rational(expected).to_f64());
@@ -142,14 +142,16 @@ pub(crate) fn linear_starts() -> impl Strategy<Value = Problem> {
 pub(crate) fn given(problem: &Problem) -> Vec<(Parameter, Rational)> {
     let number = |number: &Number| number.to_rational();
     let start = match &problem.start {
-        Start::Uniform(Speed::Given(speed)) | Start::Above { speed, .. } => vec![(Parameter::Speed, number(speed))],
+        Start::Uniform(Speed::Given(speed)) | Start::Above { speed, .. } => {
+            vec![(Parameter::ImpactSpeed, number(speed))]
+        }
         Start::Uniform(Speed::DropHeight(_)) => unreachable!(),
         Start::Profile(profile) => {
             let value = |(_, value): &(Number, Number)| value.to_rational();
             let displacement = profile.displacement.iter().map(value).enumerate();
             let velocity = profile.velocity.iter().map(value).enumerate();
-            let displacement = displacement.map(|(k, value)| (Parameter::StartDisplacement(Some(k)), value));
-            displacement.chain(velocity.map(|(k, value)| (Parameter::StartVelocity(Some(k)), value))).collect()
+            let displacement = displacement.map(|(k, value)| (Parameter::Displacement(Some(k)), value));
+            displacement.chain(velocity.map(|(k, value)| (Parameter::Velocity(Some(k)), value))).collect()
         }
     };
     let dalembert::Material::WaveSpeed(c) = &problem.rod.material else { unreachable!() };
@@ -164,11 +166,11 @@ pub(crate) fn given(problem: &Problem) -> Vec<(Parameter, Rational)> {
 const DIMENSIONS: [(i32, i32); 4] = [(0, 1), (1, -1), (1, 0), (1, -1)];
 pub(crate) fn dimension(by: Parameter) -> (i32, i32) {
     match by {
-        Parameter::Length | Parameter::Gap | Parameter::StartDisplacement(_) => (1, 0),
-        Parameter::WaveSpeed | Parameter::Speed | Parameter::StartVelocity(_) => (1, -1),
+        Parameter::Length | Parameter::Gap | Parameter::Displacement(_) => (1, 0),
+        Parameter::WaveSpeed | Parameter::ImpactSpeed | Parameter::Velocity(_) => (1, -1),
         Parameter::Gravity => (1, -2),
         Parameter::Damping => (0, -1),
-        Parameter::Modulus | Parameter::Density => unreachable!(),
+        _ => unreachable!(),
     }
 }
 
@@ -297,7 +299,7 @@ fn what_has_no_derivative_is_refused() {
     let expected = "found the derivative by gap asked for, expected a start above the ground";
     refused(rod.doubles().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
     let expected = "found the derivative by speed asked for, expected digits that need not be proved";
-    refused(rod.certified(20).unwrap().derivatives(Parameter::Speed, &[EventTime]), expected);
+    refused(rod.certified(20).unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]), expected);
 }
 
 /// `I_n(x)` by its series.
@@ -328,7 +330,7 @@ fn a_damped_bounce_between_rays() {
         let h = bessel(0, r * t) - 2.0 * bessel(0, r * u);
         let at_root = -mu * h / g;
         let rise = mu * (r * bessel(1, r * t) - 2.0 * r * t / u * bessel(1, r * u)) + g * (h + r * at_root);
-        for (by, expected) in [("speed", -h / rise), ("gravity", -at_root / rise)] {
+        for (by, expected) in [("impact_speed", -h / rise), ("gravity", -at_root / rise)] {
             let found = &doubles(&history, by, EventTime)[1];
             assert!(
                 (found.value() - expected).abs() <= found.bound() + 1e-11 * expected.abs(),
@@ -387,7 +389,7 @@ fn times(problem: &Problem, by: Parameter, factor: &Rational) -> Problem {
         (Parameter::Damping, ..) => rod.damping.as_mut().unwrap(),
         (Parameter::Gravity, ..) => gravity.as_mut().unwrap(),
         (Parameter::Gap, _, Start::Above { gap, .. }) => gap,
-        (Parameter::Speed, _, Start::Above { speed, .. } | Start::Uniform(Speed::Given(speed))) => speed,
+        (Parameter::ImpactSpeed, _, Start::Above { speed, .. } | Start::Uniform(Speed::Given(speed))) => speed,
         _ => unreachable!(),
     };
     *value = number(&(value.to_rational() * factor).to_string());
@@ -503,13 +505,13 @@ fn euler_identities_under_damping_at_length() {
 #[test]
 fn thresholds() {
     let rod = uniform("1", "1", "1", "2", Run::Impacts(1));
-    let found = rod.exact().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = rod.exact().unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     let sides = |left: i32, right: i32| Derivative::Sides { left: Ok(left.into()), right: Ok(right.into()) };
     assert_eq!(found[1][0], Some(sides(-1, 0)));
     // μ = 1 lands without speed at t = 31: of neighbours one lands with a root of the distance, and one does not.
     let rod = uniform("1", "1", "1", "1", Run::Time(number("35")));
     let history = rod.doubles().unwrap();
-    let found = history.derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = history.derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     let touch = history.events().iter().position(|event| (event.t - 31.0).abs() < 1e-9).unwrap();
     let reasons = found[touch][0].as_ref().unwrap().sides().map(|side| side.is_err());
     assert!(reasons.contains(&true), "{:?}", found[touch]);
@@ -531,7 +533,7 @@ fn thresholds() {
     let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
     let mut rod = uniform("1", "1", "1", &threshold.to_string_radix(10, Some(90)), Run::Impacts(1));
     rod.rod.damping = Some(number("0.2"));
-    let found = rod.doubles().unwrap().derivatives(Parameter::Speed, &[EventTime]).unwrap();
+    let found = rod.doubles().unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     for (found, expected) in [(left, slope), (right, 0.0)] {
         let off = (found.value() - expected).abs();
@@ -542,23 +544,26 @@ fn thresholds() {
 /// The formula of the second landing, in JSON, CSV and the table.
 #[test]
 fn the_command() {
-    let asked = ["solve", "doyen-ern-piperno", "--derivatives", "speed,density"];
+    let asked = ["solve", "doyen-ern-piperno", "--derivatives", "impact_speed,density"];
     let found = json(&[&asked[..], &["--exact", "--format", "json"]].concat());
     let by = |key: &str, name: &str| found["events"][2]["derivatives"][key][name].clone();
-    assert_eq!(by("t", "speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
+    assert_eq!(by("t", "impact_speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
     // The speed on the left is that before a ray, on the right that behind it.
-    assert_eq!(by("v_end", "speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
+    assert_eq!(by("v_end", "impact_speed"), serde_json::json!({"left": "7", "undefined": {"right": "jumps"}}));
     // c = √(E/ρ) = 30 with ρ = 1: ∂t_b/∂ρ = t_b/2ρ.
     assert_eq!(found["events"][1]["derivatives"]["t"]["density"], "1/3");
     // An impulse of ρ L (2μ + g t₁) = 200ρ + 200/3 ρ√ρ.
     assert_eq!(found["contacts"][0]["derivatives"]["impulse"]["density"], "300");
-    assert_eq!(found["contacts"][0]["derivatives"]["e_P"]["speed"], "0");
+    assert_eq!(found["contacts"][0]["derivatives"]["e_P"]["impact_speed"], "0");
     let csv = quiet(&[&asked[..], &["--format", "csv"]].concat());
     let table: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     let column = |name: &str| table[0].iter().position(|head| *head == name).unwrap();
     let cell = |name: &str| table[3][column(name)];
-    assert_eq!((cell("t_by_speed"), cell("t_by_speed_left"), cell("t_by_speed_right")), ("", "0.6", "0.12"));
-    assert!(cell("t_by_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
+    assert_eq!(
+        (cell("t_by_impact_speed"), cell("t_by_impact_speed_left"), cell("t_by_impact_speed_right")),
+        ("", "0.6", "0.12")
+    );
+    assert!(cell("t_by_impact_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
     let shown = quiet(&asked);
     let row = shown.lines().find(|line| line.starts_with(" impact at 2.66666666667     right")).unwrap();
     let words: Vec<&str> = row.split_whitespace().skip(4).collect();
@@ -585,7 +590,7 @@ fn what_an_event_costs() {
     let share = |k: usize| (more[k] - here[k]) / 1e-5 * 3.0 / here[k];
     let changed: Vec<f64> = (0..here.len()).map(share).filter(|share| share.abs() > 1e-6).map(f64::abs).collect();
     let (first, last) = (changed[0], changed[changed.len() - 1]);
-    assert_eq!((found["by"].as_str(), found["events"].as_u64()), (Some("speed"), Some(changed.len() as u64)));
+    assert_eq!((found["by"].as_str(), found["events"].as_u64()), (Some("impact_speed"), Some(changed.len() as u64)));
     assert!((found["last"].as_f64().unwrap() / last - 1.0).abs() < 1e-3, "{found} {last}");
     let digits = (last / first).log10() / (changed.len() - 1) as f64;
     assert!((found["digits_per_event"].as_f64().unwrap() - digits.max(0.0)).abs() < 1e-3, "{found} {digits}");

@@ -171,7 +171,7 @@ fn long_histories_are_cut_and_said() {
 fn mistakes_are_answered_with_what_was_expected() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
-    refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["found no picture of this name", "stress"]);
+    refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["invalid value 'stres'", "stress"]);
     refused(&["plot", "paper-weak", "-o", &path("a.gif")], &["a.gif, expected a file that ends in .svg, .png or .pdf"]);
     refused(&["plot", "paper-weak", "--from", "2", "--to", "1", "-o", "-"], &["found --to 1, expected a time after 2"]);
     refused(&["plot", "paper-weak", "--from", "99", "-o", &path("a.svg")], &["found time 99"]);

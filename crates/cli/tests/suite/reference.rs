@@ -440,13 +440,14 @@ fn the_comments_of_a_csv() {
 #[test]
 fn what_cannot_be_is_refused() {
     let asked = |more: &[&str], said: &[&str]| refused(&[&["reference", "doyen-ern-piperno"], more].concat(), said);
-    asked(&["--columns", "t,u"], &["found no column of this name, expected one of t, side, u_end"]);
-    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found the column t twice, expected each once"]);
+    asked(&["--columns", "t,x"], &["found the quantity x without points"]);
+    asked(&["--columns", "t,w"], &["[possible values: end, top, centre, energy, t, side, u_end"]);
+    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found --quantity t twice, expected each once"]);
     asked(&["--dt", "0.1"], &["--to <T>"]);
     asked(&["--dt", "0", "--to", "1"], &["expected a step above 0"]);
     asked(&["--dt", "1e-9", "--to", "5"], &["found 5000000000 steps"]);
     asked(&["--dt", "0.1", "--to", "1", "--times", "1"], &["cannot be used with"]);
-    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json or .npz"]);
+    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json, .npz or .txt"]);
     asked(&["--field", "p1"], &["--points <LIST>"]);
     asked(&["--times", "1", "--points", "1,0", "--field", "p1"], &["found the point 0", "that increase"]);
     asked(&["--times", "1", "--points", "1", "--field", "averages"], &["found fewer than two points"]);

@@ -1,17 +1,17 @@
-//! Colours that stay apart for every kind of sight.
+//! Colours that readers with any kind of colour vision can tell apart.
 
-/// Of lines and areas, after Okabe and Ito, the darker ones first.
+/// Colours of lines, after Okabe and Ito, the darker ones first.
 pub const LINES: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
-/// Light ones of the same for stacked areas, with black lines over them.
-pub const AREAS: [&str; 3] = ["#a5d9c8", "#7fb8d8", "#f0a860"];
+/// Light colours of stacked areas, under black lines.
+pub(crate) const AREAS: [&str; 3] = ["#a5d9c8", "#7fb8d8", "#f0a860"];
 
-/// From blue over white to red, as ColorBrewer has it: −1 to 1 in equal steps.
+/// ColorBrewer's palette from blue over white to red, for values from −1 to 1 in equal steps.
 const DIVERGING: [u32; 11] =
     [0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b, 0x67001f];
 
-/// The colour of a value from −1 to 1.
-pub fn diverging(value: f64) -> String {
+/// Returns the colour of a value from −1 to 1; values beyond have the colour of the nearer end.
+pub(crate) fn diverging(value: f64) -> String {
     let last = DIVERGING.len() - 1;
     let place = (value.clamp(-1.0, 1.0) + 1.0) / 2.0 * last as f64;
     let below = (place.floor() as usize).min(last - 1);
@@ -23,12 +23,12 @@ pub fn diverging(value: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(16), mix(8), mix(0))
 }
 
-/// Shares of the way from one value to another at which the colours change their course, with the colours: linear
-/// between them.
-pub fn diverging_stops(from: f64, to: f64) -> Vec<(f64, String)> {
+/// Returns the stops of a gradient from one value to another: shares of the way, in order, and their colours. Between
+/// two stops the palette is linear.
+pub(super) fn diverging_stops(from: f64, to: f64) -> Vec<(f64, String)> {
     let last = DIVERGING.len() as i32 - 1;
     let inner = (0..=last).map(|k| 2.0 * f64::from(k) / f64::from(last) - 1.0);
-    let mut shares: Vec<f64> = inner.map(|node| (node - from) / (to - from)).collect();
+    let mut shares: Vec<f64> = inner.map(|value| (value - from) / (to - from)).collect();
     shares.retain(|share| *share > 1e-4 && *share < 1.0 - 1e-4);
     shares.extend([0.0, 1.0]);
     shares.sort_by(f64::total_cmp);

@@ -1,54 +1,56 @@
-//! An SVG as it is written, in millimetres.
+//! Writer of an SVG; all lengths are in millimetres.
 
 use std::fmt;
 
 use glam::DVec2;
 
-/// The font of all pictures; where it is not known another one without serifs takes its place.
+/// Font of all pictures, with substitutes for viewers that do not have it.
 const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// How a line is drawn: colour, width in mm, dashes in mm.
+/// Style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
+    /// Colour, as SVG writes it.
     pub color: &'static str,
+    /// Width in mm.
     pub width: f64,
+    /// Lengths of dashes and gaps in mm; empty for a solid line.
     pub dash: &'static str,
 }
 
 impl Stroke {
+    /// Creates the style of a solid line.
     pub const fn new(color: &'static str, width: f64) -> Self {
         Stroke { color, width, dash: "" }
     }
 
+    /// Returns the same style with these dashes and gaps.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Stroke { dash, ..self }
     }
 }
 
-/// Where a text stands relative to its place.
+/// Point of a text that is placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
+    /// The left end.
     Start,
+    /// The middle.
     Middle,
+    /// The right end.
     End,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-pub enum Fill {
-    Flat(String),
-    /// From one point to another, with shares of the way and colours in order.
-    Gradient([DVec2; 2], Vec<(f64, String)>),
-}
-
+/// Document that is being written.
 #[derive(Debug)]
-pub struct Svg {
+pub(crate) struct Svg {
     text: String,
-    /// The height of letters, mm.
-    pub em: f64,
+    /// Height of letters in mm.
+    pub(super) em: f64,
 }
 
-/// A length: a hundredth of a millimetre, without zeros at the end.
-pub(super) fn length(x: f64) -> String {
+/// Formats a length to a hundredth of a millimetre, without trailing zeros.
+fn length(x: f64) -> String {
     let text = format!("{x:.2}");
     match text.trim_end_matches('0').trim_end_matches('.') {
         "-0" => "0".into(),
@@ -56,29 +58,29 @@ pub(super) fn length(x: f64) -> String {
     }
 }
 
-/// The characters that XML keeps for itself.
-pub(super) fn escaped(text: &str) -> String {
+/// Escapes the characters that XML reserves.
+fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A number of texts (FNV-1a). In a document that holds several pictures, as a notebook does, a name must not mean
-/// something else in each.
-fn fingerprint(texts: &[&str]) -> u64 {
-    let bytes = texts.iter().flat_map(|text| text.bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+/// Computes a hash (FNV-1a) that is part of an element's id: ids must not collide in a document with several pictures,
+/// such as a notebook.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// A text of a user, in which `_` is no subscript.
-pub fn plain(text: &str) -> String {
+/// Escapes each `_` of a text, so that it does not begin a subscript.
+pub fn without_subscripts(text: &str) -> String {
     text.replace('_', "__")
 }
 
-/// A text in parts, each with whether it is a subscript: `v_x` or `μ_{12}`; `__` is `_` itself.
+/// Splits a text at its subscripts, as in `v_x` or `μ_{12}`; `__` is a plain `_`. The flag of a part says whether it is
+/// a subscript.
 fn parts(text: &str) -> Vec<(String, bool)> {
     let mut parts = vec![(String::new(), false)];
     let mut letters = text.chars().peekable();
     while let Some(letter) = letters.next() {
-        let low = match (letter, letters.peek()) {
+        let subscript = match (letter, letters.peek()) {
             ('_', Some('_')) => letters.next().and(None),
             ('_', Some('{')) => {
                 letters.next();
@@ -87,8 +89,8 @@ fn parts(text: &str) -> Vec<(String, bool)> {
             ('_', Some(_)) => letters.next().map(String::from),
             _ => None,
         };
-        match low {
-            Some(low) => parts.extend([(low, true), (String::new(), false)]),
+        match subscript {
+            Some(subscript) => parts.extend([(subscript, true), (String::new(), false)]),
             None => parts.last_mut().map_or((), |last| last.0.push(letter)),
         }
     }
@@ -96,11 +98,13 @@ fn parts(text: &str) -> Vec<(String, bool)> {
     parts
 }
 
-/// The size of a subscript, and how far below the line it stands.
-const LOW: (f64, f64) = (0.72, 0.18);
+/// Size of a subscript, as a share of the other letters.
+const SUBSCRIPT_SIZE: f64 = 0.72;
+/// Depth of a subscript below the base line, in heights of a letter.
+const SUBSCRIPT_DEPTH: f64 = 0.18;
 
-/// About how wide a text is, in heights of its letters. Rather more than less.
-pub fn width(text: &str) -> f64 {
+/// Estimates the width of a text in heights of its letters, rather too wide than too narrow.
+pub(super) fn text_width(text: &str) -> f64 {
     let letter = |letter: char| match letter {
         'i' | 'j' | 'l' | '\'' | '.' | ',' | ':' | ';' | '|' | '·' => 0.32,
         ' ' | 'f' | 't' | 'r' | '(' | ')' | '[' | ']' | '/' | '-' | 'I' | '′' => 0.4,
@@ -110,12 +114,15 @@ pub fn width(text: &str) -> f64 {
         letter if letter.is_uppercase() => 0.7,
         _ => 0.61,
     };
-    parts(text).iter().map(|(part, low)| part.chars().map(letter).sum::<f64>() * if *low { LOW.0 } else { 1.0 }).sum()
+    parts(text)
+        .iter()
+        .map(|(part, subscript)| part.chars().map(letter).sum::<f64>() * if *subscript { SUBSCRIPT_SIZE } else { 1.0 })
+        .sum()
 }
 
 impl Svg {
-    /// An empty page of this size with letters of the height `em`, all in mm.
-    pub fn new(width: f64, height: f64, em: f64) -> Self {
+    /// Creates an empty page with letters of the height `em`.
+    pub(crate) fn new(width: f64, height: f64, em: f64) -> Self {
         let [w, h, size] = [width, height, em].map(length);
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
@@ -125,112 +132,114 @@ impl Svg {
         Svg { text, em }
     }
 
-    /// Begins a group that [`Svg::close`] ends: its class, and other attributes.
-    pub fn open(&mut self, class: &str, attributes: &str) {
+    /// Begins a group with this class and other attributes; [`Svg::close`] ends it.
+    pub(super) fn open(&mut self, class: &str, attributes: &str) {
         self.text += &format!("<g class=\"{}\"{attributes}>\n", escaped(class));
     }
 
-    pub fn close(&mut self) {
+    /// Ends the innermost group.
+    pub(super) fn close(&mut self) {
         self.text += "</g>\n";
     }
 
-    pub fn line(&mut self, points: &[DVec2], stroke: Stroke) {
+    /// Draws a line through points.
+    pub(crate) fn line(&mut self, points: &[DVec2], stroke: Stroke) {
         self.text += &format!("<polyline points=\"{}\" fill=\"none\"{stroke}/>\n", places(points));
     }
 
-    /// What is inside of a line through points.
-    pub fn polygon(&mut self, points: &[DVec2], fill: &Fill) {
-        let corners = places(points);
-        let paint = match fill {
-            Fill::Flat(color) => color.clone(),
-            Fill::Gradient([from, to], stops) => {
-                let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
-                let mut gradient =
-                    format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
-                for (share, color) in stops {
-                    gradient += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
-                }
-                let id = fingerprint(&[&corners, &gradient]);
-                self.text += &format!("<linearGradient id=\"fill{id:x}\" {gradient}</linearGradient>\n");
-                format!("url(#fill{id:x})")
-            }
-        };
-        self.text += &format!("<polygon points=\"{corners}\" fill=\"{paint}\"/>\n");
+    /// Draws a polygon.
+    pub(super) fn polygon(&mut self, points: &[DVec2], fill: &str) {
+        self.text += &format!("<polygon points=\"{}\" fill=\"{fill}\"/>\n", places(points));
     }
 
-    /// What an odd number of closed lines is about.
-    pub fn region(&mut self, lines: &[Vec<DVec2>], fill: &str) {
-        let path = lines.iter().map(|line| format!("M{}z", places(line))).collect::<Vec<_>>().concat();
+    /// Draws a polygon with a gradient between two points. Each stop is a share of the way, in order, and a colour.
+    pub(super) fn gradient_polygon(&mut self, points: &[DVec2], [from, to]: [DVec2; 2], stops: &[(f64, String)]) {
+        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(length);
+        let mut gradient = format!("gradientUnits=\"userSpaceOnUse\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\">");
+        for (share, color) in stops {
+            gradient += &format!("<stop offset=\"{share:.4}\" stop-color=\"{color}\"/>");
+        }
+        let id = fingerprint(&format!("{}{gradient}", places(points)));
+        self.text += &format!("<linearGradient id=\"fill{id:x}\" {gradient}</linearGradient>\n");
+        self.polygon(points, &format!("url(#fill{id:x})"));
+    }
+
+    /// Draws the points that an odd number of closed lines surrounds.
+    pub(super) fn region(&mut self, lines: &[Vec<DVec2>], fill: &str) {
+        let path: String = lines.iter().map(|line| format!("M{}z", places(line))).collect();
         self.text += &format!("<path fill=\"{fill}\" fill-rule=\"evenodd\" d=\"{path}\"/>\n");
     }
 
-    /// Rectangles of one colour, each from one corner to the opposite one.
-    pub fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
-        // Rounded as places, so that neighbours meet.
-        let path = corners
-            .iter()
-            .map(|[a, b]| {
-                let [left, top, right, bottom] = [a.x, a.y, b.x, b.y].map(length);
-                format!("M{left} {top}H{right}V{bottom}H{left}z")
-            })
-            .collect::<Vec<_>>();
-        self.text += &format!("<path fill=\"{fill}\" d=\"{}\"/>\n", path.concat());
+    /// Draws rectangles of one colour, each given by two opposite corners.
+    pub(crate) fn rectangles(&mut self, corners: &[[DVec2; 2]], fill: &str) {
+        // Coordinates are rounded, not widths, so that neighbours meet.
+        let path = |[a, b]: &[DVec2; 2]| {
+            let [left, top, right, bottom] = [a.x, a.y, b.x, b.y].map(length);
+            format!("M{left} {top}H{right}V{bottom}H{left}z")
+        };
+        let path: String = corners.iter().map(path).collect();
+        self.text += &format!("<path fill=\"{fill}\" d=\"{path}\"/>\n");
     }
 
-    pub fn frame(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
+    /// Draws the outline of a rectangle.
+    pub(crate) fn outline(&mut self, [from, to]: [DVec2; 2], stroke: Stroke) {
         let [x, y, w, h] = [from.x, from.y, to.x - from.x, to.y - from.y].map(length);
         self.text += &format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"none\"{stroke}/>\n");
     }
 
-    /// A closed mark about a point, or a ring where it has no fill.
-    pub fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
+    /// Draws a circle.
+    pub(super) fn circle(&mut self, at: DVec2, radius: f64, fill: &str, stroke: Stroke) {
         let [x, y, r] = [at.x, at.y, radius].map(length);
         self.text += &format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{stroke}/>\n");
     }
 
-    /// A text on its base line, with subscripts.
-    pub fn text(&mut self, at: DVec2, anchor: Anchor, text: &str) {
-        self.place_text(at, anchor, "", text);
+    /// Writes a text, with subscripts, whose base line is at the height of a point.
+    pub(crate) fn text(&mut self, at: DVec2, anchor: Anchor, text: &str) {
+        self.text_with(at, anchor, "", text);
     }
 
-    /// A text about its middle that is read upwards. Letters are so many times as high as the others.
-    pub fn text_upwards(&mut self, at: DVec2, text: &str, size: f64) {
+    /// Writes a text upwards, with its middle at a point, in letters `size` times as high as the others.
+    pub(super) fn text_upwards(&mut self, at: DVec2, text: &str, size: f64) {
         let [x, y] = [at.x, at.y].map(length);
         let smaller = if size < 1.0 { format!(" font-size=\"{}\"", length(size * self.em)) } else { String::new() };
-        self.place_text(at, Anchor::Middle, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
+        self.text_with(at, Anchor::Middle, &format!("{smaller} transform=\"rotate(-90 {x} {y})\""), text);
     }
 
-    fn place_text(&mut self, at: DVec2, anchor: Anchor, turned: &str, text: &str) {
+    /// Writes a text with further attributes.
+    fn text_with(&mut self, at: DVec2, anchor: Anchor, attributes: &str, text: &str) {
         let anchor = match anchor {
             Anchor::Start => "",
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
-        let [x, y, down, up, small] = [at.x, at.y, LOW.1 * self.em, -LOW.1 * self.em, LOW.0 * self.em].map(length);
-        self.text += &format!("<text x=\"{x}\" y=\"{y}\"{anchor}{turned}>");
-        let mut low = false;
-        for (part, lower) in parts(text) {
+        let (depth, small) = (SUBSCRIPT_DEPTH * self.em, length(SUBSCRIPT_SIZE * self.em));
+        let [x, y, down, up] = [at.x, at.y, depth, -depth].map(length);
+        self.text += &format!("<text x=\"{x}\" y=\"{y}\"{anchor}{attributes}>");
+        let mut after_subscript = false;
+        for (part, subscript) in parts(text) {
             let part = escaped(&part);
-            self.text += &match (low, lower) {
+            self.text += &match (after_subscript, subscript) {
                 (false, true) => format!("<tspan dy=\"{down}\" font-size=\"{small}\">{part}</tspan>"),
                 (true, false) => format!("<tspan dy=\"{up}\">{part}</tspan>"),
                 _ => part,
             };
-            low = lower;
+            after_subscript = subscript;
         }
         self.text += "</text>\n";
     }
 
-    pub fn finish(self) -> String {
+    /// Returns the complete document.
+    pub(crate) fn finish(self) -> String {
         self.text + "</svg>\n"
     }
 }
 
+/// Formats the coordinates of points.
 fn places(points: &[DVec2]) -> String {
     points.iter().map(|point| format!("{},{}", length(point.x), length(point.y))).collect::<Vec<_>>().join(" ")
 }
 
-/// As attributes.
+/// Formats the attributes of a line.
 impl fmt::Display for Stroke {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, " stroke=\"{}\" stroke-width=\"{}\"", self.color, length(self.width))?;

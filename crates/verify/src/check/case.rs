@@ -1,56 +1,53 @@
-//! What a case of the catalogue is, and how it is run.
+//! A case of the catalogue: its rods, questions and routes.
 
 use std::time::Instant;
 
-use super::verdict::{Outcome, Promise, Row, Verdict, outcome};
-use crate::long;
-use crate::paper::Printed;
-use crate::quantity::{Claimed, Question};
-use crate::route::{Numbers, Route};
-use crate::truth::Truth;
-use crate::value::NoAnswer;
-use dalembert::Scene;
-use dalembert::Side;
+use super::verdict::{CheckedRoute, Outcome, Promise, Verdict};
+use crate::error::VerifyError;
+use crate::paper::PrintedIntegrals;
+use crate::paper::formulas::Constant;
+use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion, Transform, Truth};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{One, Quantity, Units};
+use dalembert::solve::Numbers;
+use dalembert::{Scene, Side};
 
-pub type Text = &'static str;
-
+/// A problem of the catalogue, with its numbers as text.
 #[derive(Clone, Copy, Debug)]
-pub struct Rod {
-    pub length: Text,
-    pub wave_speed: Text,
-    pub damping: Text,
-    pub gravity: Text,
-    pub speed: Text,
-    /// Followed to this time; empty: through the first contact and the flight after it.
-    pub until: Text,
-    /// A whole scene in place of all that; empty without one.
-    pub scene: Text,
+pub(super) struct Rod {
+    pub(super) length: &'static str,
+    pub(super) wave_speed: &'static str,
+    pub(super) damping: &'static str,
+    pub(super) gravity: &'static str,
+    pub(super) speed: &'static str,
+    /// Time up to which the rod is followed; empty for the first contact and the flight after it.
+    pub(super) until: &'static str,
+    /// A whole scene in place of the other fields, or empty.
+    pub(super) scene: &'static str,
 }
 
-/// `c = L = g = 1`.
-pub const fn unit(damping: Text, speed: Text) -> Rod {
+/// Builds the rod of `c = L = g = 1`.
+pub(super) const fn unit(damping: &'static str, speed: &'static str) -> Rod {
     Rod { length: "1", wave_speed: "1", damping, gravity: "1", speed, until: "", scene: "" }
 }
 
 impl Rod {
-    pub const fn weightless(self) -> Rod {
+    pub(super) const fn weightless(self) -> Rod {
         Rod { gravity: "0", ..self }
     }
 
-    pub const fn until(self, until: Text) -> Rod {
+    pub(super) const fn until(self, until: &'static str) -> Rod {
         Rod { until, ..self }
     }
 
-    pub const fn of(scene: Text) -> Rod {
+    pub(super) const fn from_scene(scene: &'static str) -> Rod {
         Rod { scene, ..unit("0", "1") }
     }
 
-    fn problem(&self) -> Result<Problem, NoAnswer> {
+    fn problem(&self) -> Result<Problem, VerifyError> {
         if !self.scene.is_empty() {
-            return Scene::parse(self.scene).map(|scene| scene.problem).map_err(NoAnswer::gave_up);
+            return Ok(Scene::parse(self.scene)?.problem);
         }
         let number = |text: &str| text.parse::<Number>();
         let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
@@ -63,74 +60,85 @@ impl Rod {
     }
 }
 
-pub type Promised = (Route, Promise);
+/// A route and its promise.
+pub(super) type PromisedRoute = (Route, Promise);
 
 const MOST_FORMULAS: usize = 4;
 
 /// A question of the catalogue, its truth, and the routes to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// In words: `t_b`, `h(3)`.
-    what: Text,
+pub(super) struct CaseQuestion {
+    /// The question in words: `t_b`, `h(3)`.
+    label: &'static str,
     rod: Rod,
     quantity: Quantity,
-    /// x, and t; `t_b` where it is empty.
-    place: (Text, Text),
+    /// x, or empty.
+    point: &'static str,
+    /// t; empty for `t_b`.
+    time: &'static str,
     side: Side,
-    claimed: Claimed,
-    /// See [`Truth::spelt`], or [`super::verdict::NO_BOUNCE`].
-    pub truth: Text,
+    transform: Transform,
+    /// A text for [`Truth::from_text`], or [`super::verdict::NO_BOUNCE`].
+    pub(super) truth: &'static str,
     /// Routes of this question alone, shown before the others.
-    formulas: [Option<Promised>; MOST_FORMULAS],
-    routes: &'static [Promised],
+    formulas: [Option<PromisedRoute>; MOST_FORMULAS],
+    routes: &'static [PromisedRoute],
 }
 
-/// A question at `t_b`, or that has no time.
-pub const fn ask(what: Text, rod: Rod, quantity: Quantity, truth: Text, routes: &'static [Promised]) -> Entry {
-    let (place, side, claimed, formulas) = (("", ""), Side::Right, Claimed::Itself, [None; MOST_FORMULAS]);
-    Entry { what, rod, quantity, place, side, claimed, truth, formulas, routes }
+/// Builds a question at `t_b`, or one without a time.
+pub(super) const fn ask(
+    label: &'static str,
+    rod: Rod,
+    quantity: Quantity,
+    truth: &'static str,
+    routes: &'static [PromisedRoute],
+) -> CaseQuestion {
+    let (side, transform, formulas) = (Side::Right, Transform::Identity, [None; MOST_FORMULAS]);
+    CaseQuestion { label, rod, quantity, point: "", time: "", side, transform, truth, formulas, routes }
 }
 
-/// A number that belongs to no rod: only formulas give it, and nothing is asked.
-pub const fn constant(what: Text, truth: Text) -> Entry {
-    ask(what, unit("0", "1"), Quantity::BounceTime, truth, &[])
+/// Builds a question about a number that belongs to no rod, and that only formulas give.
+pub(super) const fn constant(label: &'static str, truth: &'static str) -> CaseQuestion {
+    ask(label, unit("0", "1"), Quantity::BounceTime, truth, &[])
 }
 
-impl Entry {
-    /// At this time, in the limit from later times.
-    pub const fn at(self, time: Text) -> Entry {
-        Entry { place: ("", time), ..self }
+impl CaseQuestion {
+    /// Asks at `time`, in the limit from later times.
+    pub(super) const fn at(self, time: &'static str) -> Self {
+        CaseQuestion { time, ..self }
     }
 
-    /// At this time, in the limit from earlier times.
-    pub const fn before(self, time: Text) -> Entry {
-        Entry { place: ("", time), side: Side::Left, ..self }
+    /// Asks at `time`, in the limit from earlier times.
+    pub(super) const fn before(self, time: &'static str) -> Self {
+        CaseQuestion { time, side: Side::Left, ..self }
     }
 
-    pub const fn at_point(self, point: Text, time: Text) -> Entry {
-        Entry { place: (point, time), ..self }
+    /// Asks at `point` and `time`.
+    pub(super) const fn at_point(self, point: &'static str, time: &'static str) -> Self {
+        CaseQuestion { point, time, ..self }
     }
 
-    pub const fn claims(self, claimed: Claimed) -> Entry {
-        Entry { claimed, ..self }
+    /// Asks for a function of the answer.
+    pub(super) const fn transformed(self, transform: Transform) -> Self {
+        CaseQuestion { transform, ..self }
     }
 
-    /// A formula in doubles that gives so many digits.
-    pub const fn by(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
-        self.first_by((Route::Formula(what, formula), Promise::Digits(digits)))
+    /// Adds a formula in doubles that gives this many digits.
+    pub(super) const fn by(self, name: &'static str, digits: u32, formula: fn() -> f64) -> Self {
+        self.with_formula((Route::Formula(name, formula), Promise::Digits(digits)))
     }
 
-    /// A formula in doubles that gives fewer digits than this.
-    pub const fn breaks(self, what: Text, digits: u32, formula: fn() -> f64) -> Entry {
-        self.first_by((Route::Formula(what, formula), Promise::Fewer(digits)))
+    /// Adds a formula in doubles that gives fewer digits than this.
+    pub(super) const fn breaks(self, name: &'static str, digits: u32, formula: fn() -> f64) -> Self {
+        self.with_formula((Route::Formula(name, formula), Promise::Fewer(digits)))
     }
 
-    /// A formula in 36 digits.
-    pub const fn by_digits(self, what: Text, formula: long::Formula) -> Entry {
-        self.first_by((Route::LongFormula(what, formula), Promise::Digits(36)))
+    /// Adds a constant of the paper in 36 digits.
+    pub(super) const fn by_digits(self, name: &'static str, constant: Constant) -> Self {
+        self.with_formula((Route::Constant(name, constant), Promise::Digits(36)))
     }
 
-    const fn first_by(mut self, formula: Promised) -> Entry {
+    const fn with_formula(mut self, formula: PromisedRoute) -> Self {
         let mut place = 0;
         while self.formulas[place].is_some() {
             place += 1;
@@ -139,142 +147,185 @@ impl Entry {
         self
     }
 
-    fn question(&self) -> Result<Question, NoAnswer> {
+    fn question(&self) -> Result<RouteQuestion, VerifyError> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
-        let (problem, quantity) = (self.rod.problem()?, self.quantity);
-        let (point, time) = (number(self.place.0)?, number(self.place.1)?);
-        let one = One { quantity, point, time, side: self.side };
-        Ok(Question { problem, one, units: Units::default(), claimed: self.claimed })
+        let (point, time) = (number(self.point)?, number(self.time)?);
+        let one = One { quantity: self.quantity, point, time, side: self.side };
+        Ok(RouteQuestion { problem: self.rod.problem()?, one, units: Units::default(), transform: self.transform })
     }
 
-    pub fn check(&self) -> CheckedQuestion {
-        let truth = Truth::spelt(self.truth);
+    /// Takes every route. A build without long numbers leaves out the routes that may need them.
+    pub(super) fn check(&self) -> CheckedQuestion {
+        let truth = Truth::from_text(self.truth);
         let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
-        let rows = routes.filter_map(|(route, promise)| {
-            let ((route_name, long), start) = (described(*route), Instant::now());
-            if long && !long::AVAILABLE {
-                return None;
-            }
-            let found = question.as_ref().map_err(Clone::clone).and_then(|asked| route.run(asked, f64::INFINITY));
+        let routes = routes.filter(|(route, _)| HAS_LONG_NUMBERS || !may_need_long_numbers(*route));
+        let routes = routes.map(|(route, promise)| {
+            let start = Instant::now();
+            let answer =
+                question.as_ref().map_err(Clone::clone).and_then(|question| route.run(question, f64::INFINITY));
             let seconds = start.elapsed().as_secs_f64();
-            let digits = truth.as_ref().and_then(|truth| Some(truth.right_digits(found.as_ref().ok()?)));
-            let outcome = outcome(*promise, truth.as_ref(), &found, digits.unwrap_or(0.0));
-            Some(Row { route: route_name, found, promise: *promise, digits, outcome, seconds })
+            let digits = truth.as_ref().and_then(|truth| Some(truth.right_digits(answer.as_ref().ok()?)));
+            let outcome = promise.outcome(truth.as_ref(), &answer, digits.unwrap_or(0.0));
+            CheckedRoute { route: description(*route), answer, promise: *promise, digits, outcome, seconds }
         });
-        CheckedQuestion { what: self.what, truth: self.truth, rows: rows.collect() }
+        CheckedQuestion { label: self.label, truth: self.truth, routes: routes.collect() }
     }
 }
 
-/// The name of a route in the catalogue, and whether it may need long numbers.
-fn described(route: Route) -> (String, bool) {
+/// Returns whether `route` may take numbers longer than doubles.
+fn may_need_long_numbers(route: Route) -> bool {
+    use Numbers::{Certified, Digits, Double};
     match route {
-        Route::Formula(what, _) => (format!("{what}, plain doubles"), false),
-        Route::LongFormula(what, _) => (format!("{what}, 36 digits"), true),
-        Route::ClosedForm(Numbers::Digits(digits)) => (format!("closed form, {digits} digits"), true),
-        Route::ClosedForm(_) => ("closed form, doubles".into(), false),
-        Route::PrintedForms => ("printed form, fractions".into(), false),
-        Route::PrintedIntegrals(_) => ("printed integrals, doubles".into(), false),
-        Route::Modes(_) => ("modal sum, doubles".into(), false),
-        Route::Lattice(Numbers::Exact) => ("lattice, fractions".into(), false),
-        Route::Lattice(_) => ("lattice, doubles".into(), false),
-        Route::Cells(_) => ("cells, doubles".into(), false),
-        Route::Differences(_) => ("finite differences".into(), false),
+        Route::Constant(..) => true,
+        Route::ClosedForm(numbers) => matches!(numbers, Digits(_)),
         // An accuracy may take more than doubles.
-        Route::Planned(Numbers::Double(Some(accuracy))) => (format!("the plan, to {accuracy:e}"), true),
-        Route::Planned(Numbers::Digits(digits)) => (format!("the plan, {digits} digits"), true),
-        Route::Planned(Numbers::Certified(digits)) => (format!("the plan, {digits} digits proved"), true),
-        Route::Planned(_) => ("the plan".into(), false),
+        Route::Planned(numbers) => matches!(numbers, Double(Some(_)) | Digits(_) | Certified(_)),
+        _ => false,
     }
 }
 
-pub const CLOSED: Route = Route::ClosedForm(Numbers::Double(None));
-pub const CLOSED_50: Promised = (closed(50), Promise::Digits(36));
-pub const MODES: Route = Route::Modes(2048);
-pub const LATTICE: Route = Route::Lattice(Numbers::Double(None));
-pub const FRACTIONS: Route = Route::Lattice(Numbers::Exact);
-pub const CELLS: Route = Route::Cells(13);
-pub const PRINTED: Promised = (Route::PrintedForms, Promise::Exact);
-pub const DIGITS: Promised = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
-pub const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
-pub const PLANNED: Route = Route::Planned(Numbers::Double(None));
-pub const PROVED: Promised = (CERTIFIED, Promise::Enclosed(36));
+/// Describes a route as the catalogue shows it.
+fn description(route: Route) -> String {
+    match route {
+        Route::Formula(name, _) => format!("{name}, plain doubles"),
+        Route::Constant(name, _) => format!("{name}, 36 digits"),
+        Route::ClosedForm(Numbers::Digits(digits)) => format!("closed form, {digits} digits"),
+        Route::ClosedForm(_) => "closed form, doubles".into(),
+        Route::PrintedForms => "printed form, fractions".into(),
+        Route::PrintedIntegrals(_) => "printed integrals, doubles".into(),
+        Route::Modes(_) => "modal sum, doubles".into(),
+        Route::Lattice(Numbers::Exact) => "lattice, fractions".into(),
+        Route::Lattice(_) => "lattice, doubles".into(),
+        Route::Cells(_) => "cells, doubles".into(),
+        Route::Differences(_) => "finite differences".into(),
+        Route::Planned(Numbers::Double(Some(accuracy))) => format!("the plan, to {accuracy:e}"),
+        Route::Planned(Numbers::Digits(digits)) => format!("the plan, {digits} digits"),
+        Route::Planned(Numbers::Certified(digits)) => format!("the plan, {digits} digits proved"),
+        Route::Planned(_) => "the plan".into(),
+    }
+}
 
-/// Values during a contact.
-pub const CONTACT: &[Promised] =
+pub(super) const CLOSED: Route = Route::ClosedForm(Numbers::Double(None));
+pub(super) const CLOSED_50: PromisedRoute = (closed(50), Promise::Digits(36));
+pub(super) const MODES: Route = Route::Modes(2048);
+pub(super) const LATTICE: Route = Route::Lattice(Numbers::Double(None));
+pub(super) const FRACTIONS: Route = Route::Lattice(Numbers::Exact);
+pub(super) const CELLS: Route = Route::Cells(13);
+pub(super) const PRINTED: PromisedRoute = (Route::PrintedForms, Promise::Exact);
+pub(super) const DIGITS: PromisedRoute = (Route::Planned(Numbers::Digits(36)), Promise::Digits(36));
+pub(super) const CERTIFIED: Route = Route::Planned(Numbers::Certified(36));
+pub(super) const PLANNED: Route = Route::Planned(Numbers::Double(None));
+pub(super) const PROVED: PromisedRoute = (CERTIFIED, Promise::Enclosed(36));
+
+/// Routes to values during a contact.
+pub(super) const CONTACT: &[PromisedRoute] =
     &[(CLOSED, Promise::Bound(12)), (MODES, Promise::Bound(9)), (CELLS, Promise::Digits(10)), CLOSED_50, PROVED];
-/// That there is no bounce.
-pub const NEVER: &[Promised] = &[
+/// Routes that show that there is no bounce.
+pub(super) const NEVER: &[PromisedRoute] = &[
     (CLOSED, Promise::Digits(0)),
     (accuracy(1e-12), Promise::Digits(0)),
     (closed(50), Promise::Digits(0)),
     (CERTIFIED, Promise::Digits(0)),
 ];
 
-pub const fn closed(digits: u32) -> Route {
+pub(super) const fn closed(digits: u32) -> Route {
     Route::ClosedForm(Numbers::Digits(digits))
 }
 
-/// What `--accuracy` does.
-pub const fn accuracy(accuracy: f64) -> Route {
+/// The route that `--accuracy` takes.
+pub(super) const fn accuracy(accuracy: f64) -> Route {
     Route::Planned(Numbers::Double(Some(accuracy)))
 }
 
-/// The printed integrals of a rod with `c = L = g = 1`.
-pub fn printed(damping: f64, speed: f64) -> Printed {
-    Printed::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
+/// Prepares the printed integrals of a rod with `c = L = g = 1`.
+pub(super) fn printed(damping: f64, speed: f64) -> PrintedIntegrals {
+    PrintedIntegrals::new(&Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed }, 1e-13)
 }
 
+/// Cases that belong together.
 #[derive(Clone, Copy, Debug)]
 pub struct Group {
     /// The name on the command line.
-    pub name: Text,
-    pub title: Text,
-    pub lesson: Text,
+    pub name: &'static str,
+    /// The title.
+    pub title: &'static str,
+    /// The lesson of the cases, in a few sentences.
+    pub lesson: &'static str,
+    /// The cases, in the order in which they are shown.
     pub cases: &'static [Case],
 }
 
-pub const fn group(name: Text, title: Text, lesson: Text, cases: &'static [Case]) -> Group {
+pub(super) const fn group(
+    name: &'static str,
+    title: &'static str,
+    lesson: &'static str,
+    cases: &'static [Case],
+) -> Group {
     Group { name, title, lesson, cases }
 }
 
 /// A hard case, or a claim of the paper.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    pub name: Text,
-    /// Where the paper or the theory says it.
-    pub source: Text,
-    /// The rod, or what is claimed.
-    pub about: Text,
-    /// What the case comes to when all promises are kept.
-    pub verdict: Verdict,
-    pub entries: &'static [Entry],
+    /// The name on the command line.
+    pub name: &'static str,
+    /// The place in the paper or the theory.
+    pub source: &'static str,
+    /// The rod, or the claim.
+    pub about: &'static str,
+    /// The verdict when all promises are kept.
+    pub(super) verdict: Verdict,
+    pub(super) questions: &'static [CaseQuestion],
 }
 
-pub const fn claim(name: Text, verdict: Verdict, source: Text, about: Text, entries: &'static [Entry]) -> Case {
-    Case { name, source, about, verdict, entries }
+pub(super) const fn claim(
+    name: &'static str,
+    verdict: Verdict,
+    source: &'static str,
+    about: &'static str,
+    questions: &'static [CaseQuestion],
+) -> Case {
+    Case { name, source, about, verdict, questions }
 }
 
 impl Case {
-    /// Takes every route to every question. A build without long numbers takes those in doubles only.
-    pub fn run(&'static self) -> Checked {
-        let asked: Vec<CheckedQuestion> = self.entries.iter().map(Entry::check).collect();
-        let failed = asked.iter().flat_map(|asked| &asked.rows).any(|row| row.outcome == Outcome::Failed);
-        Checked { case: self, asked, verdict: if failed { Verdict::Failed } else { self.verdict } }
+    /// Takes every route to every question. A build without long numbers takes those in doubles and fractions only.
+    ///
+    /// ```
+    /// use dalembert_verify::check::{Verdict, select};
+    /// // Corollary 1: t_b = t₁ = 2 for μ = 3 ≥ g t₁, and 2t₁ − μ/g = 5/2 for μ = 3/2.
+    /// let selected = select(&["corollary-1".into()])?;
+    /// let checked = selected[0].cases[0].run();
+    /// assert_eq!((checked.questions[2].truth, checked.verdict), ("5/2", Verdict::Reproduced));
+    /// # Ok::<(), dalembert_verify::check::UnknownName>(())
+    /// ```
+    pub fn run(&'static self) -> CheckedCase {
+        let questions: Vec<CheckedQuestion> = self.questions.iter().map(CaseQuestion::check).collect();
+        let failed =
+            questions.iter().flat_map(|question| &question.routes).any(|route| route.outcome == Outcome::Failed);
+        CheckedCase { case: self, questions, verdict: if failed { Verdict::Failed } else { self.verdict } }
     }
 }
 
+/// A question with the answers of its routes.
 #[derive(Clone, Debug)]
 pub struct CheckedQuestion {
-    pub what: Text,
-    /// As the catalogue spells it.
-    pub truth: Text,
-    pub rows: Vec<Row>,
+    /// The question in words: `t_b`, `h(3)`.
+    pub label: &'static str,
+    /// The truth as the catalogue spells it.
+    pub truth: &'static str,
+    /// The routes, in the order in which they are shown.
+    pub routes: Vec<CheckedRoute>,
 }
 
+/// A case with the answers to its questions.
 #[derive(Clone, Debug)]
-pub struct Checked {
+pub struct CheckedCase {
+    /// The case.
     pub case: &'static Case,
-    pub asked: Vec<CheckedQuestion>,
+    /// Its questions, in order.
+    pub questions: Vec<CheckedQuestion>,
+    /// The verdict; [`Verdict::Failed`] where a promise is broken.
     pub verdict: Verdict,
 }

@@ -1,22 +1,28 @@
-//! Where double precision breaks.
+//! Hard cases: rods for which double precision breaks.
 
 use super::case::*;
 use super::verdict::NO_BOUNCE;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict;
-use crate::paper::{Printed, formulas};
-use crate::route::{Numbers, Route};
+use crate::paper::{PrintedIntegrals, formulas};
+use crate::routes::Route;
 use dalembert::engine::FirstContact;
 use dalembert::problem::Parameters;
 use dalembert::quantity::Quantity::{
     BounceTime, Centre, Impact, Release, ShortestPiece, Strain, Top, VibrationalEnergy,
 };
+use dalembert::solve::Numbers;
 
-const fn hard(name: Text, source: Text, about: Text, entries: &'static [Entry]) -> Case {
-    Case { name, source, about, verdict: Verdict::Holds, entries }
+const fn hard(
+    name: &'static str,
+    source: &'static str,
+    about: &'static str,
+    questions: &'static [CaseQuestion],
+) -> Case {
+    Case { name, source, about, verdict: Verdict::Holds, questions }
 }
 
-/// g = 0, c = t₁ = μ = 1: Figure 1 and beyond.
+/// Builds a rod of `g = 0`, `c = t₁ = μ = 1`, as in Figure 1.
 const fn late(damping: &'static str) -> Rod {
     Rod { length: "1/2", ..unit(damping, "1").weightless() }
 }
@@ -25,26 +31,26 @@ const fn steel(damping: &'static str) -> Rod {
     Rod { wave_speed: "5000", gravity: "9.81", ..unit(damping, "100") }
 }
 
-/// 2400 round trips in the first flight, then hop after hop.
-const STEEL_DROPPED: Rod = Rod::of(
+/// A rod with 2400 round trips in the first flight, and ever shorter hops after it.
+const STEEL_DROPPED: Rod = Rod::from_scene(
     "[rod]\nlength = 0.5\nmodulus = 210e9\ndensity = 7850\narea = 1e-4\ndamping = 50\n\
      [impact]\ndrop_height = 1\n[gravity]\nacceleration = 9.81\n[run]\nimpacts = 10\n",
 );
 
-/// Touches the ground for 3e-7 of a round trip.
-const TOUCHING: Rod = Rod::of(
+/// A rod that touches the ground for 3e-7 of a round trip.
+const TOUCHING: Rod = Rod::from_scene(
     "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.3\n\
      [start]\ndisplacement = [[0, \"0.1522081713484600025305355\"], [1, \"0.1522081713484600025305355\"]]\n\
      velocity = [[0, -1], [1, 2.5]]\n[gravity]\nacceleration = 0.5\n[run]\ntime = 1\n",
 );
-/// Leaves it for 2e-7 of a round trip.
-const GRAZING: Rod = Rod::of(
+/// A rod that leaves the ground for 2e-7 of a round trip.
+const GRAZING: Rod = Rod::from_scene(
     "[rod]\nlength = 1\nwave_speed = 1\ntop = \"fixed\"\ndamping = 4\n\
      [start]\ndisplacement = [[0, 0], [1, \"-0.3\"]]\n\
      velocity = [[0, 0], [\"0.9\", \"2.388476579223269313178295800\"], [1, 0]]\n\
      [gravity]\nacceleration = 0.1\n[run]\ntime = 0.8\n",
 );
-const STEEL_GRAZING: Rod = Rod::of(
+const STEEL_GRAZING: Rod = Rod::from_scene(
     "[rod]\nmodulus = 210e9\ndensity = 7850\nlength = 1\ndamping = 20\n\
      [impact]\nspeed = \"0.0065539298493806059740412997\"\n[gravity]\nacceleration = 9.81\n[run]\nimpacts = 4\n",
 );
@@ -60,13 +66,13 @@ const BELOW_1E_12: Rod = unit("0.2", "2.59364495455919430337818987448");
 const BELOW_1E_9: Rod = unit("0.2", "2.59364495356019430337818987448");
 const BELOW_1E_6: Rod = unit("0.2", "2.59364395456019430337818987448");
 
-/// The first tensile stress of (2.28), g = 0, looked for in steps of a thousandth of a round trip.
+/// Computes the release by (2.28) for g = 0, searched in steps of a thousandth of a round trip.
 fn summed(damping: f64) -> f64 {
     let rod = Parameters { length: 0.5, wave_speed: 1.0, damping, gravity: 0.0, speed: 1.0 };
-    Printed::new(&rod, 1e-10).release(1.0, 1000).unwrap_or(f64::NAN)
+    PrintedIntegrals::new(&rod, 1e-10).release(1.0, 1000).unwrap_or(f64::NAN)
 }
 
-/// `E − E_h` of the steel rod at t₁, both summed first.
+/// Computes `E − E_h` of the steel rod at t₁ as a difference of two sums.
 fn energy_difference() -> f64 {
     let rod = Parameters { length: 1.0, wave_speed: 5000.0, damping: 12.0, gravity: 9.81, speed: 100.0 };
     let rod = rod.carry();
@@ -74,35 +80,37 @@ fn energy_difference() -> f64 {
     energy.total.value() - energy.translational.value()
 }
 
-/// `−e^{−rt} H_r(t)` of [`ON_A_RAY`] at 3t₁.
+/// Computes `−e^{−rt} H_r(t)` of [`ON_A_RAY`] at 3t₁.
 fn kernel_on_a_ray() -> f64 {
     let rod = Parameters { length: 0.1, wave_speed: 1.0, damping: 15.0, gravity: 0.0, speed: 1.0 };
-    -(-9.0f64).exp() * Printed::new(&rod, 1e-13).impact_kernel(0.6)
+    -(-9.0f64).exp() * PrintedIntegrals::new(&rod, 1e-13).impact_kernel(0.6)
 }
 
 const SUM: &str = "(2.28) summed as printed";
 const REMARK: &str = "Remark 2 as printed";
 
-const ACCURATE: Promised = (accuracy(1e-12), Digits(12));
-const LATE_ROUTES: &[Promised] = &[(CLOSED, Bound(0)), (MODES, Digits(9)), ACCURATE, DIGITS, PROVED];
-const LATEST: &[Promised] = &[(CLOSED, Bound(0)), (MODES, Digits(9)), ACCURATE, (closed(150), Digits(36)), PROVED];
-const WEAK_ROUTES: &[Promised] = &[(CLOSED, Digits(12)), (CELLS, Digits(10)), CLOSED_50];
-const STRONG_ROUTES: &[Promised] = &[(CLOSED, Bound(10)), (MODES, Bound(8)), CLOSED_50, PROVED];
-const BELOW: &[Promised] = &[(CLOSED, Bound(9)), (CELLS, Digits(9)), (accuracy(1e-14), Digits(13)), CLOSED_50, PROVED];
-const ABOVE: &[Promised] = &[(CLOSED, Exact), (CELLS, Digits(9)), (closed(50), Exact), PROVED];
-const TANGENT: &[Promised] = &[(LATTICE, Bound(6)), (FRACTIONS, Bound(0)), ACCURATE, DIGITS, (CERTIFIED, Exact)];
-const AFTER_TANGENT: &[Promised] = &[(LATTICE, Bound(12)), DIGITS, (CERTIFIED, Exact)];
-const CHAOS: &[Promised] = &[(LATTICE, Bound(0)), (FRACTIONS, Bound(0)), ACCURATE, DIGITS, PROVED];
-const STEEL: &[Promised] = &[(MODES, Bound(0)), (CLOSED, Bound(12)), CLOSED_50, PROVED];
-const STEEL_UNDAMPED: &[Promised] = &[(CLOSED, Bound(12)), (LATTICE, Bound(0)), (FRACTIONS, Exact), PRINTED, PROVED];
-const DROPPED: &[Promised] = &[(PLANNED, Bound(9)), (Route::Planned(Numbers::Digits(20)), Digits(20))];
-const HOP: &[Promised] = &[(PLANNED, Bound(9)), (accuracy(1e-10), Bound(10))];
-const SMOOTH: &[Promised] = &[(PLANNED, Bound(9)), (CELLS, Digits(9)), DIGITS];
-const SIDES: &[Promised] = &[(PLANNED, Bound(12)), (LATTICE, Bound(12)), (FRACTIONS, Exact), DIGITS, PROVED];
-const RAY: &[Promised] = &[(CLOSED, Digits(12)), (CELLS, Digits(9)), CLOSED_50, DIGITS, ACCURATE, PROVED];
+const ACCURATE: PromisedRoute = (accuracy(1e-12), Digits(12));
+const LATE_ROUTES: &[PromisedRoute] = &[(CLOSED, Bound(0)), (MODES, Digits(9)), ACCURATE, DIGITS, PROVED];
+const LATEST: &[PromisedRoute] = &[(CLOSED, Bound(0)), (MODES, Digits(9)), ACCURATE, (closed(150), Digits(36)), PROVED];
+const WEAK_ROUTES: &[PromisedRoute] = &[(CLOSED, Digits(12)), (CELLS, Digits(10)), CLOSED_50];
+const STRONG_ROUTES: &[PromisedRoute] = &[(CLOSED, Bound(10)), (MODES, Bound(8)), CLOSED_50, PROVED];
+const BELOW: &[PromisedRoute] =
+    &[(CLOSED, Bound(9)), (CELLS, Digits(9)), (accuracy(1e-14), Digits(13)), CLOSED_50, PROVED];
+const ABOVE: &[PromisedRoute] = &[(CLOSED, Exact), (CELLS, Digits(9)), (closed(50), Exact), PROVED];
+const TANGENT: &[PromisedRoute] = &[(LATTICE, Bound(6)), (FRACTIONS, Bound(0)), ACCURATE, DIGITS, (CERTIFIED, Exact)];
+const AFTER_TANGENT: &[PromisedRoute] = &[(LATTICE, Bound(12)), DIGITS, (CERTIFIED, Exact)];
+const CHAOS: &[PromisedRoute] = &[(LATTICE, Bound(0)), (FRACTIONS, Bound(0)), ACCURATE, DIGITS, PROVED];
+const STEEL: &[PromisedRoute] = &[(MODES, Bound(0)), (CLOSED, Bound(12)), CLOSED_50, PROVED];
+const STEEL_UNDAMPED: &[PromisedRoute] =
+    &[(CLOSED, Bound(12)), (LATTICE, Bound(0)), (FRACTIONS, Exact), PRINTED, PROVED];
+const DROPPED: &[PromisedRoute] = &[(PLANNED, Bound(9)), (Route::Planned(Numbers::Digits(20)), Digits(20))];
+const HOP: &[PromisedRoute] = &[(PLANNED, Bound(9)), (accuracy(1e-10), Bound(10))];
+const SMOOTH: &[PromisedRoute] = &[(PLANNED, Bound(9)), (CELLS, Digits(9)), DIGITS];
+const SIDES: &[PromisedRoute] = &[(PLANNED, Bound(12)), (LATTICE, Bound(12)), (FRACTIONS, Exact), DIGITS, PROVED];
+const RAY: &[PromisedRoute] = &[(CLOSED, Digits(12)), (CELLS, Digits(9)), CLOSED_50, DIGITS, ACCURATE, PROVED];
 
 #[rustfmt::skip]
-pub const LATE: Group = group("late", "Bounces that come late",
+pub(super) const LATE: Group = group("late", "Bounces that come late",
     "Without gravity the stress at the ground is a sum of rays whose terms grow like e^{rt} while the sum stays of \
          the order of t. The closer r t₁ is to π from below, the later the bounce; from π on there is none. A sum in \
          plain doubles consists of rounding errors and finds a bounce in them. The sum over modes does not cancel \
@@ -135,7 +143,7 @@ pub const LATE: Group = group("late", "Bounces that come late",
 ]);
 
 #[rustfmt::skip]
-pub const WEAK: Group = group("weak", "Damping that vanishes",
+pub(super) const WEAK: Group = group("weak", "Damping that vanishes",
     "(3.38)–(3.45) and Remark 2 divide by 2r and 4r², and lose twice as many digits as r has zeros. Written with φ \
          functions and logarithmic means they have no division by r, and their limit r → 0 is the formula of r = 0, \
          which `remark-2` checks.", &[
@@ -150,7 +158,7 @@ pub const WEAK: Group = group("weak", "Damping that vanishes",
 ]);
 
 #[rustfmt::skip]
-pub const STRONG: Group = group("strong", "Damping that overflows",
+pub(super) const STRONG: Group = group("strong", "Damping that overflows",
     "I₀(rt) overflows beyond rt = 713, and e^{−rt} underflows. Their product is of the order of one and has to be \
          formed before its factors. The rod settles under its weight.", &[
     hard("strong-50", "(2.28)", "c = L = g = μ = 1, r = 25: R = 50", &[
@@ -163,7 +171,7 @@ pub const STRONG: Group = group("strong", "Damping that overflows",
 ]);
 
 #[rustfmt::skip]
-pub const THRESHOLD: Group = group("threshold", "The threshold of the bounce at t₁",
+pub(super) const THRESHOLD: Group = group("threshold", "The threshold of the bounce at t₁",
     "At the threshold (2.32) the bounce leaves t₁: above it the bounce is at t₁ exactly, below it at a root just \
          after t₁. A speed that differs by 10⁻¹² decides between the two.", &[
     hard("threshold-left", "(2.32)",
@@ -181,7 +189,7 @@ pub const THRESHOLD: Group = group("threshold", "The threshold of the bounce at 
 ]);
 
 #[rustfmt::skip]
-pub const LANDINGS: Group = group("landings", "Landings without speed, and many landings",
+pub(super) const LANDINGS: Group = group("landings", "Landings without speed, and many landings",
     "After some bounces the rod of μ = 1 lands with speed zero, at t = 31. This is a double root, which costs half of \
          the digits, and no numerical precision distinguishes it from a near miss. The enclosures carry exact numbers \
          a + b√d, which do. With μ = 3/2 the number of events grows, and each costs the next some digits.", &[
@@ -197,7 +205,7 @@ pub const LANDINGS: Group = group("landings", "Landings without speed, and many 
 ]);
 
 #[rustfmt::skip]
-pub const HOPS: Group = group("hops", "Stiff rods and hop after hop",
+pub(super) const HOPS: Group = group("hops", "Stiff rods and hop after hop",
     "A rod of steel takes thousands of round trips in its first flight and hops ever lower. The motion is well \
          conditioned; what loses digits is a method that takes small vibrations as differences of great motions. A \
          flight may be as short as 10⁻⁹ of the time, and the piece that a smooth release ends has a width that is no \
@@ -230,7 +238,7 @@ pub const HOPS: Group = group("hops", "Stiff rods and hop after hop",
 ]);
 
 #[rustfmt::skip]
-pub const SMALL: Group = group("small", "Small differences of great numbers",
+pub(super) const SMALL: Group = group("small", "Small differences of great numbers",
     "A fast rod has the vibrational energy E_z = μ₀²L/6 after its bounce, whatever its speed: for steel at 100 m/s \
          that is 5e-10 of the energy. In E − E_h no more than six digits of it are right; a sum of squares has all of \
          them.", &[
@@ -245,7 +253,7 @@ pub const SMALL: Group = group("small", "Small differences of great numbers",
 ]);
 
 #[rustfmt::skip]
-pub const RAYS: Group = group("rays", "Two values at one time",
+pub(super) const RAYS: Group = group("rays", "Two values at one time",
     "When a ray arrives, the stress jumps, and a decimal that is a multiple of t₁ need not be one in doubles. Both \
          limits can be asked for, and decimals are taken as the fractions that they spell.", &[
     hard("on-a-ray", "(2.28)",

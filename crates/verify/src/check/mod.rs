@@ -1,5 +1,5 @@
-//! The catalogue of hard cases and of the paper's claims: each asked of every route that can answer, held against the
-//! truth.
+//! The catalogue of hard cases and of the paper's claims: each question is answered by every route that can answer it,
+//! and each answer is compared with the truth.
 
 mod case;
 mod catalogue;
@@ -9,6 +9,6 @@ mod section_3;
 mod section_4;
 mod verdict;
 
-pub use case::{Case, Checked, CheckedQuestion, Group};
-pub use catalogue::{CATALOGUE, select};
-pub use verdict::Verdict;
+pub use case::{Case, CheckedCase, CheckedQuestion, Group};
+pub use catalogue::{CATALOGUE, Selection, UnknownName, select};
+pub use verdict::{CheckedRoute, Outcome, Promise, Verdict};

@@ -14,20 +14,20 @@ use dalembert::quantity::Quantity::{
 
 const DAMPED: Rod = unit("0.2", "4");
 const LATE: Rod = unit("0.1", "1");
-/// `t_b` of that rod.
+/// `t_b` of [`LATE`].
 const LATE_END: f64 = 3.449451746579489;
 const FAST: Rod = unit("0", "4");
 const SLOW: Rod = unit("0", "1");
 
-const EXACT: &[Promised] = &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), (CLOSED, Digits(12)), PROVED];
-const EXACT_ENERGY: &[Promised] =
+const EXACT: &[PromisedRoute] = &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), (CLOSED, Digits(12)), PROVED];
+const EXACT_ENERGY: &[PromisedRoute] =
     &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), (CLOSED, Digits(12)), (MODES, Bound(5)), PROVED];
-const EXACT_THRESHOLD: &[Promised] = &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), PROVED];
-const FLIGHT: &[Promised] = &[(CLOSED, Bound(12)), (CELLS, Digits(10)), CLOSED_50];
-/// As [`FLIGHT`]; the bound of the height counts the error of `h¹` three times.
-const TOP: &[Promised] = &[(CLOSED, Bound(11)), (CELLS, Digits(10)), CLOSED_50];
-const LATE_FLIGHT: &[Promised] = &[(CLOSED, Bound(9)), (CELLS, Digits(9)), CLOSED_50];
-const ENERGY: &[Promised] = &[(CLOSED, Bound(12)), (MODES, Bound(5)), (CELLS, Digits(10)), CLOSED_50, PROVED];
+const EXACT_THRESHOLD: &[PromisedRoute] = &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), PROVED];
+const FLIGHT: &[PromisedRoute] = &[(CLOSED, Bound(12)), (CELLS, Digits(10)), CLOSED_50];
+/// Routes as in [`FLIGHT`]; the bound of the height counts the error of `h¹` three times.
+const TOP: &[PromisedRoute] = &[(CLOSED, Bound(11)), (CELLS, Digits(10)), CLOSED_50];
+const LATE_FLIGHT: &[PromisedRoute] = &[(CLOSED, Bound(9)), (CELLS, Digits(9)), CLOSED_50];
+const ENERGY: &[PromisedRoute] = &[(CLOSED, Bound(12)), (MODES, Bound(5)), (CELLS, Digits(10)), CLOSED_50, PROVED];
 
 fn time_of_top() -> f64 {
     formulas::top_time(0.2, 1.0, 2.0, printed(0.2, 4.0).momentum(2.0))
@@ -38,7 +38,7 @@ fn height_of_top() -> f64 {
     formulas::top_height(0.2, 1.0, printed.centre(2.0), printed.momentum(2.0))
 }
 
-/// `E(0) − 2r ∫₀ᵗ∫ v_t² dx dt`, c = L = g = 1, t₁/2 < t < t₁, cut where the ray runs. **Source**: (3.55), integrated;
+/// Computes `E(0) − 2r ∫₀ᵗ∫ v_t² dx dt`, c = L = g = 1, t₁/2 < t < t₁, cut where the ray runs. **Source**: (3.55), integrated;
 /// v_t by the closed form.
 fn energy_left(damping: f64, speed: f64, time: f64) -> f64 {
     let rod = Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed };
@@ -54,7 +54,7 @@ fn energy_left(damping: f64, speed: f64, time: f64) -> f64 {
 }
 
 #[rustfmt::skip]
-pub const SECTION_3_1: Group = group("section-3.1", "Section 3.1: momentum and centre of mass",
+pub(super) const SECTION_3_1: Group = group("section-3.1", "Section 3.1: momentum and centre of mass",
     "(3.34)–(3.53) and Remark 2. All formulas hold, those for r = 0 in fractions and to the last digit; (3.42) and \
          the sentence after it name the wrong times.", &[
     claim("motion-in-contact", Reproduced, "(3.38), (3.39)", "c = L = g = 1, r = 0.2, μ = 4", &[
@@ -109,7 +109,7 @@ pub const SECTION_3_1: Group = group("section-3.1", "Section 3.1: momentum and c
 ]);
 
 #[rustfmt::skip]
-pub const SECTION_3_2: Group = group("section-3.2", "Section 3.2: energies",
+pub(super) const SECTION_3_2: Group = group("section-3.2", "Section 3.2: energies",
     "(3.54)–(3.70), Theorem 2, Figures 2 and 3. All formulas hold, in fractions where r = 0.", &[
     claim("dissipation", Reproduced, "(3.54), (3.55)", "what damping takes: c = L = g = 1, r = 0.2, μ = 4", &[
         ask("E(1.3)", DAMPED, Energy, "4.920216049911451993140911184453031949254", ENERGY).at("1.3")

@@ -3,13 +3,13 @@
 use super::case::*;
 use super::verdict::Promise::{Bound, Digits, Exact};
 use super::verdict::Verdict::{Corrected, Reproduced, Settled};
-use crate::paper::formulas;
-use crate::quantity::Claimed;
+use crate::paper::formulas::Constant;
+use crate::routes::Transform;
 use dalembert::quantity::Quantity::{
     BounceTime, EnergyKept, EnergyRestitution, MomentumRestitution, TranslationalShare,
 };
 
-/// μ → ∞: nothing is left of gravity.
+/// Builds the rod of the limit μ → ∞, in which gravity has no share.
 const fn limit(damping: &'static str) -> Rod {
     unit(damping, "1").weightless()
 }
@@ -23,19 +23,19 @@ const HIGH_1: Rod = unit("0.1", "12.5");
 const HIGH_2: Rod = unit("0.2", "12.5");
 const HIGH_3: Rod = unit("0.3", "12.5");
 
-const EXACT: &[Promised] =
+const EXACT: &[PromisedRoute] =
     &[PRINTED, (FRACTIONS, Exact), (LATTICE, Digits(13)), (CLOSED, Digits(12)), (MODES, Digits(9)), PROVED];
-const AT_T1: &[Promised] = &[(CLOSED, Digits(12)), (MODES, Bound(4)), (CELLS, Digits(10)), CLOSED_50, PROVED];
-const AFTER_T1: &[Promised] = &[(CLOSED, Digits(9)), (MODES, Digits(9)), (CELLS, Digits(9)), CLOSED_50, PROVED];
-const FACTOR: &[Promised] = &[(CLOSED, Digits(13)), (MODES, Bound(5)), CLOSED_50];
-const LIMIT: &[Promised] = &[(CLOSED, Digits(13)), (MODES, Bound(9)), PROVED];
-const FAR: &[Promised] = &[(CLOSED, Digits(10)), (MODES, Bound(4)), (CELLS, Digits(8)), CLOSED_50, PROVED];
+const AT_T1: &[PromisedRoute] = &[(CLOSED, Digits(12)), (MODES, Bound(4)), (CELLS, Digits(10)), CLOSED_50, PROVED];
+const AFTER_T1: &[PromisedRoute] = &[(CLOSED, Digits(9)), (MODES, Digits(9)), (CELLS, Digits(9)), CLOSED_50, PROVED];
+const FACTOR: &[PromisedRoute] = &[(CLOSED, Digits(13)), (MODES, Bound(5)), CLOSED_50];
+const LIMIT: &[PromisedRoute] = &[(CLOSED, Digits(13)), (MODES, Bound(9)), PROVED];
+const FAR: &[PromisedRoute] = &[(CLOSED, Digits(10)), (MODES, Bound(4)), (CELLS, Digits(8)), CLOSED_50, PROVED];
 const CLOSED_LIMIT: &str = "2e^{−R}(I₀ − I₁) − e^{−2R}";
 const EXPONENTIAL: &str = "e^{−rt₁} as printed";
 const WITHIN: &str = "0.001, the bound as printed";
 
 #[rustfmt::skip]
-pub const SECTION_4: Group = group("section-4", "Section 4: coefficients of restitution",
+pub(super) const SECTION_4: Group = group("section-4", "Section 4: coefficients of restitution",
     "(4.71)–(4.75), Figures 4 to 7. (4.71)–(4.73) hold. The limits (4.74) and (4.75) were read off graphs and are not \
          the limits: for t_b = t₁ and μ → ∞, exactly e_E → 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}, which is e^{−R}(1 + \
          R³/24 + …), R = r t₁. Nor do the curves come within 0.001 of e^{−R}, as is said after (4.75). Figure 4 goes \
@@ -84,11 +84,11 @@ pub const SECTION_4: Group = group("section-4", "Section 4: coefficients of rest
     claim("figure-7", Corrected, "Figure 7",
         "\"a common limit (approximately C₀ = 1)\" of E(t₁)/E(0) e^{2rt₁}: three limits, none of them 1", &[
         ask("lim, r = 0.1", limit("0.1"), EnergyKept, "1.000668923858792484851230398489368945625", FACTOR)
-            .claims(Claimed::TimesGrowth).breaks("1 as printed", 4, || 1.0),
+            .transformed(Transform::TimesGrowth).breaks("1 as printed", 4, || 1.0),
         ask("lim, r = 0.2", limit("0.2"), EnergyKept, "1.005413372756512772887143260672753782987", FACTOR)
-            .claims(Claimed::TimesGrowth).breaks("1 as printed", 3, || 1.0),
+            .transformed(Transform::TimesGrowth).breaks("1 as printed", 3, || 1.0),
         ask("lim, r = 0.3", limit("0.3"), EnergyKept, "1.018665828692668523986377532213577496259", FACTOR)
-            .claims(Claimed::TimesGrowth).breaks("1 as printed", 2, || 1.0),
+            .transformed(Transform::TimesGrowth).breaks("1 as printed", 2, || 1.0),
     ]),
     claim("limit-4.74", Corrected, "(4.74)", "lim E_h(t₁)/E(t₁) = 1 for μ → ∞ with damping: it is less", &[
         ask("lim, r = 0.1", limit("0.1"), TranslationalShare, "0.9999664683750782862671076809725956262541", FACTOR)
@@ -102,22 +102,22 @@ pub const SECTION_4: Group = group("section-4", "Section 4: coefficients of rest
         "lim e_E ≃ e^{−r t_b} for μ → ∞: it is 2e^{−R}(I₀(R) − I₁(R)) − e^{−2R}", &[
         ask("lim e_E, r = 0.1", limit("0.1"), MomentumRestitution, "0.8189908101753950340025842145684107343192", LIMIT)
             .breaks(EXPONENTIAL, 4, || (-0.2f64).exp())
-            .by_digits(CLOSED_LIMIT, |ratio| formulas::limit(&ratio(1, 10))),
+            .by_digits(CLOSED_LIMIT, Constant::RestitutionLimit([1, 10])),
         ask("lim e_E, r = 0.2", limit("0.2"), MomentumRestitution, "0.6719489284101864455547377680263498629966", LIMIT)
             .breaks(EXPONENTIAL, 3, || (-0.4f64).exp())
-            .by_digits(CLOSED_LIMIT, |ratio| formulas::limit(&ratio(2, 10))),
+            .by_digits(CLOSED_LIMIT, Constant::RestitutionLimit([2, 10])),
         ask("lim e_E, r = 0.3", limit("0.3"), MomentumRestitution, "0.5531313551645510878015469360372618990694", LIMIT)
             .breaks(EXPONENTIAL, 3, || (-0.6f64).exp())
-            .by_digits(CLOSED_LIMIT, |ratio| formulas::limit(&ratio(3, 10))),
+            .by_digits(CLOSED_LIMIT, Constant::RestitutionLimit([3, 10])),
     ]),
     claim("within-0.001", Corrected, "after (4.75)",
         "\"verify this numerically … to within 0.001 for each curve\": at the right ends of Figures 5 to 7, μ = \
          12.5, the curves are five times as far from e^{−rt₁}", &[
         ask("e_E − e^{−rt₁}, r = 0.1", HIGH_1, EnergyRestitution, "-0.004979630662738762029319588014749494820138", FAR)
-            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
+            .transformed(Transform::RootMinusDecay).breaks(WITHIN, 1, || -0.001),
         ask("e_E − e^{−rt₁}, r = 0.2", HIGH_2, EnergyRestitution, "-0.005504555608256541947969599758874854269478", FAR)
-            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
+            .transformed(Transform::RootMinusDecay).breaks(WITHIN, 1, || -0.001),
         ask("e_E − e^{−rt₁}, r = 0.3", HIGH_3, EnergyRestitution, "-0.005511821740038788683030255217195912212474", FAR)
-            .claims(Claimed::RootBeyondDecay).breaks(WITHIN, 1, || -0.001),
+            .transformed(Transform::RootMinusDecay).breaks(WITHIN, 1, || -0.001),
     ]),
 ]);

@@ -1,29 +1,30 @@
-//! What a route promises, whether it keeps that, and what a case comes to.
+//! The promises of routes, whether they keep them, and the verdict on a case.
 
-use crate::account::Found;
-use crate::truth::Truth;
-use crate::value::{NoAnswer, Value};
+use crate::error::VerifyError;
+use crate::routes::{Truth, shown};
+use dalembert::Value;
 
 /// The one truth that is no number.
-pub const NO_BOUNCE: &str = "no bounce";
+pub(super) const NO_BOUNCE: &str = "no bounce";
 
+/// The promise of a route.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Promise {
-    /// So many right digits.
+    /// This many right digits.
     Digits(u32),
-    /// That the answer is within the bound that comes with it, and this bound leaves so many digits. With zero digits
-    /// the route may also leave the answer undecided.
+    /// An answer within its own bound, which leaves this many digits. With zero digits the route may also leave the
+    /// answer undecided.
     Bound(u32),
     /// The truth itself.
     Exact,
-    /// Two bounds with the truth between them, and so many digits in common.
+    /// Two ends with the truth between them, and with this many digits in common.
     Enclosed(u32),
-    /// Nothing. The catalogue shows that fewer digits than this are right: what goes wrong has to be seen to go wrong.
+    /// No promise: the catalogue shows that fewer digits than this are right.
     Fewer(u32),
 }
 
 impl std::fmt::Display for Promise {
-    /// In words: `36 digits proved`.
+    /// Writes the promise in words: `36 digits proved`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Promise::Digits(0) => f.write_str("the right answer"),
@@ -38,29 +39,31 @@ impl std::fmt::Display for Promise {
     }
 }
 
-/// What came of a promise.
+/// The outcome of a promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
 pub enum Outcome {
+    /// The promise is kept.
     #[strum(serialize = "kept")]
     Kept,
-    /// Nothing was promised, and digits are lost as foreseen.
+    /// The route promises nothing, and loses digits as foreseen.
     #[strum(serialize = "breaks")]
     Breaks,
-    /// The route leaves the answer undecided, which it may.
+    /// The route leaves the answer undecided, as its promise allows.
     #[strum(serialize = "says so")]
     Undecided,
+    /// The promise is broken.
     #[strum(serialize = "FAILED")]
     Failed,
 }
 
 impl Outcome {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// What a case comes to when all its promises are kept, or that they are not.
+/// The verdict on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
 pub enum Verdict {
     /// Every route keeps what it promises.
@@ -69,13 +72,13 @@ pub enum Verdict {
     /// The paper is right.
     #[strum(serialize = "reproduced")]
     Reproduced,
-    /// The paper is off, and here is the truth.
+    /// The paper is wrong, and the catalogue has the truth.
     #[strum(serialize = "corrected")]
     Corrected,
     /// The paper means the right thing and prints another.
     #[strum(serialize = "misprint")]
     Misprint,
-    /// The paper leaves it open, and here is an answer.
+    /// The paper leaves a question open, and the catalogue has the answer.
     #[strum(serialize = "settled")]
     Settled,
     /// Some route does not keep what it promises.
@@ -84,54 +87,61 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
+/// A route to a question, with its answer.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct CheckedRoute {
+    /// The route in words.
     pub route: String,
-    pub found: Found<Value>,
+    pub(super) answer: Result<Value, VerifyError>,
+    /// The promise of the route.
     pub promise: Promise,
-    /// How many of its digits are right: `None` where there is no number, infinite for the truth itself.
+    /// Number of right digits: `None` without a number, infinite for the truth itself.
     pub digits: Option<f64>,
+    /// The outcome of the promise.
     pub outcome: Outcome,
+    /// Time of the answer, seconds.
     pub seconds: f64,
 }
 
-impl Row {
-    /// The answer in words: `no bounce`, or a number.
-    pub fn found(&self) -> String {
-        match &self.found {
-            Ok(value) => value.to_string(),
-            Err(NoAnswer::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
+impl CheckedRoute {
+    /// Returns the answer in words: `no bounce`, or a number.
+    pub fn answer(&self) -> String {
+        match &self.answer {
+            Ok(value) => shown(value),
+            Err(VerifyError::NoSuchQuantity { .. }) => NO_BOUNCE.into(),
             Err(_) => "undecided".into(),
         }
     }
 }
 
-/// What comes of a promise; `truth` is `None` where there is no bounce.
-pub fn outcome(promise: Promise, truth: Option<&Truth>, answer: &Found<Value>, digits: f64) -> Outcome {
-    let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
-    let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
-    match (answer, truth, promise) {
-        (Err(NoAnswer::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
-        (Err(NoAnswer::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
-            broken(matches!(promise, Promise::Fewer(_)))
-        }
-        (Err(_), _, Promise::Bound(0)) => Outcome::Undecided,
-        (Err(_), ..) => Outcome::Failed,
-        (Ok(_), Some(_), Promise::Fewer(most)) => broken(digits < f64::from(most)),
-        (Ok(_), Some(_), Promise::Digits(least) | Promise::Enclosed(least)) => kept(digits >= f64::from(least)),
-        (Ok(_), Some(_), Promise::Exact) => kept(digits == f64::INFINITY),
-        (Ok(answer), Some(truth), Promise::Bound(least)) => {
-            let scale = 10f64.powf(truth.log10_scale());
-            let useful = answer.bound() <= 10f64.powi(-(least as i32)) * scale;
-            // No more can be seen than the truth is known to.
-            let within = digits >= truth.most_digits() || 10f64.powf(-digits) * scale <= answer.bound();
-            kept(useful && within)
+impl Promise {
+    /// Judges an answer with so many right `digits`; `truth` is `None` for a motion without a bounce.
+    pub(super) fn outcome(self, truth: Option<&Truth>, answer: &Result<Value, VerifyError>, digits: f64) -> Outcome {
+        let kept = |holds: bool| if holds { Outcome::Kept } else { Outcome::Failed };
+        let broken = |breaks: bool| if breaks { Outcome::Breaks } else { Outcome::Failed };
+        match (answer, truth, self) {
+            (Err(VerifyError::NoSuchQuantity { .. }), None, promise) => kept(!matches!(promise, Promise::Fewer(_))),
+            (Err(VerifyError::NoSuchQuantity { .. }), Some(_), promise) | (Ok(_), None, promise) => {
+                broken(matches!(promise, Promise::Fewer(_)))
+            }
+            (Err(_), _, Promise::Bound(0)) => Outcome::Undecided,
+            (Err(_), ..) => Outcome::Failed,
+            (Ok(_), Some(_), Promise::Fewer(most)) => broken(digits < f64::from(most)),
+            (Ok(_), Some(_), Promise::Digits(least) | Promise::Enclosed(least)) => kept(digits >= f64::from(least)),
+            (Ok(_), Some(_), Promise::Exact) => kept(digits == f64::INFINITY),
+            (Ok(answer), Some(truth), Promise::Bound(least)) => {
+                let scale = 10f64.powf(truth.log10_scale());
+                let useful = answer.log2_error().exp2() <= 10f64.powi(-(least as i32)) * scale;
+                // An error below the uncertainty of the truth cannot be seen.
+                let within = digits >= truth.most_digits() || 10f64.powf(-digits) * scale <= answer.log2_error().exp2();
+                kept(useful && within)
+            }
         }
     }
 }

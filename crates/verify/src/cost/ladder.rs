@@ -1,25 +1,29 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
-use crate::long;
-use crate::quantity::Question;
-use crate::route::{Numbers, Route, within_first_contact};
+use super::work_precision::OmissionReason;
+use crate::error::VerifyError;
+use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion};
+use dalembert::Ending;
+use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
-use dalembert::solve::{Engine, Plan};
+use dalembert::solve::{Engine, Numbers, Plan};
 
-/// Routes that share a name in a table and a colour in a picture, in the order in which they are shown.
+/// A family of routes, with one name in a table and one colour in a picture; in the order in which they are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::Display, strum::IntoStaticStr)]
 pub enum Family {
+    /// The closed form of the first contact.
     #[strum(serialize = "closed form")]
     ClosedForm,
     /// The lattice: undamped, from event to event.
     #[strum(serialize = "lattice")]
     Lattice,
-    /// What the plan of a damped scene does: the closed form of the first contact, then cells.
+    /// The closed form of the first contact, then cells: the plan of a damped scene.
     #[strum(serialize = "closed form, then cells")]
     ContactThenCells,
     /// Characteristic cells from the start.
     #[strum(serialize = "cells")]
     Cells,
+    /// The sum over modes.
     #[strum(serialize = "modal sum")]
     Modes,
     /// The paper's integrals by adaptive quadrature.
@@ -34,38 +38,41 @@ pub enum Family {
 }
 
 impl Family {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-pub struct Candidate {
-    pub family: Family,
-    pub route: Route,
-    pub setting: String,
+/// A route at one setting.
+pub(super) struct Candidate {
+    pub(super) family: Family,
+    pub(super) route: Route,
+    pub(super) setting: String,
     /// Decimal digits that the numbers of this setting hold.
-    pub digits: u32,
-    /// Seconds that it is expected to take; how many times as long as the setting before it until that has run.
-    pub expected: f64,
-    /// Whether this is what the plan does.
-    pub chosen: bool,
+    pub(super) digits: u32,
+    /// Expected time, seconds; relative to the time of the setting before it until that has run.
+    pub(super) expected: f64,
+    /// Whether the plan takes this route.
+    pub(super) chosen: bool,
 }
 
 /// Settings of one route, the cheapest first.
-pub type Ladder = Vec<Candidate>;
+pub(super) type Ladder = Vec<Candidate>;
 
+/// Decimal digits of a double.
 const DOUBLE: u32 = 17;
+/// Decimal digits of long numbers.
 const LONG: [u32; 4] = [50, 100, 300, 1000];
 
-/// Every route that can answer, and why the others cannot.
-pub fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, String)>) {
+/// Returns the ladders of all routes that can answer, and the reasons of the others.
+pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, OmissionReason)>) {
     let (mut ladders, mut left_out) = (Vec::new(), Vec::new());
-    let mut take = |family: Family, ladder: Result<Ladder, String>| match ladder {
+    let mut take = |family: Family, ladder: Result<Ladder, OmissionReason>| match ladder {
         Ok(ladder) => ladders.push(ladder),
         Err(why) => left_out.push((family, why)),
     };
-    let first = within_first_contact(question);
+    let first = covered_by_first_contact(question);
     take(Family::ClosedForm, first.clone().map(|()| closed_form()));
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
@@ -74,12 +81,12 @@ pub fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, S
     };
     let damped = question.problem.rod.damping.is_some();
     if damped {
-        take(Family::Lattice, Err("the scene has damping, which couples the characteristics".into()));
+        take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
-        take(Family::ContactThenCells, Err(format!("the scene has no damping: the plan takes the {}", family.name())));
+        take(Family::ContactThenCells, Err(OmissionReason::NoDamping(family)));
     }
     match plan.numbers {
-        Numbers::Certified(_) => take(family, Err("the plan takes enclosures".into())),
+        Numbers::Certified(_) => take(family, Err(OmissionReason::PlanEncloses)),
         // In longer numbers the plan takes the lattice.
         numbers if !damped && family == Family::ClosedForm => {
             let doubles = [("double".into(), Route::Lattice(Numbers::Double(None)))];
@@ -94,25 +101,24 @@ pub fn ladders(question: &Question, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, S
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
     take(Family::Cells, Ok(in_doubles(Family::Cells, [1e-4, 1.5], cells)));
     let whole = match question.one.quantity {
-        Quantity::VibrationalEnergy => Err("gives the whole energy; E_z would be the difference of two".into()),
+        Quantity::VibrationalEnergy => Err(OmissionReason::WholeEnergy),
         _ => first.clone(),
     };
     let modes = (0..8).map(|k| 4 << (2 * k)).map(|count| (format!("N = {count}"), Route::Modes(count)));
     take(Family::Modes, whole.clone().map(|()| in_doubles(Family::Modes, [1e-4, 4.0], modes)));
-    let whole =
-        if damped { whole } else { whole.and(Err("without damping the paper itself has done its integrals".into())) };
+    let whole = if damped { whole } else { whole.and(Err(OmissionReason::IntegralsDone)) };
     let printed = [1, 2, 4, 6, 8, 10, 12, 14]
         .map(|digits| (format!("tolerance 1e-{digits}"), Route::PrintedIntegrals(10f64.powi(-digits))));
     take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
     take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
-    if long::AVAILABLE {
+    if HAS_LONG_NUMBERS {
         take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
     }
     (ladders, left_out)
 }
 
-/// Settings in doubles: the seconds of the first, and how many times as long as the one before each other takes.
+/// Returns settings in doubles: the first takes `first` seconds, each other `growth` times as long as the one before.
 fn in_doubles(
     family: Family,
     [first, growth]: [f64; 2],
@@ -125,14 +131,14 @@ fn in_doubles(
     settings.into_iter().enumerate().map(step).collect()
 }
 
-/// Settings in long numbers, with so many digits to spare; none in a build without such numbers.
+/// Returns settings in long numbers, with `spare` digits more; none in a build without such numbers.
 fn in_digits(
     family: Family,
     growths: [f64; 4],
     spare: u32,
     route: fn(Numbers) -> Route,
 ) -> impl Iterator<Item = Candidate> {
-    LONG.into_iter().zip(growths).filter(|_| long::AVAILABLE).map(move |(digits, expected)| {
+    LONG.into_iter().zip(growths).filter(|_| HAS_LONG_NUMBERS).map(move |(digits, expected)| {
         let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
         Candidate { family, route, setting, digits: digits + spare, expected, chosen: false }
     })
@@ -145,7 +151,8 @@ fn closed_form() -> Ladder {
     ladder
 }
 
-fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
+/// Returns the setting of the plan, and others of the same engine.
+fn by_plan(family: Family, question: &RouteQuestion, system: Numbers) -> Ladder {
     let (route, setting) = (Route::Planned(system), system.to_string());
     let digits = match system {
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => digits + 8,
@@ -156,17 +163,15 @@ fn by_plan(family: Family, question: &Question, system: Numbers) -> Ladder {
     if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
         ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
     }
-    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice hardly more
-    // for long numbers.
+    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice costs hardly
+    // more in long numbers.
     let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
     let others = in_digits(family, growths, 8, Route::Planned);
     ladder.extend(others.filter(|other| system != Numbers::Digits(other.digits - 8)));
     ladder
 }
 
-/// Enclosures, where they reach: an answer that is wrong by more than it says is impossible.
-///
-/// Several contacts of a damped rod are proved by its cells, in some twentieth of a second for each few.
+/// Returns settings in enclosures. The cells prove several contacts of a damped rod in some twentieth of a second.
 fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
     let chosen = match plan.numbers {
         Numbers::Certified(digits) => Some(digits),
@@ -188,4 +193,21 @@ fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
         chosen: chosen == Some(digits),
     };
     settings.into_iter().enumerate().map(candidate).collect()
+}
+
+/// Checks that the first contact alone answers `question`, and lasts as long as the question asks.
+fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReason> {
+    if !question.problem.has_closed_form() {
+        return Err(OmissionReason::NoClosedForm);
+    }
+    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+        return Err(OmissionReason::LaterEvent);
+    }
+    let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
+    let first = question.problem.first_contact().map_err(VerifyError::from)?;
+    match (first.contacts().first().and_then(|contact| contact.release), first.ending()) {
+        (Some(end), _) if time > end * (1.0 + 1e-12) => Err(OmissionReason::LaterTime(end)),
+        (None, Ending::Undecided(_)) if time > *first.end() => Err(OmissionReason::Undecided(*first.end())),
+        _ => Ok(()),
+    }
 }

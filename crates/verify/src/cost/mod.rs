@@ -1,11 +1,12 @@
-//! What accuracy costs in time: one quantity of one scene by every route that can give it, measured on the spot, with
-//! the true error of each; and what each effect of a scene costs.
+//! The time that accuracy costs: one quantity of one scene by every route that can give it, measured on the spot, with
+//! the true error of each; and the time that each effect of a scene costs.
 
-mod clock;
 mod effects;
 mod ladder;
-mod work;
+mod timing;
+mod work_precision;
 
-pub use effects::{Difference, effects};
+pub use effects::{EffectCost, effects};
 pub use ladder::Family;
-pub use work::{Row, Table, work_precision};
+pub use timing::Timing;
+pub use work_precision::{CostRow, CostTable, Omission, OmissionReason, work_precision};

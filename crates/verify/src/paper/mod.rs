@@ -1,9 +1,12 @@
-//! The paper's formulas as they are printed: an independent opinion, and the only place where a formula stands a second
-//! time.
-pub mod formulas;
-mod printed;
-mod quadrature;
-mod undamped;
+//! Formulas of the paper as printed: a second opinion on the library, and the only place of the workspace where a
+//! formula stands a second time.
 
-pub use printed::Printed;
-pub use undamped::UndampedContact;
+pub(crate) mod formulas;
+mod integrals;
+mod quadrature;
+mod release;
+mod undamped_contact;
+
+pub use integrals::PrintedIntegrals;
+pub(crate) use release::first_release;
+pub use undamped_contact::UndampedContact;

@@ -1,90 +1,130 @@
-//! Which values of a scene are varied, and the problem of each point.
+//! Grids of parameter values: the problem of each point.
 
-use dalembert::number::{List, Number};
-use dalembert::problem::{Builder, Problem, ProblemError, Written};
+use dalembert::UnknownName;
+use dalembert::number::{List, Number, NumberError};
+use dalembert::problem::{Parameter, Problem, ProblemError, Written};
 
 const MOST_POINTS: usize = 10_000_000;
 
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct SweepError(String);
-
-impl SweepError {
-    pub fn new(found: impl std::fmt::Display, expected: impl std::fmt::Display) -> Self {
-        SweepError(format!("found {found}, expected {expected}"))
-    }
+/// A reason for which a grid, an axis or a map cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GridError {
+    /// A text without a path and values.
+    #[error("found `{0}`, expected PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log")]
+    NoAxis(String),
+    /// A name that is no parameter of a scene.
+    #[error(transparent)]
+    UnknownPath(UnknownName),
+    /// A parameter that is a list.
+    #[error(
+        "found the parameter `{0}`, expected a number of a scene: {paths}",
+        paths = paths().collect::<Vec<_>>().join(", ")
+    )]
+    NoNumber(Parameter),
+    /// A text that spells no values.
+    #[error("{0}")]
+    Values(String),
+    /// A value that cannot be read.
+    #[error(transparent)]
+    Number(#[from] NumberError),
+    /// Two axes of one path.
+    #[error("found {0} varied twice, expected each value once")]
+    Twice(&'static str),
+    /// Axes of these sizes, with too many points.
+    #[error("found {0} points, expected at most {MOST_POINTS}")]
+    TooManyPoints(String),
+    /// Values of a map that do not increase.
+    #[error("found the values {0}, expected two values or more that increase, R from zero and M from above zero")]
+    NotIncreasing(String),
 }
 
-/// One value that is varied: its path in a scene file, and what it takes in turn.
+/// Returns the paths of all numbers of a scene.
+fn paths() -> impl Iterator<Item = &'static str> {
+    Parameter::numbers().map(Parameter::path)
+}
+
+/// One parameter that is varied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub path: &'static str,
+    /// The parameter.
+    pub parameter: Parameter,
+    /// The values, in order.
     pub values: Vec<Number>,
 }
 
 impl std::str::FromStr for Axis {
-    type Err = SweepError;
+    type Err = GridError;
 
-    /// `PATH=VALUES`, with the values as [`List::read`] reads them.
-    fn from_str(text: &str) -> Result<Self, SweepError> {
-        let found = |found: &str| format!("`{found}`");
-        let (path, list) = text
-            .split_once('=')
-            .ok_or_else(|| SweepError::new(found(text), "PATH=V1,V2,…, PATH=A..B:N or PATH=A..B:N:log"))?;
-        let paths = Builder::NUMBERS.iter().map(|(_, path)| *path);
-        let known = paths.clone().find(|known| *known == path.trim());
-        let path = known.ok_or_else(|| {
-            let expected = format!("a number of a scene: {}", paths.collect::<Vec<_>>().join(", "));
-            SweepError::new(format!("the path `{}`", path.trim()), expected)
-        })?;
-        Ok(Axis { path, values: values(list)? })
+    /// Reads `PATH=VALUES`, with the values as [`List::read`] reads them.
+    fn from_str(text: &str) -> Result<Self, GridError> {
+        let (path, list) = text.split_once('=').ok_or_else(|| GridError::NoAxis(text.into()))?;
+        let parameter: Parameter = path.trim().parse().map_err(GridError::UnknownPath)?;
+        if !parameter.is_number() {
+            return Err(GridError::NoNumber(parameter));
+        }
+        Ok(Axis { parameter, values: values(list)? })
     }
 }
 
-/// The values that a list spells: listed values and both ends of a range as they are written; what lies between is the
-/// shortest decimal of the double.
-pub fn values(text: &str) -> Result<Vec<Number>, SweepError> {
-    let (list, geometric) = List::read(text, true).map_err(SweepError)?;
+/// Reads a list of values. Listed values and both ends of a range stay as written; the values between are the shortest
+/// decimals of their doubles.
+pub(super) fn values(text: &str) -> Result<Vec<Number>, GridError> {
+    let (list, geometric) = List::read(text, true).map_err(GridError::Values)?;
     let List::Range(from, to, count) = list else { return Ok(list.numbers().unwrap_or_default()) };
     let (a, b, steps) = (from.to_f64(), to.to_f64(), f64::from(count - 1));
     let inner = |k: u32| {
         let k = f64::from(k);
         let value = if geometric { a * (b / a).powf(k / steps) } else { (a * (steps - k) + b * k) / steps };
-        Written::from(value).number().cloned().map_err(|error| SweepError(error.to_string()))
+        Written::from(value).number().cloned().map_err(|error| GridError::Number(error.clone()))
     };
     let between = (1..count - 1).map(inner).collect::<Result<Vec<_>, _>>()?;
-    Ok(std::iter::once(from).chain(between).chain([to]).collect::<Vec<_>>())
+    Ok(std::iter::once(from).chain(between).chain([to]).collect())
 }
 
-/// Every combination of the values of some axes, the last one varying fastest.
+/// Every combination of the values of some axes, with the last axis varying fastest.
 #[derive(Clone, Debug)]
 pub struct Grid {
     problem: Problem,
+    /// The axes, in order.
     pub axes: Vec<Axis>,
 }
 
 impl Grid {
-    /// The points of `problem` with the values of `axes` in place of its own. An axis that comes twice is refused, and
-    /// too many points.
-    pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, SweepError> {
+    /// Builds the grid of `problem` with the values of `axes` in place of its own.
+    ///
+    /// **Errors**: [`GridError::Twice`]; [`GridError::TooManyPoints`].
+    ///
+    /// ```
+    /// use dalembert::Problem;
+    /// use dalembert_verify::regimes::Grid;
+    /// let axes = ["rod.damping=0,0.1", "impact.speed=1..2:3"].map(|axis| axis.parse());
+    /// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
+    /// let grid = Grid::new(rod, axes.into_iter().collect::<Result<_, _>>()?)?;
+    /// assert_eq!((grid.len(), grid.values(4)[1].to_f64()), (6, 1.5));
+    /// # Ok::<(), dalembert_verify::regimes::GridError>(())
+    /// ```
+    pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, GridError> {
         for (k, axis) in axes.iter().enumerate() {
-            if axes[..k].iter().any(|other| other.path == axis.path) {
-                return Err(SweepError::new(format!("{} varied twice", axis.path), "each value once"));
+            if axes[..k].iter().any(|other| other.parameter == axis.parameter) {
+                return Err(GridError::Twice(axis.parameter.path()));
             }
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
         if count.is_none_or(|count| count > MOST_POINTS) {
             let sizes = axes.iter().map(|axis| axis.values.len().to_string()).collect::<Vec<_>>().join(" × ");
-            return Err(SweepError::new(format!("{sizes} points"), format!("at most {MOST_POINTS}")));
+            return Err(GridError::TooManyPoints(sizes));
         }
         Ok(Grid { problem, axes })
     }
 
+    /// Returns the number of points.
+    #[allow(clippy::len_without_is_empty, reason = "no caller asks")]
     pub fn len(&self) -> usize {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
-    /// What is varied, as it is at a point.
+    /// Returns the values of a point, in the order of the axes.
     pub fn values(&self, index: usize) -> Vec<&Number> {
         let mut rest = index;
         let mut values: Vec<&Number> = Vec::with_capacity(self.axes.len());
@@ -96,9 +136,12 @@ impl Grid {
         values
     }
 
+    /// Returns the problem of a point.
     pub fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
         let values = self.axes.iter().zip(self.values(index));
-        values.fold(self.problem.to_builder(), |builder, (axis, value)| builder.at(axis.path, value)).build()
+        values
+            .fold(self.problem.to_builder().from_scene(), |builder, (axis, value)| builder.set(axis.parameter, value))
+            .build()
     }
 }
 

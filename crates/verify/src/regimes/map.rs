@@ -1,4 +1,4 @@
-//! How the first contact ends, over the two numbers that decide it: `R = r t₁` and `M = μ/(g t₁)`.
+//! The map of regimes over the two numbers that decide how the first contact ends: `R = r t₁` and `M = μ/(g t₁)`.
 
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -6,42 +6,45 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use super::contour::{Edge, crossed, loops};
-use super::grid::{Axis, Grid, SweepError, values};
+use super::grid::{Axis, Grid, GridError, values};
+use crate::paper::formulas::ThresholdRatio;
 use dalembert::Ending;
-use dalembert::engine::Motion;
-use dalembert::engine::{Bounce, FirstContact, Kernels};
-use dalembert::number::{Analytic, Estimate, Number, Scalar};
-use dalembert::problem::{Parameters, Problem, Speed, Start};
+use dalembert::engine::{Bounce, FirstContact, Kernels, Motion};
+use dalembert::number::{Estimate, Number, Scalar, short};
+use dalembert::problem::{Parameter, Parameters, Problem, Speed, Start, Written};
 use dalembert::solve::{Engine, Numbers, Plan, Question, Rung};
-use dalembert::special::{i0_scaled, i1_scaled};
-use dalembert::{number::short, problem::Written};
 
+/// The end of a first contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Regime {
-    /// With a bounce at so many round trips, `t_b/t₁`.
+    /// A bounce after this many round trips, `t_b/t₁`.
     Bounce(f64),
+    /// No bounce, as is proved.
     Never,
     /// Neither is shown.
     Undecided,
 }
 
-/// The regimes over a grid, `M` by rows and `R` along them.
+/// The regimes over a grid of `R` and `M`.
 #[derive(Debug)]
 pub struct Map {
+    /// `R` of the columns.
     pub damping: Vec<Number>,
+    /// `M` of the rows.
     pub speed: Vec<Number>,
+    /// The regimes, row by row.
     pub regimes: Vec<Regime>,
-    /// For a picture, once [`Map::with_regions`] has found them: of each band the closed lines about it and all before
-    /// it, in steps of the grid.
+    /// The outlines of the bands for a picture, which [`Map::with_regions`] finds: closed lines about each band and all
+    /// before it, in steps of the grid.
     pub regions: Vec<Vec<Vec<DVec2>>>,
 }
 
-/// The `t_b/t₁` up to which each band of a map reaches, in order.
+/// The upper ends of the bands of a map, `t_b/t₁`, in order.
 pub const BANDS: [f64; 8] = [1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 4.0, f64::INFINITY];
 
 impl Regime {
-    /// The place of its band in [`BANDS`]; after these that without a bounce, and what is not decided.
-    pub fn band(self) -> usize {
+    /// Returns the index of its band in [`BANDS`]; the next index without a bounce, the one after it where undecided.
+    fn band(self) -> usize {
         match self {
             Regime::Bounce(time) => BANDS.iter().position(|most| time <= *most).unwrap_or(BANDS.len() + 1),
             Regime::Never => BANDS.len(),
@@ -51,117 +54,124 @@ impl Regime {
 }
 
 impl Map {
-    /// The map for the ranges `damping` of R and `speed` of M, as [`Axis`] has them: a rod with `t₁ = g = 1` has `R =
-    /// r` and `M = μ`. It is the same for any number of threads; `done` is called after each point.
-    pub fn new(damping: &str, speed: &str, done: &(dyn Fn() + Sync)) -> Result<Self, SweepError> {
+    /// Computes the map for the ranges `damping` of R and `speed` of M, in the grammar of [`Axis`]. It is the same for any
+    /// number of threads; `done` is called after each point.
+    ///
+    /// ```
+    /// use dalembert_verify::regimes::{Map, Regime};
+    /// let map = Map::new("0,4", "0.5,2", &|| ())?;
+    /// // Corollary 1 for R = 0: t_b/t₁ = 2 − M = 3/2, and 1 from M = 1 on. From R = π on there is no bounce.
+    /// assert_eq!(map.regimes, [Regime::Bounce(1.5), Regime::Never, Regime::Bounce(1.0), Regime::Never]);
+    /// # Ok::<(), dalembert_verify::regimes::GridError>(())
+    /// ```
+    pub fn new(damping: &str, speed: &str, done: &(dyn Fn() + Sync)) -> Result<Self, GridError> {
         let rod = unit_rod();
-        let axis = |path, text| Ok::<_, SweepError>(Axis { path, values: values(text)? });
-        let grid = Grid::new(rod.clone(), vec![axis("impact.speed", speed)?, axis("rod.damping", damping)?])?;
-        // Before any point is solved.
+        let axis = |parameter, text| Ok::<_, GridError>(Axis { parameter, values: values(text)? });
+        let grid =
+            Grid::new(rod.clone(), vec![axis(Parameter::ImpactSpeed, speed)?, axis(Parameter::Damping, damping)?])?;
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
             if values.len() < 2 || values[0] < least || !values.is_sorted_by(|a, b| a < b) {
                 let found = axis.values.iter().map(Number::to_string).collect::<Vec<_>>().join(",");
-                let expected = "two values or more that increase, R from zero and M from above zero";
-                return Err(SweepError::new(format!("the values {}", short(&found)), expected));
+                return Err(GridError::NotIncreasing(short(&found)));
             }
         }
         let [speeds, dampings] = [0, 1].map(|k: usize| grid.axes[k].values.clone());
         let parts: Vec<&[Number]> = speeds.chunks(SHARING).collect();
-        let columns = (0..dampings.len() * parts.len())
-            .into_par_iter()
-            .map(|k| {
-                let kernels = Kernels::default();
-                let mut regimes = Vec::with_capacity(SHARING);
-                for speed in parts[k % parts.len()] {
-                    regimes.push(regime(&rod, &dampings[k / parts.len()], speed, &kernels));
-                    done();
-                }
-                Ok(regimes)
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        let columns: Vec<Regime> = columns.concat();
+        let part = |k: usize| {
+            let kernels = Kernels::default();
+            let regime = |speed| {
+                let regime = regime(&rod, &dampings[k / parts.len()], speed, &kernels);
+                done();
+                regime
+            };
+            parts[k % parts.len()].iter().map(regime).collect::<Vec<_>>()
+        };
+        let columns: Vec<Vec<Regime>> = (0..dampings.len() * parts.len()).into_par_iter().map(part).collect();
+        let columns = columns.concat();
         let rows = (0..speeds.len()).flat_map(|row| columns.iter().skip(row).step_by(speeds.len()).copied());
         let regimes = rows.collect();
         Ok(Map { regimes, damping: dampings, speed: speeds, regions: Vec::new() })
     }
 
-    /// The same with [`Map::regions`]. Between two points in different bands each edge is halved until it is known to
-    /// some part of [`FINE`] of the picture; `done` is called after each edge.
+    /// Finds [`Map::regions`]. Between two points in different bands the edge is halved until the border is known to one
+    /// part in [`FINE`] of the picture; `done` is called after each edge.
     pub fn with_regions(self, done: &(dyn Fn() + Sync)) -> Self {
-        let (dampings, speeds) = (Spread::of(&self.damping), Spread::of(&self.speed));
         let (across, up) = (self.damping.len(), self.speed.len());
+        let (dampings, speeds) = (CellAxis::new(&self.damping), CellAxis::new(&self.speed));
         let rod = unit_rod();
-        let regime_at = |at: DVec2, kernels: &Kernels<Estimate<f64>>| {
-            regime(&rod, &dampings.number(at.x, &self.damping), &speeds.number(at.y, &self.speed), kernels).band()
+        let band_at = |steps: DVec2, kernels: &Kernels<Estimate<f64>>| {
+            let (r, m) = (dampings.number(steps.x, &self.damping), speeds.number(steps.y, &self.speed));
+            regime(&rod, &r, &m, kernels).band()
         };
-        // The points, about them those on the border of the picture, about these a ring that is in no band.
+        // The nodes: the points of the map, about them the border of the picture, about it a ring outside of all bands.
         let size = [across + 4, up + 4];
         let steps = |k: usize, count: usize| (k as f64 - 1.5).clamp(0.0, count as f64);
-        let place = |node: [usize; 2]| DVec2::new(steps(node[0], across), steps(node[1], up));
-        let Ok(bands) = (0..size[0])
-            .into_par_iter()
-            .map(|column| {
-                let kernels = Kernels::default();
-                let band = |row: usize| match [column, row] {
-                    [x, y] if x == 0 || y == 0 || x + 1 == size[0] || y + 1 == size[1] => usize::MAX,
-                    [x, y] if (2..across + 2).contains(&x) && (2..up + 2).contains(&y) => {
-                        self.regimes[(y - 2) * across + x - 2].band()
-                    }
-                    node => regime_at(place(node), &kernels),
-                };
-                Ok::<_, std::convert::Infallible>((0..size[1]).map(band).collect::<Vec<_>>())
-            })
-            .collect::<Result<Vec<_>, _>>();
-        let mut regions = Vec::new();
-        for level in 0..=BANDS.len() {
-            let inside = |[x, y]: [usize; 2]| bands[x][y] <= level;
-            let edges = crossed(size, &inside);
-            let Ok(crossings) = (0..edges.len())
-                .into_par_iter()
-                .map(|k| {
-                    let [a, b] = edges[k];
-                    // One damping has one set of kernels.
-                    let mut kernels = Kernels::default();
-                    let (mut within, mut beyond) = if inside(a) { (place(a), place(b)) } else { (place(b), place(a)) };
-                    // The ring lies on the border.
-                    let outer = [a, b].map(|[x, y]| bands[x][y]).contains(&usize::MAX);
-                    let halvings = (FINE / across.max(up) as f64).log2().ceil().max(2.0) as usize;
-                    for _ in 0..if outer { 0 } else { halvings } {
-                        let point = within.midpoint(beyond);
-                        if a[0] != b[0] {
-                            kernels = Kernels::default();
-                        }
-                        *(if regime_at(point, &kernels) <= level { &mut within } else { &mut beyond }) = point;
-                    }
-                    done();
-                    Ok::<_, std::convert::Infallible>(if outer { within } else { within.midpoint(beyond) })
-                })
-                .collect::<Result<Vec<_>, _>>();
-            let of: BTreeMap<Edge, DVec2> = edges.iter().copied().zip(crossings).collect();
-            regions.push(
-                loops(&edges, &inside)
-                    .into_iter()
-                    .map(|line| line.into_iter().map(|edge| of[&edge]).collect())
-                    .collect(),
-            );
-        }
+        let place = |[x, y]: [usize; 2]| DVec2::new(steps(x, across), steps(y, up));
+        let column = |x: usize| {
+            let kernels = Kernels::default();
+            let band = |y: usize| match [x, y] {
+                _ if x == 0 || y == 0 || x + 1 == size[0] || y + 1 == size[1] => OUTSIDE,
+                _ if (2..across + 2).contains(&x) && (2..up + 2).contains(&y) => {
+                    self.regimes[(y - 2) * across + x - 2].band()
+                }
+                node => band_at(place(node), &kernels),
+            };
+            (0..size[1]).map(band).collect::<Vec<_>>()
+        };
+        let bands: Vec<Vec<usize>> = (0..size[0]).into_par_iter().map(column).collect();
+        let halvings = (FINE / across.max(up) as f64).log2().ceil().max(2.0) as usize;
+        let crossing = |[a, b]: Edge, level: usize| {
+            let [band_a, band_b] = [a, b].map(|[x, y]| bands[x][y]);
+            let (mut inside, mut outside) = if band_a <= level { (place(a), place(b)) } else { (place(b), place(a)) };
+            if [band_a, band_b].contains(&OUTSIDE) {
+                return inside;
+            }
+            // The kernels belong to one damping.
+            let mut kernels = Kernels::default();
+            for _ in 0..halvings {
+                let middle = inside.midpoint(outside);
+                if a[0] != b[0] {
+                    kernels = Kernels::default();
+                }
+                *(if band_at(middle, &kernels) <= level { &mut inside } else { &mut outside }) = middle;
+            }
+            inside.midpoint(outside)
+        };
+        let region = |level: usize| {
+            let is_inside = |[x, y]: [usize; 2]| bands[x][y] <= level;
+            let edges = crossed(size, &is_inside);
+            let found = |edge: &Edge| {
+                let crossing = crossing(*edge, level);
+                done();
+                (*edge, crossing)
+            };
+            let crossings: BTreeMap<Edge, DVec2> = edges.par_iter().map(found).collect();
+            let lines = loops(&edges, &is_inside).into_iter();
+            lines.map(|line| line.into_iter().map(|edge| crossings[&edge]).collect()).collect()
+        };
+        let regions = (0..=BANDS.len()).map(region).collect();
         Map { regions, ..self }
     }
 }
 
-/// Parts of the longer side of a picture that no eye tells apart.
+/// Band of the nodes outside of the picture.
+const OUTSIDE: usize = usize::MAX;
+/// Number of parts of the longer side of a picture that no eye tells apart.
 const FINE: f64 = 4096.0;
 
-/// Values of an axis as middles of equal parts of it, in themselves or in their logarithms.
-pub struct Spread {
+/// An axis of a picture: each value is the middle of a cell, and all cells are equally wide, in the values or in their
+/// logarithms.
+pub struct CellAxis {
+    /// Whether the cells are equally wide in the logarithms.
     pub log: bool,
     first: f64,
     step: f64,
 }
 
-impl Spread {
-    pub fn of(values: &[Number]) -> Self {
+impl CellAxis {
+    /// Builds the axis of `values`, logarithmic where that is nearer to the middle value.
+    pub fn new(values: &[Number]) -> Self {
         let value = |k: usize| values.get(k).map_or(0.0, Number::to_f64);
         let last = values.len().saturating_sub(1);
         let (from, middle, to) = (value(0), value(values.len() / 2), value(last));
@@ -171,16 +181,16 @@ impl Spread {
             (middle / geometric).ln().abs() < (middle / straight).ln().abs()
         };
         let [from, to] = [from, to].map(|end| if log { end.ln() } else { end });
-        Spread { log, first: from, step: (to - from) / last.max(1) as f64 }
+        CellAxis { log, first: from, step: (to - from) / last.max(1) as f64 }
     }
 
-    /// What lies so many steps beyond the lower border of the first part.
+    /// Returns the value at `steps` cells beyond the lower border of the first cell.
     pub fn border(&self, steps: f64) -> f64 {
         let place = self.first + self.step * (steps - 0.5);
         if self.log { place.exp() } else { place }
     }
 
-    /// The value so many steps beyond the lower border, between the values that it lies between; not below zero.
+    /// Interpolates `values` at `steps` cells beyond the lower border; the result is not below zero.
     fn number(&self, steps: f64, values: &[Number]) -> Number {
         let (below, share) = ((steps - 0.5).floor(), (steps - 0.5).fract());
         let value = match (values.get(below as usize), values.get(below as usize + 1)) {
@@ -194,15 +204,16 @@ impl Spread {
     }
 }
 
-/// The rod with `t₁ = g = 1`.
+/// Builds the rod with `t₁ = g = 1`, for which `R = r` and `M = μ`.
 fn unit_rod() -> Problem {
     Problem::uniform(1.into(), 2.into(), 1.into(), 1.into())
 }
 
-/// Speeds of one damping that share its kernels.
+/// Maximum number of speeds of one damping that share its kernels.
 const SHARING: usize = 256;
 
-/// The regime of a point, as its plan has it: all points of a damping share its kernels where that is the closed form.
+/// Computes the regime of a point by its plan. Where the plan takes the closed form, all points of a damping share its
+/// kernels.
 fn regime(rod: &Problem, damping: &Number, speed: &Number, kernels: &Kernels<Estimate<f64>>) -> Regime {
     let mut problem = rod.clone();
     problem.rod.damping = Some(damping.clone()).filter(|damping| !damping.is_zero());
@@ -221,6 +232,7 @@ fn regime(rod: &Problem, damping: &Number, speed: &Number, kernels: &Kernels<Est
     by_plan(&problem, &plan)
 }
 
+/// Computes the regime of a problem by `plan`.
 fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
     let query = |motion: &dyn Motion<Estimate<f64>>| {
         let end = motion.contact_times(0).and_then(|(_, end)| end);
@@ -233,19 +245,18 @@ fn by_plan(problem: &Problem, plan: &Plan) -> Regime {
     }
 }
 
-/// The `M` above which the bounce comes at `t₁`, (2.32) in closed form: `(I₀(R) + I₁(R))/(2 − I₀(R))`; none from
-/// `I₀(R) = 2` on.
+/// Computes the `M` above which the bounce comes at `t₁`, (2.32) in closed form: `(I₀(R) + I₁(R))/(2 − I₀(R))`; `None`
+/// from `I₀(R) = 2` on.
 pub fn threshold(damping_ratio: &Estimate<f64>) -> Option<Estimate<f64>> {
-    let (i0, i1) = (i0_scaled(damping_ratio), i1_scaled(damping_ratio));
-    let below = (-damping_ratio.clone()).exp() * damping_ratio.int(2) - &i0;
-    (below.positive() == Ok(true)).then(|| (i0 + i1) / below)
+    let ThresholdRatio { numerator, denominator } = ThresholdRatio::new(damping_ratio);
+    (denominator.positive() == Ok(true)).then(|| numerator / denominator)
 }
 
-/// The double next to [`threshold`]; infinite where there is none.
+/// Returns the double nearest to [`threshold`]; infinite where there is none.
 pub fn threshold_near(damping_ratio: f64) -> f64 {
     threshold(&Estimate::exact(damping_ratio)).map_or(f64::INFINITY, Estimate::into_value)
 }
 
 #[cfg(test)]
-#[path = "tests/regimes.rs"]
+#[path = "tests/map.rs"]
 mod tests;

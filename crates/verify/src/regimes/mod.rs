@@ -1,8 +1,9 @@
-//! The map of regimes: when and whether the first contact ends, over all dampings and impact speeds.
+//! The map of regimes: whether and when the first contact ends, over all dampings and impact speeds; and grids of
+//! parameter values.
 
 mod contour;
 mod grid;
 mod map;
 
-pub use grid::{Axis, Grid, SweepError};
-pub use map::{BANDS, Map, Regime, Spread, threshold, threshold_near};
+pub use grid::{Axis, Grid, GridError};
+pub use map::{BANDS, CellAxis, Map, Regime, threshold, threshold_near};

@@ -15,8 +15,8 @@ fn short_contacts_are_seen() {
         strain_end: value,
         chebyshev: Vec::new(),
     };
-    let found = parts(&[piece(0.0, 500.0, 0.0), piece(500.0, 501.0, -3.0), piece(501.0, 1000.0, 0.0)], 1000.0);
+    let found = least_values(&[piece(0.0, 500.0, 0.0), piece(500.0, 501.0, -3.0), piece(501.0, 1000.0, 0.0)], 1000.0);
     let pressed: Vec<usize> = (0..BLOCKS).filter(|k| found[*k] < 0.0).collect();
     assert_eq!((pressed, found[BLOCKS / 2]), (vec![BLOCKS / 2], -3.0));
-    assert!(parts(&[piece(0.0, 1.0, 0.0)], 1.0).is_empty());
+    assert!(least_values(&[piece(0.0, 1.0, 0.0)], 1.0).is_empty());
 }

@@ -14,7 +14,7 @@ fn units_have_prefixes_and_ticks_are_round() {
     assert_eq!(texts(&Axis::log("M", [0.1, 20.0])), ["0.1", "0.2", "0.5", "1", "2", "5", "10", "20"]);
     assert_eq!(texts(&Axis::log("M", [0.5, 2e4])), ["10⁰", "10¹", "10²", "10³", "10⁴"]);
     assert_eq!(power_of_ten(-15), "10⁻¹⁵");
-    // A value that does not change is in the middle.
+    // A constant value is in the middle of its axis.
     let axis = Axis::new("E", "J", Axis::range([2.0, 2.0].into_iter(), false));
     assert!((axis.share(2.0) - 0.5).abs() < 1e-12);
 }

@@ -1,6 +1,6 @@
 use super::*;
 
-/// A spike survives, and the ends do.
+/// Thinning keeps a spike and the first point.
 #[test]
 fn extremes_are_kept() {
     let line = |count: i32, value: &dyn Fn(i32) -> f64| {

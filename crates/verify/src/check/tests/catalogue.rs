@@ -1,18 +1,17 @@
 #![allow(clippy::unwrap_used)]
 use super::*;
 use crate::check::verdict::Outcome;
-use crate::long;
-use crate::truth::Truth;
+use crate::routes::{HAS_LONG_NUMBERS, Truth};
 
 fn selected(name: &str) -> Vec<&'static Case> {
-    select(&[name.into()]).unwrap().into_iter().flat_map(|(_, cases)| cases).collect()
+    select(&[name.into()]).unwrap().into_iter().flat_map(|selection| selection.cases).collect()
 }
 
 #[test]
 fn cases_are_selected_by_name_or_group() {
     assert_eq!(selected("figure-1").len(), 1);
     assert!(selected("late").len() > 3);
-    assert_eq!(select(&["never".into()]).unwrap_err(), "never");
+    assert_eq!(select(&["never".into()]).unwrap_err(), UnknownName("never".into()));
 }
 
 #[test]
@@ -27,13 +26,13 @@ fn no_name_stands_twice() {
 /// The catalogue can fail: a truth that is wrong in its 32nd digit is noticed by every route that promises more.
 #[test]
 fn a_wrong_truth_is_noticed() {
-    let asked = selected("late-3.13")[0].entries[0];
-    assert_eq!(Truth::spelt(asked.truth).unwrap().most_digits(), 39.0);
+    let asked = selected("late-3.13")[0].questions[0];
+    assert_eq!(Truth::from_text(asked.truth).unwrap().most_digits(), 39.0);
     let mut wrong = asked;
     wrong.truth = "11.66136670144388438415940577414171411946";
     let wrong = wrong.check();
-    let failed: Vec<&str> = wrong.rows.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();
+    let failed: Vec<&str> = wrong.routes.iter().filter(|r| r.outcome == Outcome::Failed).map(|r| &*r.route).collect();
     let expected = ["the plan, 36 digits", "the plan, 36 digits proved"];
-    assert_eq!(failed, if long::AVAILABLE { &expected[..] } else { &[] });
-    assert!(asked.check().rows.iter().all(|row| row.outcome != Outcome::Failed));
+    assert_eq!(failed, if HAS_LONG_NUMBERS { &expected[..] } else { &[] });
+    assert!(asked.check().routes.iter().all(|route| route.outcome != Outcome::Failed));
 }

@@ -1,0 +1,229 @@
+//! The work–precision table: the routes that fit into the time, with the time and the error of each.
+
+use std::time::{Duration, Instant};
+
+use super::ladder::{Candidate, Family, Ladder, ladders};
+use super::timing::{Timing, check_budget, repeat};
+use crate::error::VerifyError;
+use crate::routes::{RouteQuestion, Truth};
+use dalembert::Value;
+use dalembert::number::Number;
+use dalembert::quantity::Quantity;
+use dalembert::solve::Plan;
+
+/// A route at a setting, with its time and its error.
+#[derive(Clone, Debug)]
+pub struct CostRow {
+    /// The route.
+    pub family: Family,
+    /// Number of the ladder: a family has one, or two, of the route by itself and as the plan takes it.
+    pub ladder: usize,
+    /// The setting: `N = 1024`.
+    pub setting: String,
+    /// `log₁₀` of the error relative to the truth, −∞ for no error. Relative to 1 where the truth is zero.
+    pub log10_error: f64,
+    /// The time.
+    pub timing: Timing,
+    /// Whether the plan takes this route.
+    pub chosen: bool,
+}
+
+impl CostRow {
+    /// Returns the relative error as a double: zero below the range of doubles.
+    pub fn error(&self) -> f64 {
+        10f64.powf(self.log10_error)
+    }
+}
+
+/// A route, or a setting of one, that is not in the table.
+#[derive(Clone, Debug)]
+pub struct Omission {
+    /// The route.
+    pub family: Family,
+    /// The first setting that is left out; `None` for the whole route.
+    pub setting: Option<String>,
+    /// The reason.
+    pub why: OmissionReason,
+}
+
+/// A reason to leave a route out of the table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OmissionReason {
+    /// The route has no answer.
+    #[error(transparent)]
+    NoAnswer(#[from] VerifyError),
+    /// The start or the top has no closed form.
+    #[error("the start or the top is not the paper's, so the first contact has no closed form")]
+    NoClosedForm,
+    /// The event comes after the first contact.
+    #[error("it covers the first contact only")]
+    LaterEvent,
+    /// The time comes after the end of the first contact.
+    #[error("it covers the first contact only, which ends at t = {0:.6}")]
+    LaterTime(f64),
+    /// The first contact is not shown to last up to the time.
+    #[error("it is undecided whether the first contact lasts beyond t = {0:.6}")]
+    Undecided(f64),
+    /// The lattice has no damping.
+    #[error("the scene has damping, which couples the characteristics")]
+    Damping,
+    /// The plan of an undamped scene takes another route.
+    #[error("the scene has no damping: the plan takes the {0}")]
+    NoDamping(Family),
+    /// The plan takes enclosures.
+    #[error("the plan takes enclosures")]
+    PlanEncloses,
+    /// The route gives the vibrational energy only as a difference.
+    #[error("gives the whole energy; E_z would be the difference of two")]
+    WholeEnergy,
+    /// The paper has integrated the undamped rod in closed form.
+    #[error("without damping the paper itself has done its integrals")]
+    IntegralsDone,
+    /// The setting takes longer than the time that is left of so many seconds.
+    #[error("not expected to fit into {0} seconds")]
+    TooSlow(f64),
+    /// The truth cannot be computed to the digits of the setting.
+    #[error("no truth to hold it against: {0}")]
+    NoTruth(VerifyError),
+}
+
+/// One quantity by every route.
+#[derive(Clone, Debug)]
+pub struct CostTable {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// Its unit; empty where there is none or none is known.
+    pub unit: &'static str,
+    /// The time at which it is asked.
+    pub time: Option<Number>,
+    /// The truth.
+    pub truth: Truth,
+    /// The rows by route, the settings of each in order.
+    pub rows: Vec<CostRow>,
+    /// The routes and settings that are left out.
+    pub left_out: Vec<Omission>,
+}
+
+/// Time of the truth and of the last long rows, in times of the longest row.
+const FOR_TRUTH: f64 = 2.5;
+/// Digits that the truth has beyond the most precise row.
+const BEYOND: u32 = 30;
+/// Share of the time that repeated runs may take.
+const SHARE: f64 = 0.5;
+
+/// Measures `question` by every route that can answer it, in about `seconds`. `observe` receives the share of the time
+/// that is spent, and the name of the next run.
+///
+/// The plan's own run is always among the rows. The others come the cheapest first, by the time of the setting before;
+/// a setting that is not expected to fit is left out, and so are those above it.
+pub fn work_precision(
+    question: &RouteQuestion,
+    plan: &Plan,
+    seconds: f64,
+    mut observe: impl FnMut(f64, &str),
+) -> Result<CostTable, VerifyError> {
+    check_budget(seconds)?;
+    let start = Instant::now();
+    let spent = || start.elapsed().as_secs_f64();
+    let (all, without) = ladders(question, plan);
+    let count: usize = all.iter().map(Vec::len).sum();
+    let slot = SHARE * seconds / count.max(1) as f64;
+    let mut left_out: Vec<Omission> =
+        without.into_iter().map(|(family, why)| Omission { family, setting: None, why }).collect();
+    let mut measured: Vec<Measured> = Vec::with_capacity(count);
+    // The next setting of each ladder stands last.
+    let mut waiting: Vec<Ladder> = all.into_iter().map(|ladder| ladder.into_iter().rev().collect()).collect();
+    while let Some((candidate, ladder)) = cheapest(&mut waiting) {
+        observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
+        // Rows of long numbers make the truth as dear as they are.
+        let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
+        let left = seconds - spent();
+        if !candidate.chosen && candidate.expected * share > left {
+            left_out.push(candidate.left_out(OmissionReason::TooSlow(seconds)));
+            waiting[ladder].clear();
+            continue;
+        }
+        let began = Instant::now();
+        // A run that can stop itself leaves most of the time to others.
+        let answer = candidate.route.run(question, left / 4.0);
+        let once = began.elapsed().as_secs_f64();
+        let mut took = once;
+        match answer {
+            Ok(value) => {
+                let left = (seconds - spent()).max(0.0);
+                // Three samples at least, where that is little of what is left.
+                let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
+                let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
+                took = timing.seconds;
+                measured.push(Measured { candidate, ladder, value, timing });
+            }
+            // The scene has no quantity that its plan cannot answer.
+            Err(error) if candidate.chosen => return Err(error),
+            // A coarser setting may fail where a finer one does not.
+            Err(error) => left_out.push(candidate.left_out(OmissionReason::NoAnswer(error))),
+        }
+        if let Some(next) = waiting[ladder].last_mut() {
+            next.expected *= took.max(1e-7);
+        }
+    }
+    let truth = loop {
+        let digits = measured.iter().map(|row| row.candidate.digits).max().unwrap_or(0);
+        observe(spent() / seconds, &format!("the truth, to {} digits", digits + BEYOND));
+        match Truth::compute(question, digits + BEYOND) {
+            Ok(truth) => break truth,
+            // Rows without a truth are left out, down to doubles.
+            Err(error) if measured.iter().any(|row| row.candidate.digits < digits) => {
+                let (kept, lost): (Vec<_>, Vec<_>) =
+                    measured.into_iter().partition(|row| row.candidate.digits < digits);
+                measured = kept;
+                let why = OmissionReason::NoTruth(error);
+                left_out.extend(lost.into_iter().map(|row| row.candidate.left_out(why.clone())));
+            }
+            Err(error) => return Err(error),
+        }
+    };
+    let mut rows: Vec<CostRow> = measured
+        .into_iter()
+        .map(|Measured { candidate, ladder, value, timing }| CostRow {
+            family: candidate.family,
+            ladder,
+            setting: candidate.setting,
+            log10_error: truth.log10_error(&value),
+            timing,
+            chosen: candidate.chosen,
+        })
+        .collect();
+    // Settings stay in the order of their ladder.
+    rows.sort_by_key(|row| (row.family as u8, row.ladder));
+    left_out.sort_by_key(|item| item.family as u8);
+    Ok(CostTable {
+        quantity: question.one.quantity,
+        unit: question.one.quantity.unit(&question.units),
+        time: question.one.time.clone(),
+        truth,
+        rows,
+        left_out,
+    })
+}
+
+/// A candidate that has run.
+struct Measured {
+    candidate: Candidate,
+    ladder: usize,
+    value: Value,
+    timing: Timing,
+}
+
+impl Candidate {
+    fn left_out(self, why: OmissionReason) -> Omission {
+        Omission { family: self.family, setting: Some(self.setting), why }
+    }
+}
+
+/// Takes the setting with the least expected time, and returns it with the place of its ladder.
+fn cheapest(waiting: &mut [Ladder]) -> Option<(Candidate, usize)> {
+    let next = waiting.iter().enumerate().filter_map(|(k, rest)| Some((k, rest.last()?.expected)));
+    let (k, _) = next.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((waiting[k].pop()?, k))
+}

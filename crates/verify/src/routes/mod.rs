@@ -1,0 +1,14 @@
+//! Routes to one number of a problem: each computes it in its own way, in its own numbers.
+
+mod differences;
+mod method;
+mod question;
+mod route;
+mod truth;
+mod value;
+
+pub use question::RouteQuestion;
+pub(crate) use question::Transform;
+pub(crate) use route::{HAS_LONG_NUMBERS, Route, run_engine, run_planned};
+pub use truth::Truth;
+pub(crate) use value::shown;

@@ -1,0 +1,241 @@
+//! The table of parameters: the only place where their names are spelled. The scene reader, the builder, derivatives,
+//! sweeps and the Python module follow from it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use super::{Builder, Material, Problem, Run, Speed, Start, Written};
+use crate::names::{UnknownName, nearest};
+use crate::number::Number;
+
+/// The names of a parameter.
+struct Names {
+    /// The path in a scene file.
+    path: &'static str,
+    /// The name of the setter of the [`Builder`] and of the field in Python.
+    field: &'static str,
+    /// Words for it that are no names, in lower case: a message suggests the name in their place.
+    synonyms: &'static [&'static str],
+}
+
+macro_rules! parameters {
+    ($($(#[doc = $doc:literal])+ $kind:ident $parameter:ident: $path:literal, $field:ident, $synonyms:tt;)+) => {
+        /// A parameter of a problem. Derivatives are taken by it, sweeps vary it, and data are fitted with it.
+        ///
+        /// ```
+        /// use dalembert::Parameter;
+        /// assert_eq!("impact.speed".parse(), Ok(Parameter::ImpactSpeed));
+        /// assert_eq!("impact_speed".parse(), Ok(Parameter::ImpactSpeed));
+        /// assert_eq!(Parameter::Velocity(Some(2)).to_string(), "velocity[2]");
+        /// let error = "speed".parse::<Parameter>().unwrap_err();
+        /// assert_eq!(error.nearest.as_deref(), Some("impact_speed"));
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Parameter {
+            $($(#[doc = $doc])+ $parameter,)+
+            /// `v(x,0)`, a list of points: a factor of all values, 1 as they are, or the value at one point, counted
+            /// from 0.
+            Displacement(Option<usize>),
+            /// `v_t(x,0)`, as the displacement.
+            Velocity(Option<usize>),
+        }
+
+        impl Parameter {
+            /// All parameters, in the order of messages.
+            pub const ALL: &'static [Parameter] =
+                &[$(Parameter::$parameter,)+ Parameter::Displacement(None), Parameter::Velocity(None)];
+
+            const fn names(self) -> Names {
+                match self {
+                    $(Parameter::$parameter => {
+                        Names { path: $path, field: stringify!($field), synonyms: &$synonyms }
+                    })+
+                    Parameter::Displacement(_) => Names {
+                        path: "start.displacement",
+                        field: "displacement",
+                        synonyms: &["u", "v", "deformation", "position"],
+                    },
+                    Parameter::Velocity(_) => Names { path: "start.velocity", field: "velocity", synonyms: &[] },
+                }
+            }
+        }
+
+        /// Setters of single numbers.
+        impl Builder {
+            $(parameters!(setter $kind $(#[doc = $doc])+ $parameter $field);)+
+        }
+    };
+    (setter number $(#[doc = $doc:literal])+ $parameter:ident $field:ident) => {
+        $(#[doc = $doc])+
+        #[must_use]
+        pub fn $field(self, value: impl Into<Written>) -> Self {
+            self.set(Parameter::$parameter, value)
+        }
+    };
+    (setter choice $(#[doc = $doc:literal])+ $parameter:ident $field:ident) => {};
+}
+
+parameters! {
+    /// `L > 0`: the length.
+    number Length: "rod.length", length, ["l", "size"];
+    /// `c > 0`: the wave speed. Either this or the [`material`](Builder::material).
+    number WaveSpeed: "rod.wave_speed", wave_speed,
+        ["c", "c0", "sound_speed", "speed_of_sound", "wave_velocity"];
+    /// `E > 0`: Young's modulus, with the density in place of the wave speed: `c = √(E/ρ)`.
+    number Modulus: "rod.modulus", modulus,
+        ["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus", "stiffness"];
+    /// `ρ > 0`: the density.
+    number Density: "rod.density", density, ["rho", "ρ", "mass_density"];
+    /// `S > 0`: the cross-section; without it forces, impulses and energies are those of a unit of it.
+    number Area: "rod.area", area, ["a", "s", "cross_section", "section"];
+    /// `r ≥ 0`: the damping; without it none.
+    number Damping: "rod.damping", damping, ["r", "damping_ratio", "friction"];
+    /// The end `x = L`, free or fixed.
+    choice Top: "rod.top", top, ["clamped", "fixed", "fixed_top", "end", "boundary", "support"];
+    /// `μ > 0`: the speed with which the undeformed rod hits the ground at `t = 0`; with a [`gap`](Builder::gap)
+    /// its speed downwards at `t = 0`, which may be zero under gravity.
+    number ImpactSpeed: "impact.speed", impact_speed,
+        ["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"];
+    /// The undeformed rod starts this far above the ground, and `t = 0` is that start, not the first touch.
+    number Gap: "impact.gap", gap, ["clearance", "distance", "initial_gap", "jeu", "d0"];
+    /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over
+    /// at `t = 0`, the first touch.
+    number DropHeight: "impact.drop_height", drop_height, ["h", "height", "fall_height"];
+    /// `g ≥ 0`: the acceleration of gravity; without it none.
+    number Gravity: "gravity.acceleration", gravity, ["g"];
+    /// The time up to which to follow the motion, which is included.
+    number Time: "run.time", time, ["t", "t_end", "end_time", "duration", "until"];
+    /// The number of contacts to follow, each with the flight after it; without it and without a `time`, one.
+    number Impacts: "run.impacts", impacts, ["n", "bounces", "contacts", "hits"];
+}
+
+impl Parameter {
+    /// Returns the path in a scene file: `impact.speed`.
+    pub fn path(self) -> &'static str {
+        self.names().path
+    }
+
+    /// Returns the name of the setter of the [`Builder`] and of the field in Python: `impact_speed`; that of the list
+    /// for one of its points.
+    pub fn name(self) -> &'static str {
+        self.names().field
+    }
+
+    /// Returns the table and the key of the path: `impact` and `speed`.
+    pub(crate) fn table_and_key(self) -> (&'static str, &'static str) {
+        self.path().split_once('.').unwrap_or(("", self.path()))
+    }
+
+    /// Returns the words that a message answers with this parameter.
+    pub(crate) fn synonyms(self) -> &'static [&'static str] {
+        self.names().synonyms
+    }
+
+    /// Returns whether it is one number: no list of points, and no choice.
+    pub fn is_number(self) -> bool {
+        !matches!(self, Parameter::Top | Parameter::Displacement(_) | Parameter::Velocity(_))
+    }
+
+    /// Returns the parameters that are one number.
+    pub fn numbers() -> impl Iterator<Item = Parameter> + Clone {
+        Parameter::ALL.iter().copied().filter(|parameter| parameter.is_number())
+    }
+
+    /// Returns the number that `problem` gives for this parameter; `None` where it gives none.
+    ///
+    /// ```
+    /// use dalembert::{Parameter, Problem};
+    /// let rod = Problem::builder().length(2).wave_speed(1).impact_speed("1/3").build()?;
+    /// assert_eq!(Parameter::ImpactSpeed.given(&rod).map(|speed| speed.to_string()).as_deref(), Some("1/3"));
+    /// assert_eq!(Parameter::Modulus.given(&rod), None);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn given(self, problem: &Problem) -> Option<Number> {
+        let Problem { rod, gravity, start, run } = problem;
+        let given = match (self, &rod.material, start, run) {
+            (Parameter::Impacts, .., Run::Impacts(impacts)) => return Some(i64::from(*impacts).into()),
+            (Parameter::Length, ..) => Some(&rod.length),
+            (Parameter::Damping, ..) => rod.damping.as_ref(),
+            (Parameter::Gravity, ..) => gravity.as_ref(),
+            (Parameter::Area, Material::Elastic { area, .. }, ..) => area.as_ref(),
+            (Parameter::WaveSpeed, Material::WaveSpeed(number), ..)
+            | (Parameter::Modulus, Material::Elastic { modulus: number, .. }, ..)
+            | (Parameter::Density, Material::Elastic { density: number, .. }, ..)
+            | (
+                Parameter::ImpactSpeed,
+                _,
+                Start::Uniform(Speed::Given(number)) | Start::Above { speed: number, .. },
+                _,
+            )
+            | (Parameter::DropHeight, _, Start::Uniform(Speed::DropHeight(number)), _)
+            | (Parameter::Gap, _, Start::Above { gap: number, .. }, _)
+            | (Parameter::Time, .., Run::Time(number)) => Some(number),
+            _ => None,
+        };
+        given.cloned()
+    }
+
+    /// Returns the points `(x, value)` of the list that this parameter is, or is a point of; `None` where `problem` has
+    /// no profile.
+    pub fn list(self, problem: &Problem) -> Option<&[(Number, Number)]> {
+        let Start::Profile(profile) = &problem.start else { return None };
+        match self {
+            Parameter::Displacement(_) => Some(&profile.displacement),
+            Parameter::Velocity(_) => Some(&profile.velocity),
+            _ => None,
+        }
+    }
+
+    /// Returns the place of the point in its list, for a point of the start.
+    pub(super) fn point(self) -> Option<usize> {
+        match self {
+            Parameter::Displacement(point) | Parameter::Velocity(point) => point,
+            _ => None,
+        }
+    }
+
+    /// Returns the parameter with this path or field.
+    fn named(name: &str) -> Option<Self> {
+        Parameter::ALL.iter().copied().find(|parameter| parameter.path() == name || parameter.name() == name)
+    }
+}
+
+/// The [field](Parameter::name), with the place of a point: `velocity[0]`.
+impl fmt::Display for Parameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.point() {
+            Some(point) => f.pad(&format!("{}[{point}]", self.name())),
+            None => f.pad(self.name()),
+        }
+    }
+}
+
+/// Reads a path or a field, with the place of a point behind it: `impact.speed`, `impact_speed`, `start.velocity[0]`.
+impl FromStr for Parameter {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        let text = text.trim();
+        let (name, point) = match text.strip_suffix(']').and_then(|text| text.split_once('[')) {
+            Some((name, point)) => (name, Some(point.parse::<usize>().ok())),
+            None => (text, None),
+        };
+        let found = match (Parameter::named(name), point) {
+            (found, None) => found,
+            (Some(Parameter::Displacement(_)), Some(Some(k))) => Some(Parameter::Displacement(Some(k))),
+            (Some(Parameter::Velocity(_)), Some(Some(k))) => Some(Parameter::Velocity(Some(k))),
+            _ => None,
+        };
+        found.ok_or_else(|| {
+            let all = || Parameter::ALL.iter().copied();
+            let mut error = UnknownName::new("parameter", text, all().map(Parameter::name));
+            // A path that is misspelt is answered with a path.
+            let path = || nearest(text, all().map(Parameter::path)).map(String::from);
+            let word = text.to_lowercase();
+            let meant = all().find(|known| known.table_and_key().1 == word || known.synonyms().contains(&&*word));
+            error.nearest = error.nearest.or_else(path).or_else(|| meant.map(|known| known.name().into()));
+            error
+        })
+    }
+}
