@@ -63,6 +63,14 @@ def test_a_problem_is_frozen():
         p.solve().end = 3
 
 
+def test_a_parameter_has_its_path_too():
+    assert rod().replace(**{"impact.speed": 4, "gravity.acceleration": 2}) == rod(impact_speed=4, gravity=2)
+    ours, theirs = (rod().solve().derivatives(name).left["t"].tolist() for name in ("impact.speed", "impact_speed"))
+    assert ours == theirs
+    with pytest.raises(TypeError, match=r"did you mean impact.speed\?"):
+        rod().replace(**{"impact.sped": 4})
+
+
 def test_a_problem_is_a_scene_file():
     compared = 0
     for name in dalembert.scenes():
