@@ -533,5 +533,5 @@ def test_derivatives_are_difference_quotients():
         assert found.left_error["t"][k] < 1e-5
     exact = rod().solve(exact=True).derivatives("length", "contacts")
     assert exact.left["release"].tolist() == [2] and exact.right_error["release"].tolist() == [0]
-    with pytest.raises(ValueError, match="found `mass`, expected some of length"):
+    with pytest.raises(ValueError, match="found the parameter `mass`, expected one of length"):
         rod().solve().derivatives("mass")
