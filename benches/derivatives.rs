@@ -1,4 +1,4 @@
-//! What the derivatives of all events by one value cost, as a multiple of the run that has them: a line for each scene,
+//! Cost of the derivatives of all events by one value, as a multiple of the run that has them: a line for each scene,
 //! with the rung that the run was settled by.
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 

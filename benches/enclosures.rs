@@ -1,4 +1,4 @@
-//! What a proof costs: the same answers in doubles, in long numbers and in enclosures, with the exact numbers inside
+//! Cost of a proof: the same answers in doubles, in long numbers and in enclosures, with the exact numbers inside
 //! and without; and the march of a chaotic history, a piece at a time.
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 

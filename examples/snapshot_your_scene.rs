@@ -1,4 +1,4 @@
-//! How to keep the stress history of a scene of your own in a snapshot test, so that a change in it is seen.
+//! A snapshot test of the stress history of a scene of your own: a change in it fails the test.
 //!
 //! Put `main` into a test of your own crate. In exact fractions the text is the same on every machine, so a snapshot
 //! (crate `insta`) may hold it. A snapshot says "unchanged", not "right": put an assertion beside it that you can

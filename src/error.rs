@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// What was found, where, and what was expected.
+/// Error of the library: what was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
@@ -14,7 +14,7 @@ pub enum Error {
     Spelling {
         /// The time or the point.
         quantity: &'static str,
-        /// What is wrong with its text.
+        /// The error of its text.
         error: crate::number::NumberError,
     },
     /// A fraction cannot hold a square root.
@@ -24,7 +24,7 @@ pub enum Error {
     Irrational {
         /// The quantity that needs the root.
         quantity: &'static str,
-        /// What stands under the root.
+        /// The number under the root.
         square: String,
     },
     /// A question about a time that the history does not reach.
@@ -42,7 +42,7 @@ pub enum Error {
         found: String,
         /// The end of the history.
         end: String,
-        /// Why it is the end, as the history's ending prints it.
+        /// The reason why it is the end, as the history's ending prints it.
         ending: String,
     },
     /// A question about a time after the last one that fractions reach.
@@ -85,7 +85,7 @@ pub enum Error {
         /// The time at which it was passed.
         time: f64,
     },
-    /// Where the first contact has no closed form, strong damping takes too many cells.
+    /// Damping so strong that a first contact without a closed form takes too many cells.
     #[error(
         "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not \
          be wider than the waves reach; a uniform start on the ground under a free top has no such limit"
@@ -108,13 +108,13 @@ pub enum Error {
     /// An accuracy outside of its range.
     #[error("found accuracy {found}, expected one between 1e-300 and 0.1")]
     Accuracy {
-        /// What was asked for.
+        /// The number that was asked for.
         found: f64,
     },
     /// No digits, or absurdly many.
     #[error("found {found} digits asked for, expected 1 to {most}")]
     Digits {
-        /// What was asked for.
+        /// The number that was asked for.
         found: u32,
         /// The most that is given.
         most: u32,
@@ -131,20 +131,20 @@ pub enum Error {
          expected a run that ends before them"
     )]
     Undecided {
-        /// What was asked for.
+        /// The number that was asked for.
         digits: u32,
-        /// What was tried.
+        /// The number of bits that was tried.
         bits: u32,
     },
-    /// More bits would be needed than are worth trying.
+    /// Digits that the greatest number of bits does not settle.
     #[error(
         "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or certified ones, \
         which come with exact roots"
     )]
     Unsettled {
-        /// What was asked for.
+        /// The number that was asked for.
         digits: u32,
-        /// What was tried.
+        /// The number of bits that was tried.
         bits: u32,
     },
     /// The rays of a damped rod.
@@ -153,7 +153,7 @@ pub enum Error {
     /// A grid for averages or projections.
     #[error("found {found}, expected a grid of two points or more that increase")]
     Grid {
-        /// What is no grid.
+        /// The points, in words.
         found: String,
     },
     /// The travelling waves of a damped rod.
@@ -164,7 +164,7 @@ pub enum Error {
     NoContact {
         /// Its number.
         contact: usize,
-        /// How many there are.
+        /// The number of contacts.
         found: usize,
     },
     /// A start or a top for which the first contact has no closed form.
@@ -178,7 +178,7 @@ pub enum Error {
     Derivative {
         /// The value by which it was to be taken.
         parameter: &'static str,
-        /// What there would have to be.
+        /// A problem or numbers that have it, in words.
         expected: &'static str,
     },
     /// The observer of a run ended it.
@@ -190,7 +190,7 @@ pub enum Error {
     /// A question that this many bits do not settle.
     #[error("with {bits} bits it is not decided {what}; expected more bits")]
     NotDecided {
-        /// What is not decided.
+        /// The question that is open.
         what: &'static str,
         /// The bits of the enclosures.
         bits: u32,
@@ -204,7 +204,7 @@ impl Error {
     }
 }
 
-/// What is wrong with a problem: which value, what was found and what was expected.
+/// Error of a problem: the value, what was found and what was expected.
 ///
 /// ```
 /// use dalembert::Problem;
@@ -218,18 +218,18 @@ impl Error {
 #[error("found {found}, expected {expected}")]
 #[non_exhaustive]
 pub struct ProblemError {
-    /// Which rule the problem breaks.
+    /// The rule that the problem breaks.
     pub kind: ProblemErrorKind,
     /// The value, or the table that lacks one, as a scene file has it: `impact.speed`, `start.velocity[3].x`, `rod`.
     /// It is empty where neither an impact nor a profile is given.
     pub path: String,
-    /// What was found, the offending value included.
+    /// Description of the value that was found.
     pub found: String,
-    /// What was expected in its place.
+    /// Description of a value that is accepted.
     pub expected: String,
 }
 
-/// Which rule a problem, or the scene that it is read from, breaks.
+/// A rule that a problem, or the scene that it is read from, breaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ProblemErrorKind {

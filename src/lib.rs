@@ -40,22 +40,19 @@
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
-//! A history in fractions is asked at fractions: `exact.at("1/2".parse()?, "1".parse()?)?`. [`History::text`] is a
-//! number with the digits that were asked for. An [`Interval`] has its ends, `lo()` and `hi()`, and `{}` prints the
-//! digits that both prove. [`History::units`] turns strains and values per `ρS` into those of the material.
+//! [`Problem::doubles`], [`Problem::exact`], [`Problem::digits`] and [`Problem::certified`] answer in one number system:
+//! a [`TypedHistory`] in fractions is asked at fractions, `exact.at("1/2".parse()?, "1".parse()?)?`. An [`Interval`] has
+//! its ends, `lo()` and `hi()`, and `{}` prints the digits that both prove.
 //!
 //! The types in daily use stand at the root. The rest of each subject is in its module: [`problem`], [`solve`],
-//! [`quantity`], [`reason`] (why a run ends, and its warnings), [`compare`] (other people's data), [`plot`]. [`engine`]
-//! has the engines by themselves, [`number`] what numbers can do in each system, [`special`] the functions of the
-//! closed forms, [`paper`] the printed formulas.
+//! [`quantity`], [`reason`] (reasons for the end of a run, and warnings). [`engine`] has the engines by themselves,
+//! [`number`] the number systems, [`special`] the functions of the closed forms.
 //!
 //! Equation numbers are those of F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of
 //! Minnesota, August 2016: "the paper" throughout.
 //!
-//! The features `mp` (digits, proved or not, and faster fractions), `cli` (the command), `compare` (what it shares with
-//! the wheel), `svg` (pictures), `npz` (data in NumPy's files) and `plot` (pictures as PNG and PDF) only add to each
-//! other.
+//! The feature `mp` adds digits, proved or not, and faster fractions, with GMP and MPFR.
 
 mod cells;
 pub mod engine;

@@ -13,7 +13,7 @@ use thiserror::Error;
 #[error("found the {kind} `{found}`, expected one of {}{}", .known.join(", "), did_you_mean(.nearest.as_ref()))]
 #[non_exhaustive]
 pub struct UnknownName {
-    /// What was to be named, in one word: `quantity`.
+    /// The kind of the name, in one word: `quantity`.
     pub kind: &'static str,
     /// The name that was found.
     pub found: String,

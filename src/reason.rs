@@ -1,10 +1,10 @@
-//! Why a history ends where it does, and what a user should know of it, as data.
+//! Reasons why a history ends, and warnings, as data.
 
 use thiserror::Error;
 
 use crate::number::Scalar;
 
-/// Why nothing follows the end of a history, or why what follows is not known. Times, speeds and heights are in the
+/// The reason why nothing follows the end of a history, or why it is not known what follows. Times, speeds and heights are in the
 /// units of the problem.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Reason {
@@ -23,40 +23,40 @@ pub enum Reason {
         /// Whether on the ground.
         contact: bool,
     },
-    /// From a time on the ground end swings above the ground without ever reaching it.
+    /// The ground end swings above the ground, from a time on, without ever reaching it.
     #[error(
         "from t = {} on the ground end swings by at most {swing:.3e}, ever less, about a height that is never \
          below {height:.3e}",
         short(.from)
     )]
     StaysAbove {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
         /// A bound of the swing.
         swing: f64,
-        /// What it swings about is never below this height.
+        /// A height that the middle of its swing never falls below.
         height: f64,
     },
-    /// From a time on the waves pull less than the rod presses with at rest.
+    /// The waves pull less, from a time on, than the rod presses with at rest.
     #[error(
         "from t = {} on the waves pull with at most {part:.3} of what the rod presses with at rest, and they \
          never grow",
         short(.from)
     )]
     StaysPressed {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
         /// A bound of the pull, as a part of that pressure.
         part: f64,
     },
-    /// From a time on no part of the rod moves faster than the accuracy resolves.
+    /// No part of the rod moves faster, from a time on, than the accuracy resolves.
     #[error("from t = {} on nothing moves faster than {speed:.1e}, which is within the accuracy{state}", short(.from))]
     Still {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
         /// A bound of all velocities.
         speed: f64,
-        /// What follows from it.
+        /// The state that follows.
         state: StillState,
     },
     /// The next touch is not told from a miss.
@@ -67,7 +67,7 @@ pub enum Reason {
     Touch {
         /// Bits of the numbers.
         bits: u32,
-        /// By how much `v(0,t)` can differ in the round trip that follows.
+        /// Bound of the difference of `v(0,t)` in the round trip that follows.
         spread: f64,
     },
     /// The motion takes more than is computed of it.
@@ -81,12 +81,12 @@ pub enum Reason {
         /// Rays that the rod carries.
         rays: usize,
     },
-    /// More digits than the motion after a damped first contact is computed to.
+    /// Digits beyond those that the motion after a damped first contact is computed to.
     #[error("beyond {0} digits only the first contact is computed, not the flight after it")]
     MostDigits(u32),
 }
 
-/// What follows from a motion below the accuracy.
+/// The state of a motion below the accuracy.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StillState {
     /// The rod stands on the ground and presses as at rest.
@@ -103,7 +103,7 @@ pub enum StillState {
     Open,
 }
 
-/// Why the stress of a first contact never becomes tensile.
+/// The reason why the stress of a first contact never becomes tensile.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum NoBounceReason {
     /// Neither speed nor gravity.
@@ -118,7 +118,7 @@ pub enum NoBounceReason {
     Overdamped {
         /// `R = r t₁`.
         damping_ratio: f64,
-        /// How many times as hard as all others could pull the lowest mode presses at `t₁`.
+        /// Ratio at `t₁` of the pressure of the lowest mode to the greatest pull of all others.
         margin: f64,
     },
     /// The transient can no longer lift what the static stress holds down.
@@ -127,14 +127,14 @@ pub enum NoBounceReason {
          settles under its weight"
     )]
     SettlesUnderWeight {
-        /// From this many round trips on.
+        /// The first round trip at which it holds.
         trips: i64,
         /// A bound of the transient, as a part of the static stress `gL/c²`.
         part: f64,
     },
 }
 
-/// Why neither a bounce nor its absence could be shown.
+/// The reason why neither a bounce nor its absence could be shown.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Doubt {
     /// An impact speed below zero, or a parameter that is not finite.
@@ -149,10 +149,10 @@ pub enum Doubt {
     /// Just after this lattice time the stress may have either sign.
     #[error("just after t = {0} t₁ the stress cannot be told from zero")]
     AtLattice(i64),
-    /// In the cell after this lattice time the stress is below every number that the precision holds.
+    /// The stress in the cell after this lattice time is below every number that the precision holds.
     #[error("between {} t₁ and {} t₁ the stress is below every number that this precision holds", .0, .0 + 1)]
     Faint(i64),
-    /// In the cell after this lattice time rounding reaches so much of the stress.
+    /// Rounding reaches this part of the stress in the cell after this lattice time.
     #[error("between {} t₁ and {} t₁ rounding reaches {:.1e} of the stress", .0, .0 + 1, .1)]
     Rounding(i64, f64),
     /// Near this many round trips the stress may have either sign.
@@ -176,7 +176,7 @@ pub enum Doubt {
     NoneFound(i64),
 }
 
-/// What a user should know of an answer beside its numbers. Times are in the units of the problem.
+/// A warning that comes with an answer. Times are in the units of the problem.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Warning {
     /// The bound does not tell whether something happens at the ground; later bounds hold either way.
@@ -186,11 +186,11 @@ pub enum Warning {
         .time.decimal(12)
     )]
     NotTold {
-        /// At this time.
+        /// The time.
         time: f64,
-        /// What may happen.
+        /// The event that may happen.
         what: Near,
-        /// By how much velocities may differ from then on.
+        /// Bound of the difference of velocities after it.
         differ: f64,
     },
     /// A time that was asked for is not told from that of an event or a ray; its values cover both sides.
@@ -202,13 +202,13 @@ pub enum Warning {
     /// The bound of the error no longer tells events apart.
     #[error("from t = {from} on the bound of the error no longer tells events apart")]
     EventsOverlap {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
     },
     /// Events are not determined in the numbers that were asked for.
     #[error("from t = {} on, the events are not determined in this precision: ask for more digits", short(.from))]
     NotDetermined {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
     },
     /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
@@ -218,7 +218,7 @@ pub enum Warning {
         if cfg!(feature = "mp") { "" } else { ": a build with long numbers decides" }
     )]
     Coincidence {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
     },
     /// Hops that are not told apart from contact, or touches from flight; the peak of a contact leaves out what lasts
@@ -229,17 +229,17 @@ pub enum Warning {
         if *.landings == 1 { "landing" } else { "landings" }
     )]
     HopsUnresolved {
-        /// From this time on.
+        /// The first time at which it holds.
         from: f64,
-        /// How long each of them may be at most.
+        /// Upper bound on their duration.
         longest: f64,
-        /// How many landings they may belong to.
+        /// Number of landings that they may belong to.
         landings: usize,
     },
     /// Digits of a damped rod in more bits than its runs are proved in.
     #[error("these digits rest on an estimated bound: runs of a damped rod are proved in up to {most} bits")]
     NotProved {
-        /// So many bits.
+        /// The greatest number of bits.
         most: u32,
     },
     /// A fall from `drop_height` that the damping would not let become so fast.
@@ -255,9 +255,38 @@ pub enum Warning {
         /// `g/2r`.
         terminal: f64,
     },
+    /// Damping that acts on the flights more than gravity does.
+    #[error(
+        "the damping 2r v_t acts on the whole rod, in flight as drag: {}; damping of the material, which leaves \
+         flights alone, is not solved",
+        match .terminal {
+            Some(terminal) => format!(
+                "the impact speed {} is above g/2r = {}, the greatest speed of a fall", .speed.decimal(3), terminal.decimal(3)
+            ),
+            None => format!("without gravity, it stops a rod at the speed {} within {}", .speed.decimal(3), .reach.decimal(3)),
+        }
+    )]
+    DragDominates {
+        /// `μ`, the speed at the first touch.
+        speed: f64,
+        /// `g/2r`; `None` without gravity.
+        terminal: Option<f64>,
+        /// `μ/2r`: the way after which drag alone stops the rod.
+        reach: f64,
+    },
+    /// Strains of a material that the theory does not hold for.
+    #[error(
+        "the strain reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
+         modulus and density, such as GPa in place of Pa",
+        .strain.decimal(3)
+    )]
+    StrainAboveOne {
+        /// The greatest `|v_x|` that is known.
+        strain: f64,
+    },
 }
 
-/// What the bound of an error does not tell.
+/// An event that the bound of an error does not decide.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum Near {
     /// Whether the end, which comes as close to the ground as its bound, touches it.

@@ -4,7 +4,7 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// How many threads work at the same time.
+/// The number of threads that work at the same time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Threads(NonZero<usize>);
 
@@ -67,7 +67,7 @@ impl Threads {
     }
 }
 
-/// What is kept is replaced whole: what a panic left behind is as good as any.
+/// Locks a value that is only ever replaced whole, so that a panic leaves it usable.
 pub(crate) fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
     kept.lock().unwrap_or_else(PoisonError::into_inner)
 }

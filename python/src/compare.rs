@@ -92,7 +92,9 @@ impl Comparison {
     fn new(py: Python<'_>, problem: &Problem, data: Vec<Data<'_>>, given: &Bound<'_, PyDict>) -> PyResult<Self> {
         let options = options(given)?;
         let source = |data: Data<'_>| match data.arrays {
-            Some(arrays) => Ok(Source::arrays(&data.name, data.columns, arrays.into_iter().map(column).collect())),
+            Some(arrays) => {
+                Ok(Source::from_columns(&data.name, data.columns, arrays.into_iter().map(column).collect()))
+            }
             None => Source::open(Path::new(&data.name)).map_err(refuse),
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
@@ -120,7 +122,7 @@ impl Comparison {
     fn failures(&self, above: Vec<String>, below: Vec<String>) -> PyResult<Vec<String>> {
         let parsed = |limits: &[String]| limits.iter().map(|limit| limit.parse()).collect::<Result<Vec<Limit>, _>>();
         let mut limits = parsed(&above).map_err(refuse)?;
-        limits.extend(parsed(&below).map_err(refuse)?.into_iter().map(Limit::turned));
+        limits.extend(parsed(&below).map_err(refuse)?.into_iter().map(Limit::into_minimum));
         let outcomes = self.compared.outcomes(&limits).map_err(refuse)?;
         Ok(outcomes.iter().filter(|outcome| outcome.failure.is_some()).map(ToString::to_string).collect())
     }

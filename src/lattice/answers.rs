@@ -1,4 +1,4 @@
-//! What is answered of an undamped history; its events and contacts in the units of the scene.
+//! Answers to questions about an undamped history, in the units of the scene.
 
 use super::history::{Centre, Moment, Trip, Undamped};
 use super::parts::{self, Parted};
@@ -12,7 +12,7 @@ use crate::motion::{
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
 
-/// More pieces than this are no function to be written into a program.
+/// Maximum number of pieces of [`Waves`]: a longer function is of no use in another program.
 const MOST_PIECES: usize = 1_000_000;
 
 impl<N: Bounded> Motion<N> for Undamped<N> {
@@ -69,7 +69,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         }
         let (trip, unit) = (self.last_trip(&moment, time)?, velocity.square() * length);
         if pair == Pair::EnergyParts {
-            // On the rod `v_t = (p + q)/2` and `c v_x = (q − p)/2`, whose breaks are those of both.
+            // The breaks of `v_t = (p + q)/2` and `c v_x = (q − p)/2` are the breaks of both invariants.
             return Ok(self.squares(&trip)?.map(|part| part * &unit));
         }
         let Centre { height, rate } = self.centre_at(&trip)?;
@@ -98,7 +98,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         let (below, above) = (self.shifted(&moment, &-height.clone())?, self.shifted(&moment, &height)?);
         let p = self.p_at(&below, side)? - &lift;
         let p_before = self.p_at(&Moment { index: above.index - 1, ..above }, side)?;
-        // The recursion holds for values as it does for lines.
+        // The recursion holds for values as well as for lines.
         let zero = height.zero();
         let q = self.ground.trace.returned(Line { intercept: p_before, slope: zero }).intercept + &lift;
         let v = self.height_at(&self.place(&moment, Side::Left)?) + self.stretched(&moment, &height)?;
@@ -109,7 +109,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         })
     }
 
-    /// From the stretches of each time, on which both are linear.
+    /// Evaluates the stretches of each time, on which velocity and strain are linear.
     fn rates(&self, points: &[N], times: &[N]) -> Result<Vec<[N; 2]>, Error> {
         let mut rates = Vec::with_capacity(points.len() * times.len());
         for time in times {
@@ -117,7 +117,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
             let mut k = 0;
             for point in points {
                 self.check(point)?;
-                // What lies at the edge of two stretches within rounding is the end of the lower one.
+                // A point that rounding does not tell from the edge of two stretches belongs to the lower stretch.
                 while k + 1 < stretches.len() && stretches[k + 1].from.below(point) == Ok(true) {
                     k += 1;
                 }
@@ -188,7 +188,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(cells)
     }
 
-    /// What is at the top has left the ground half a round trip before.
+    /// Compares the pieces at the ground now and half a round trip ago, when the ray now at the top left it.
     fn may_jump(&self, time: &N) -> Result<bool, Error> {
         let now = self.locate(time)?;
         let before = self.shifted(&now, &-now.age.one().halved())?;
@@ -201,8 +201,8 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
         Ok(false)
     }
 
-    /// With `p` of the ground trace, `v_t − c v_x` is `p(t − x/c) − g x/c`, and `v_t + c v_x` is
-    /// `±p(t + x/c − t₁) + g x/c`, less `g t₁` under a free top, which half of it in each `p` stands for.
+    /// Builds the pieces of `P` and the polynomial from the ground trace `p`: `v_t − c v_x = p(t − x/c) − g x/c`, and
+    /// `v_t + c v_x = ±p(t + x/c − t₁) + g x/c`, less `g t₁` under a free top. Each `P′` subtracts half of that `g t₁`.
     fn waves(&self) -> Result<Waves<N>, Error> {
         let Units { round_trip, velocity, wave_speed, length } = &self.problem.units;
         let trace = &self.ground.trace;
@@ -238,7 +238,7 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
                 return Err(Error::TooManyPieces { limit: MOST_PIECES, time });
             }
         }
-        // g itself, from that of the lattice.
+        // `g` in the units of the scene; the lattice gravity is 1 or 0.
         let curvature = self.problem.gravity.clone() * velocity / round_trip / wave_speed.square();
         let start = self.problem.ground_start.clone() * velocity * round_trip;
         let zero = velocity.zero();
@@ -311,7 +311,7 @@ impl<N: Bounded> Undamped<N> {
         Ok(events)
     }
 
-    /// The place of an event, and from the left.
+    /// Returns the place of an event as the limit from the right and from the left.
     fn places(&self, event: &GroundEvent<N>) -> [Place<N>; 2] {
         let (index, piece, age) = (event.trip + 1, event.piece, event.age.clone());
         let before = self.ground.trace.place_before(index, piece, &age);
@@ -324,8 +324,8 @@ impl<N: Bounded> Undamped<N> {
         self.centre_at(&Trip { ends: [a_trip_before, until], at_event: true })
     }
 
-    /// The centre at the next event of the same round trip: under a free top `h″ = −(c²/L) v_x(0,t) − g`. Started
-    /// afresh in every round trip, this costs a piece once and adds no more than one trip's roundings.
+    /// Computes the centre at the next event of the same round trip: under a free top `h″ = −(c²/L) v_x(0,t) − g`. The
+    /// sum starts anew in every round trip, so it visits each piece once and adds the roundings of one trip only.
     fn centre_later(&self, before: &GroundEvent<N>, centre: Centre<N>, event: &GroundEvent<N>) -> Centre<N> {
         let width = event.age.clone() - &before.age;
         let fall = self.problem.gravity.clone() * &width;
@@ -368,7 +368,7 @@ impl<N: Bounded> Undamped<N> {
         if outside { Err(Error::PointOutside { found: point.text(), length: length.text() }) } else { Ok(()) }
     }
 
-    /// The stress from the beginning of a piece of `trip` to a moment; `None` where that is no time within the bounds.
+    /// Returns the stress from the beginning of a piece of `trip` to a moment; `None` if it is empty within the bounds.
     fn stress_piece(&self, from: &Piece<N>, trip: usize, to: &Moment<N>) -> Option<StressPiece<N>> {
         let Units { wave_speed, velocity, .. } = &self.problem.units;
         let end = to.age.int(to.index as i64 - 1 - trip as i64) + &to.age;
@@ -387,7 +387,7 @@ impl<N: Bounded> Undamped<N> {
     }
 }
 
-/// Whether `piece` of `trip` continues `from` of trip `begun`: the same line (or flight in both).
+/// Returns whether `piece` of `trip` continues `from` of trip `begun`: the same line in contact, or flight in both.
 fn continues<N: Bounded>(from: &Piece<N>, begun: usize, piece: &Piece<N>, trip: usize) -> bool {
     if !from.contact || !piece.contact {
         return from.contact == piece.contact;

@@ -1,18 +1,18 @@
-//! The contact law and the events, from break to break.
+//! Contact law and events, from break to break.
 //!
-//! At the ground `v(0,·)` is the reflection at zero of `∫ q dt`: whenever the end touches, the sign of `q` just after
-//! decides, `q > 0` (or `q = 0` and rising) is flight and everything else is contact. A landing with no speed that `q`
-//! presses on is therefore a contact, one that `q` lifts off again is a graze and no event.
+//! At the ground `v(0,·)` is `∫ q dt` reflected at zero. Whenever the end touches, the sign of `q` just after decides:
+//! `q > 0` (or `q = 0` and rising) is flight, everything else is contact. A landing without speed is therefore a
+//! contact if `q` presses the end down, and a graze without an event if `q` lifts it off again.
 //!
-//! A coincidence (a touch at a break, a line that goes on behind one) is equality: within the bound, for an estimate.
-//! It is allowed to take numbers for equal that may not be, because `v` depends continuously on such a choice, and it
-//! keeps slivers from multiplying. The height that is taken for zero keeps its bound; that a touch at a break may truly
-//! come a little before or behind it is counted in the time of the event, but not in the age of the break, which the
-//! ray alone sets.
+//! Estimates that are equal within their bounds count as a coincidence: a touch at a break, a line that continues
+//! behind a break. Treating such numbers as equal is allowed because `v` depends continuously on that choice, and it
+//! keeps slivers from multiplying. A height that is set to zero keeps its bound. A touch at a break may truly happen a
+//! little before or after the break: the time of the event carries this error, the age of the break does not, because
+//! the ray alone determines it.
 //!
-//! Ages stand in the formulas as they are stored. A break that truly lies elsewhere in its bound moves the height by
-//! its jump of `v_t` times how far it is off ([`Bounded::cross_break`]), and so does the age of a release the flight
-//! after it.
+//! Formulas use the stored ages. If the true age of a break differs from the stored one within its bound, the height
+//! changes by the jump of `v_t` times that difference ([`Bounded::cross_break`]). The age of a release affects the
+//! flight after it in the same way.
 
 use std::cmp::Ordering;
 
@@ -21,27 +21,27 @@ use super::trace::{GroundEvent, Line, Piece, at_deviating, place_to};
 use crate::motion::{Ending, EventKind};
 use crate::number::{Bounded, Open};
 
-/// What arrives at the ground between two breaks, `from … to`.
+/// The wave that arrives at the ground between two consecutive breaks, `from … to`.
 #[derive(Clone)]
 pub(super) struct Stretch<N> {
-    /// The pieces of the trip before that come back.
+    /// Pieces of the previous trip that return here.
     incoming: std::ops::Range<usize>,
     from: N,
     to: N,
     /// `q`.
     line: Line<N>,
-    /// At `from`.
+    /// `q(from)`.
     q: N,
-    /// At `to`.
+    /// `q(to)`.
     q_end: N,
-    /// Both as multiples of gravity, where they are known as such, see [`Piece`].
+    /// `q(from)` and `q(to)` as exact multiples of gravity where these are known, see [`Piece`].
     knots: [Option<i64>; 2],
 }
 
 impl<N: Bounded> March<'_, N> {
-    /// The sign of `x`. Where it is zero only within a bound that is wider than half of the digits of the greatest
-    /// value, it is not determined: the stored value decides, which is as good as any, and so it may be with every
-    /// event from here on.
+    /// Returns the sign of `x`. If `x` is zero within its bound but that bound exceeds half of the digits of the
+    /// greatest value, the sign is undetermined: the stored value decides arbitrarily, and the march records that no
+    /// event from here on is determined.
     fn sign(&mut self, x: &N) -> Result<Ordering, Open> {
         let sign = x.sign()?;
         if sign.is_ne() || x.roundoffs() <= self.half_digits * self.greatest_height {
@@ -52,18 +52,18 @@ impl<N: Bounded> March<'_, N> {
         x.clone().nominal().sign()
     }
 
-    /// Takes numbers for equal that are so within their bounds, where the motion depends on which is the greater one.
+    /// Records that numbers equal only within their bounds were taken as equal, where the motion depends on it.
     fn coincide(&mut self) {
         let trip = self.trip_number();
         self.coincidence.get_or_insert(trip);
     }
 
-    /// The round trip that is marched, from 0.
+    /// Returns the number of the current round trip, from 0.
     fn trip_number(&self) -> usize {
         self.trace.trips() - 1
     }
 
-    /// One round trip: everything that left the ground in the one before comes back.
+    /// Marches one round trip: everything that left the ground in the previous trip returns.
     pub(super) fn trip(&mut self) -> Result<(), Halt<N>> {
         let before = self.trace.trips();
         self.trace.begin_trip();
@@ -86,8 +86,8 @@ impl<N: Bounded> March<'_, N> {
         Ok(())
     }
 
-    /// The stretch that begins where piece `first` comes back, as far as the time asked for. Returns the piece after
-    /// it.
+    /// Processes the stretch that begins where piece `first` returns, or the part of it before the final time. Returns
+    /// the index of the piece after the stretch.
     fn next_stretch(&mut self, first: usize, end: usize, fallen: Option<&N>) -> Result<usize, Stop<N>> {
         let mut stretch = self.arriving(first, end, fallen);
         let next = stretch.incoming.end;
@@ -97,7 +97,7 @@ impl<N: Bounded> March<'_, N> {
         };
         let halt = Halt { trip: self.trip_number(), age: stop.clone(), ending: Ending::Time };
         if place_to(&stop, &stretch.from)?.is_le() {
-            // What comes after the last time is its limit from the right.
+            // The piece after the final time supplies the limit from the right.
             self.meet_break(&stretch)?;
             self.leave(&stretch.from, &stretch.line, None);
         } else if place_to(&stop, &stretch.to)?.is_lt() {
@@ -114,7 +114,7 @@ impl<N: Bounded> March<'_, N> {
         Err(Stop::Halt(halt))
     }
 
-    /// What arrives where piece `first` comes back, `fallen` lower, with all pieces after it whose line it continues.
+    /// Builds the stretch that begins where piece `first` returns, `fallen` lower, with all pieces that continue it.
     fn arriving(&self, first: usize, end: usize, fallen: Option<&N>) -> Stretch<N> {
         let pieces = &self.trace.pieces()[..end];
         let (from, mut line) = (pieces[first].age.clone(), pieces[first].line.clone());
@@ -136,7 +136,7 @@ impl<N: Bounded> March<'_, N> {
         Stretch { incoming: first..next, from, to, line, q, q_end, knots: [first, next].map(knot) }
     }
 
-    /// Contact and flight in one stretch, with the events between them.
+    /// Processes contact and flight in one stretch, with all events inside.
     fn follow(&mut self, stretch: Stretch<N>) -> Result<(), Stop<N>> {
         let changed = self.meet_break(&stretch)?;
         self.leave(&stretch.from, &stretch.line, stretch.knots[0].filter(|knot| !changed || *knot == 0));
@@ -150,20 +150,19 @@ impl<N: Bounded> March<'_, N> {
             };
             (self.height, self.touches) = (self.zero.clone(), true);
             if contact {
-                // Zero by the choice of its age, which the line that is stored may miss by its bound.
+                // `q` is zero by the choice of the age; the stored line may differ from zero by its bound.
                 q = stretch.line.value_at_stored(&age).taken_for_zero();
                 self.record(EventKind::Release, age.clone(), q.zero(), &stretch)?;
             } else {
                 self.record(EventKind::Impact, age.clone(), stretch.line.value_at(&age), &stretch)?;
             }
-            // The release is where q vanishes.
+            // `q` vanishes at a release.
             self.leave(&age, &stretch.line, contact.then_some(0));
             from = age;
         }
     }
 
-    /// Contact or flight behind the break at which `stretch` begins, if the end touches there. Returns whether that
-    /// changes.
+    /// Decides on contact or flight if the end touches at the beginning of `stretch`. Returns whether that changes.
     fn meet_break(&mut self, stretch: &Stretch<N>) -> Result<bool, Stop<N>> {
         let Stretch { from, q, line, .. } = stretch;
         let early = self.early.take();
@@ -174,8 +173,8 @@ impl<N: Bounded> March<'_, N> {
         };
         let equal = sign == Some(Ordering::Equal) && q.roundoffs() > 0.0 && stretch.knots[0].is_none();
         if early.is_some() || equal {
-            // A release at a root, or a landing with speed, is the same on both sides of a break at which q is
-            // continuous; so is a release where the ray brings the zero of a rising q.
+            // A release at a root and a landing with speed come out alike on both sides of a break where q is
+            // continuous. The same holds for a release where the ray carries the zero of a rising q.
             let either_side = match sign {
                 Some(Ordering::Equal) => self.contact && line.slope.positive()?,
                 Some(Ordering::Less) => !self.contact && (q.clone() - &self.arriving_q).vanishes()?,
@@ -200,7 +199,7 @@ impl<N: Bounded> March<'_, N> {
         }
         let time = early.iter().fold(from.clone(), N::widened);
         let late = time.deviation();
-        // A landing without speed is one because of the ray that arrives with it, whose q presses the end down.
+        // A landing without speed is an impact only if the arriving ray brings a `q` that presses the end down.
         let velocity = if !flight && !self.arriving_q.vanishes()? {
             at_deviating(&self.arriving_q, &self.arriving_slope, late.as_ref())
         } else if sign.is_some_and(Ordering::is_ne) {
@@ -233,18 +232,18 @@ impl<N: Bounded> March<'_, N> {
         Ok(())
     }
 
-    /// What leaves the ground from `age` on: `−q` in contact, `q` in flight; `knot` is q there, as in [`Piece`].
+    /// Stores the piece that leaves from `age` on: `−q` in contact, `q` in flight; `knot` is `q` there, see [`Piece`].
     fn leave(&mut self, age: &N, q: &Line<N>, knot: Option<i64>) {
         let (line, knot) = if self.contact { (-q.clone(), knot.map(|k| -k)) } else { (q.clone(), knot) };
         let of_line = line.intercept.roundoffs() + line.slope.roundoffs();
         self.greatest_height = self.greatest_height.max(self.height.to_f64());
         let relative = f64::max(of_line / self.greatest_speed, self.height.roundoffs() / self.greatest_height);
-        // No number has more digits to lose than all.
+        // The error is capped at all digits of a number.
         self.relative_error = self.relative_error.max(relative.min(self.half_digits * self.half_digits));
         self.trace.push(Piece { age: age.clone(), line, height: self.height.clone(), contact: self.contact, knot });
     }
 
-    /// The release inside a stretch of contact: the root of `q`.
+    /// Returns the release inside a stretch of contact: the root of `q`.
     fn release_in(&mut self, Stretch { to, line, q_end, knots, .. }: &Stretch<N>) -> Result<Option<N>, Open> {
         let sign = match knots[1] {
             Some(knot) => knot.cmp(&0),
@@ -257,23 +256,23 @@ impl<N: Bounded> March<'_, N> {
         if self.sign(&(age.clone() - to))?.is_lt() {
             return Ok(Some(age));
         }
-        // At the break, as far as the bounds tell: what comes after it decides.
+        // The release coincides with the break within the bounds: `meet_break` decides with the next stretch.
         self.early = q_end.root_deviation(&line.slope, &self.zero);
         Ok(None)
     }
 
-    /// The landing inside a stretch of flight that stands at `from`: the first root of `v = height + q s + slope s²/2`.
-    /// Without one, leaves the height at the end of the stretch.
+    /// Returns the landing inside a stretch of flight from `from` on: the first root of
+    /// `v = height + q s + slope s²/2`. Without a landing, sets the height to that at the end of the stretch.
     fn landing_in(&mut self, from: &N, q: &N, stretch: &Stretch<N>) -> Result<Option<N>, Stop<N>> {
         let Stretch { to, line: Line { slope, .. }, q_end, .. } = stretch;
         let width = to.clone().minus_stored(from);
         let end = (q.clone() + q_end).halved() * width + &self.height;
-        // Where the break may be.
+        // The height at the end, widened by the deviation of the break.
         let at_end = match to.deviation() {
             Some(late) => self.sign(&(late * q_end + &end))?,
             None => self.sign(&end)?,
         };
-        // The least height lies inside where v turns from falling to rising.
+        // The least height lies inside the stretch if v turns from falling to rising there.
         let dips = !self.touches && slope.positive()? && q.negative()? && q_end.positive()?;
         let root = if at_end.is_lt() || dips { self.first_root(at_end, from, q, slope)? } else { None };
         self.touches = !at_end.is_gt();
@@ -281,7 +280,7 @@ impl<N: Bounded> March<'_, N> {
             if self.sign(&(age.clone() - to))?.is_lt() {
                 return Ok(Some(age));
             }
-            // At the break, as far as the bounds tell: what comes after it decides.
+            // The landing coincides with the break within the bounds: `meet_break` decides with the next stretch.
             self.touches = true;
         }
         self.height = if self.touches { end.taken_for_zero() } else { end };
@@ -291,8 +290,8 @@ impl<N: Bounded> March<'_, N> {
         Ok(None)
     }
 
-    /// The first root of `height + q s + slope s²/2`, if the signs prove that there is one: below zero at the end, or a
-    /// dip.
+    /// Returns the first root of `height + q s + slope s²/2` if the signs prove that it exists: the height is negative
+    /// at the end, or it dips below zero before.
     fn first_root(&mut self, at_end: Ordering, from: &N, q: &N, slope: &N) -> Result<Option<N>, Stop<N>> {
         let disc = q.square() - (slope.clone() * &self.height).doubled();
         if at_end.is_ge() {
@@ -309,8 +308,8 @@ impl<N: Bounded> March<'_, N> {
             let (age, ending) = before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc])?;
             return Err(Stop::Halt(Halt { trip, age, ending }));
         };
-        // Of the two forms of the root, the one that adds; where enclosures carry the exact number, the one without a
-        // quotient by a root keeps it.
+        // Each form of the root adds terms of one sign. The form without a quotient by a root keeps the exact number
+        // of enclosures.
         let flown = if q.positive()? {
             (q.clone() + &root) / (-slope.clone())
         } else {
@@ -321,24 +320,24 @@ impl<N: Bounded> March<'_, N> {
     }
 }
 
-/// Everything before an irrational landing is exact; the history ends at a fraction just below it.
+/// Returns a fraction just below an irrational landing, up to which the history is exact, and the ending with the surd.
 fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
     let scale = unit.clone() / slope;
     let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
     let (later, square) = (slope.negative()?, scale.square() * disc);
     let time = rational.surd(later, &square);
-    // A step of Newton's makes of the 53 bits of a root twice as many.
+    // One Newton step doubles the 53 correct bits of the root.
     let root = square.double(square.to_f64().sqrt());
     let root = (root.clone() + square / &root).halved();
     let near = (if later { rational + root } else { rational - root }).to_f64();
     let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
     let flown = (-q - disc.sqrt()) / slope;
-    // A short fraction where one fits between the beginning of the piece and the root.
+    // Prefer a short fraction if one fits between the beginning of the piece and the root.
     let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
     let short = from.int(ticks as i64) / from.int(MILLION);
     let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
     Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
 }
 
-/// Parts of a round trip to which the end of an exact history is rounded down.
+/// Number of parts of a round trip to which the end of an exact history is rounded down.
 const MILLION: i64 = 1_000_000;

@@ -1,4 +1,4 @@
-//! The history of an undamped rod, and where its times lie on the lattice.
+//! The history of an undamped rod, and the positions of its times on the lattice.
 
 use std::ops::ControlFlow;
 
@@ -11,10 +11,9 @@ use crate::number::{Bounded, Open};
 use crate::problem::{Problem, Run, Top};
 use crate::reason::Warning;
 
-/// The history of an undamped rod: [`crate::engine::Motion`] by the ground trace of the upward invariant.
+/// The history of an undamped rod. It implements [`crate::engine::Motion`] by the ground trace of the upward invariant.
 ///
-/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise each number within the bound that it
-/// carries.
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bound* that each number carries.
 #[derive(Clone, Debug)]
 pub struct Undamped<N> {
     pub(super) problem: Scaled<N>,
@@ -30,11 +29,11 @@ pub(super) struct Moment<N> {
     pub(super) age: N,
 }
 
-/// The round trip up to a moment.
+/// The round trip that ends at a moment.
 pub(super) struct Trip<N> {
-    /// Where it begins, and where it ends from the left.
+    /// Its beginning, and its end as the limit from the left.
     pub(super) ends: [Place<N>; 2],
-    /// Whether the moment is an event's own, and not only one that is not told from it.
+    /// Whether the moment is the event's own time, not merely one that is indistinguishable from it.
     pub(super) at_event: bool,
 }
 
@@ -45,7 +44,7 @@ pub(super) struct Centre<N> {
 }
 
 impl<N: Bounded> Undamped<N> {
-    /// The history of `problem`, whose damping is ignored; a [`Plan`](crate::Plan) chooses the engine.
+    /// Computes the history of `problem` without its damping; a [`Plan`](crate::Plan) chooses the engine.
     ///
     /// **Errors**: [`Error::Irrational`], [`Error::TooManyPieces`], [`Error::Open`].
     ///
@@ -64,7 +63,8 @@ impl<N: Bounded> Undamped<N> {
         Self::solve_within(problem, precision, Limits::default(), &unobserved)
     }
 
-    /// [`Undamped::solve`] with a limit of one's own; for `observe` see [`crate::solve::Observer`].
+    /// Computes the history as [`Undamped::solve`] does, with given limits; for `observe` see
+    /// [`crate::solve::Observer`].
     pub fn solve_within(
         problem: &Problem,
         precision: &N::Precision,
@@ -74,7 +74,7 @@ impl<N: Bounded> Undamped<N> {
         Self::solve_scaled(Scaled::of(problem, precision)?, &problem.run, limits, observe)
     }
 
-    /// [`Undamped::solve_within`] of a problem in its own units.
+    /// Computes the history as [`Undamped::solve_within`] does, for a problem in lattice units.
     pub(crate) fn solve_scaled(
         scaled: Scaled<N>,
         run: &Run,
@@ -93,7 +93,7 @@ impl<N: Bounded> Undamped<N> {
         };
         let ground = march(&scaled, &until, limits, observe)?;
         let (trips, Halt { trip, age, ending }) = (ground.trace.trips(), ground.halt.clone());
-        // The stored trips end where the next begins: the last instant that is known.
+        // The history may halt beyond the stored trips; then it ends with the last stored trip.
         let beyond = trip >= trips && ending != Ending::Time;
         let end = if beyond { Moment { index: trips, age: age.one() } } else { Moment { index: trip + 1, age } };
         let course = Course::new(time_of(&end, &scaled.units.round_trip), ending);
@@ -111,18 +111,18 @@ impl<N: Bounded> Undamped<N> {
         Ok(history)
     }
 
-    /// The motion of the ground end: pieces and events, in lattice units.
+    /// Returns the motion of the ground end: pieces and events, in lattice units.
     pub fn ground(&self) -> &GroundMotion<N> {
         &self.ground
     }
 
-    /// The time from which events are not determined in this precision; `None` where all are.
+    /// Returns the time from which this precision does not determine the events; `None` if it determines all.
     pub fn undetermined_from(&self) -> Option<f64> {
         self.ground.undetermined.map(|trip| self.beginning(trip))
     }
 
-    /// Whether `exact` has the same pieces and events, one by one: then what this history took for equal is equal, and
-    /// it no longer warns of that.
+    /// Returns whether `exact` has the same pieces and events, one by one. If so, all coincidences of this history are
+    /// exact, and the warning of a coincidence is removed.
     pub fn confirm<M: Bounded>(&mut self, exact: &Undamped<M>) -> bool {
         let pieces = |ours: &[Piece<N>], theirs: &[Piece<M>]| {
             ours.len() == theirs.len() && ours.iter().zip(theirs).all(|(a, b)| a.contact == b.contact)
@@ -145,7 +145,7 @@ impl<N: Bounded> Undamped<N> {
         same
     }
 
-    /// When a round trip begins.
+    /// Returns the time at which a round trip begins.
     fn beginning(&self, trip: usize) -> f64 {
         trip as f64 * self.problem.units.round_trip.to_f64()
     }
@@ -154,11 +154,11 @@ impl<N: Bounded> Undamped<N> {
         time_of(moment, &self.problem.units.round_trip)
     }
 
-    /// Where `time` lies.
+    /// Returns the round trip and the age of `time`.
     pub(super) fn locate(&self, time: &N) -> Result<Moment<N>, Error> {
         let outside = || Error::TimeOutside { found: time.text(), end: self.course.end.text() };
         let Some((trip, age)) = trip_and_age(time, &self.problem.units) else {
-            // An enclosure that two round trips share is not outside for that.
+            // An enclosure that overlaps two round trips is undecided, not outside.
             let inside = !time.negative()? && !self.course.end.below(time)?;
             return Err(if inside { Error::Open(Open) } else { outside() });
         };
@@ -171,12 +171,12 @@ impl<N: Bounded> Undamped<N> {
         if moment.index < end.index || (moment.index == end.index && !end.age.below(&moment.age)?) {
             return Ok(moment);
         }
-        // The end of a whole trip is the beginning of the next.
+        // The end of a whole trip is the beginning of the next trip.
         let whole = moment.index == end.index + 1 && moment.age.vanishes()?;
         if whole && !end.age.below(&end.age.one())? { Ok(end.clone()) } else { Err(outside()) }
     }
 
-    /// `by` earlier (if negative) or later, less than one round trip.
+    /// Returns the moment shifted by `by`: earlier if negative, later if positive, by less than one round trip.
     pub(super) fn shifted(&self, moment: &Moment<N>, by: &N) -> Result<Moment<N>, Open> {
         let (age, one) = (moment.age.clone() + by, by.one());
         Ok(if age.negative()? {
@@ -192,15 +192,15 @@ impl<N: Bounded> Undamped<N> {
         self.ground.trace.place(moment.index, &moment.age, side)
     }
 
-    /// `p` at a moment, from the asked side.
+    /// Returns `p` at a moment, as the limit from the given side.
     pub(super) fn p_at(&self, moment: &Moment<N>, side: Side) -> Result<N, Open> {
         let place = self.place(moment, side)?;
         Ok(self.ground.trace.piece(&place).line.value_at(&place.age))
     }
 
-    /// `v(0,t)` in lattice units, at the end of a window.
+    /// Returns `v(0,t)` in lattice units at the end of a window.
     pub(super) fn height_at(&self, place: &Place<N>) -> N {
-        // At the very start there is no piece before.
+        // No piece precedes the start.
         if place.index == 0 {
             return self.problem.ground_start.clone();
         }
@@ -213,7 +213,7 @@ impl<N: Bounded> Undamped<N> {
         piece.height + rise * &age
     }
 
-    /// `∫ p` from one moment to another.
+    /// Returns `∫ p` from one moment to another.
     fn integral(&self, from: &Moment<N>, until: &Moment<N>) -> Result<N, Open> {
         let (mut sum, summed) = (from.age.zero(), self.summed(from.index));
         let (from, until) = (self.place(from, Side::Right)?, self.place(until, Side::Left)?);
@@ -223,8 +223,8 @@ impl<N: Bounded> Undamped<N> {
         Ok(sum)
     }
 
-    /// `v` at `x = 2LX` less `v(0,t)`, in lattice units: `½ ∫ (q − p) dX`, where `p` has come up since, and what comes
-    /// down until then has left the ground a round trip before.
+    /// Returns `v(x,t) − v(0,t)` at `x = 2LX` in lattice units: `½ ∫ (q − p) dX`. The upward wave `p` left the ground
+    /// since `t − x/c`; the downward wave left it one round trip before it returns there, up to `t + x/c`.
     pub(super) fn stretched(&self, moment: &Moment<N>, height: &N) -> Result<N, Open> {
         let gravity = &self.problem.gravity;
         let earlier = Moment { index: moment.index - 1, age: moment.age.clone() };
@@ -237,15 +237,15 @@ impl<N: Bounded> Undamped<N> {
         Ok((down - up + gravity.clone() * height.square()).halved())
     }
 
-    /// What sums over this round trip take of its parts.
+    /// Returns the map that drops exact numbers from the parts of this round trip if the trip has many pieces.
     fn summed(&self, index: usize) -> fn(Part<N>) -> Part<N> {
         if self.ground.trace.slice(index).len() <= MANY_PARTS { |part| part } else { Part::without_exact }
     }
 
-    /// What travels in the rod at the end of a window of one round trip: with `s` from 0 to 1 back from there,
-    /// `w(s) = value − g s`, where `w` is `p` at `x = 2Ls` for `s < ½` and `q` at `x = 2L(1 − s)` behind the top.
+    /// Visits the waves in the rod at the end of a window of one round trip. With `s` from 0 to 1 backwards from there,
+    /// `w(s) = value − g s`: `w` is `p` at `x = 2Ls` for `s < ½`, and `q` at `x = 2L(1 − s)` behind the top.
     ///
-    /// **Source**: the delay recursion; gravity takes `g s` from what left the ground `s` ago.
+    /// **Source**: the delay recursion; gravity subtracts `g s` from the wave that left the ground `s` ago.
     pub(super) fn visit_rod(&self, trip: &Trip<N>, visit: &mut dyn FnMut(Part<N>)) -> Result<(), Open> {
         let (trace, [from, until]) = (&self.ground.trace, &trip.ends);
         let summed = self.summed(until.index);
@@ -255,14 +255,14 @@ impl<N: Bounded> Undamped<N> {
                 trace.window_from(from, until, self.edge(trip, from, Side::Right), &mut |part| visit(summed(part)));
             }
         }
-        // The break at the ground that may come before the end of the window.
+        // The break at the ground that may precede the end of the window.
         if let Some(edge) = self.edge(trip, until, Side::Left) {
             visit(summed(Part { offset: until.age.one(), ..edge }));
         }
         Ok(())
     }
 
-    /// The same with the parts cut at the top, and whether each is on its way up.
+    /// Visits the same parts as [`Undamped::visit_rod`], cut at the top, with a flag that is true on the way up.
     pub(super) fn visit_ways(&self, trip: &Trip<N>, visit: &mut dyn FnMut(bool, Part<N>)) -> Result<(), Open> {
         let (trace, [from, until]) = (&self.ground.trace, &trip.ends);
         let summed = self.summed(until.index);
@@ -284,18 +284,18 @@ impl<N: Bounded> Undamped<N> {
         Ok(())
     }
 
-    /// [`Trace::edge`](super::trace::Trace::edge) of a part of a round trip; an event's own moment misses nothing.
+    /// Returns [`Trace::edge`](super::trace::Trace::edge) of a part of a round trip; an event's own moment needs none.
     pub(super) fn edge(&self, trip: &Trip<N>, place: &Place<N>, side: Side) -> Option<Part<N>> {
         if trip.at_event { None } else { self.ground.trace.edge(place, side) }
     }
 
-    /// The round trip up to a moment, which is that of `time`.
+    /// Returns the round trip that ends at `moment`, the position of `time`.
     pub(super) fn last_trip(&self, moment: &Moment<N>, time: &N) -> Result<Trip<N>, Open> {
         let from = self.ground.trace.place(moment.index - 1, &moment.age, Side::Right)?;
         Ok(Trip { ends: [from, self.place(moment, Side::Left)?], at_event: self.is_event(time) })
     }
 
-    /// Whether a time is an event's own. One that was spelled stands for itself.
+    /// Returns whether a time is the time of an event. A spelled number stands for itself and never is.
     fn is_event(&self, time: &N) -> bool {
         let events = &self.course.events;
         let first = events.partition_point(|event| event.t.below(time) == Ok(true));
@@ -303,10 +303,10 @@ impl<N: Bounded> Undamped<N> {
         time.spelled_as().is_none() && near.into_iter().any(|event| event.t.alike(time))
     }
 
-    /// `h`, `h′` in lattice units at the end of a round trip.
+    /// Computes `h` and `h′` in lattice units at the end of a round trip.
     ///
     /// **Source**: with `w` of [`Undamped::visit_rod`] and times in round trips, `h′ = ∫ w ds` and
-    /// `h = v(0,t) + ∫ (s − ½) value ds − g/12`, from `v_x` integrated from the ground up.
+    /// `h = v(0,t) + ∫ (s − ½) value ds − g/12`, because `v_x` is integrated from the ground up.
     pub(super) fn centre_at(&self, trip: &Trip<N>) -> Result<Centre<N>, Open> {
         let gravity = &self.problem.gravity;
         let half = gravity.one().halved();
@@ -326,12 +326,12 @@ fn time_of<N: Bounded>(moment: &Moment<N>, round_trip: &N) -> N {
     (trips + &moment.age) * round_trip
 }
 
-/// The round trip, from 0, and the age in it; `None` before the start or beyond counting.
+/// Returns the round trip, from 0, and the age in it; `None` before the start or where the trip number overflows.
 fn trip_and_age<N: Bounded>(time: &N, units: &Units<N>) -> Option<(usize, N)> {
     let age = time.clone() / &units.round_trip;
     let trip = age.floor_int()?;
     Some((usize::try_from(trip).ok()?, age.clone() - age.int(trip)))
 }
 
-/// Round trips of more pieces are summed without exact numbers.
+/// Round trips with more pieces than this are summed without exact numbers.
 const MANY_PARTS: usize = 32;

@@ -1,4 +1,4 @@
-//! The march: how far it goes and why it ends, round trip after round trip. The contact law itself is in `ground`.
+//! The march over round trips: its limits, its state and its ending. `ground` holds the contact law.
 
 use std::ops::ControlFlow;
 
@@ -10,40 +10,40 @@ use crate::number::{Bounded, Open};
 use crate::problem::{Parameters, Problem, Top};
 use crate::reason::Reason;
 
-/// More round trips than this are not left out at once: their number must fit the arithmetic.
+/// Maximum number of round trips skipped at once; the arithmetic of trip numbers stays in range.
 const MOST_LEAPT: usize = if usize::BITS < 64 { usize::MAX >> 2 } else { usize::MAX >> 12 };
 
-/// How much a march may take.
+/// Limits of a march.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// The greatest number of pieces that is stored.
+    /// Maximum number of stored pieces.
     pub pieces: usize,
-    /// The first round trip that will be asked about: what is two trips older is forgotten on the way.
+    /// The first round trip that will be queried; until then the march keeps only the last two stored trips.
     pub keep_from: usize,
 }
 
 impl Limits {
-    /// Forgets what no question about `time` or later needs.
+    /// Returns limits that drop all that queries about `time` or later do not need.
     pub fn keeping_from(problem: &Problem, time: f64) -> Self {
         let trips = Parameters::<f64>::of(problem, &()).map_or(0.0, |rod| time / rod.round_trip());
-        // One trip more, in case a rounding puts the time into it.
+        // One trip is subtracted, in case rounding moves the time into the next trip.
         Limits { keep_from: (trips.clamp(1.0, 1e15) - 1.0) as usize, ..Limits::default() }
     }
 }
 
 impl Default for Limits {
-    /// Ten million pieces: under a gigabyte in double precision.
+    /// Returns a limit of ten million pieces: under a gigabyte in double precision.
     fn default() -> Self {
         Limits { pieces: 10_000_000, keep_from: 0 }
     }
 }
 
-/// How far to march.
+/// End condition of a march.
 #[derive(Clone, Debug)]
 pub enum Until<N> {
-    /// Through this many contacts, each with the flight after it.
+    /// This many contacts, each with the flight after it.
     Contacts(u32),
-    /// To this age of this round trip, included.
+    /// This age of this round trip, included.
     Time {
         /// The round trip, from 0.
         trip: usize,
@@ -52,22 +52,22 @@ pub enum Until<N> {
     },
 }
 
-/// Where a march ended, and why.
+/// Position and reason of the end of a march.
 #[derive(Clone, Debug)]
 pub struct Halt<N> {
     /// The round trip, from 0.
     pub trip: usize,
     /// The age in it.
     pub age: N,
-    /// Why. What is there before an open comparison or an irrational landing holds.
+    /// The reason. Everything before an undecided comparison or an irrational landing is valid.
     pub ending: Ending,
 }
 
-/// What ends the march inside of a stretch.
+/// Reason to end the march inside a stretch.
 pub(super) enum Stop<N> {
-    /// An open comparison.
+    /// An undecided comparison.
     Open,
-    /// Anything else.
+    /// Any other ending.
     Halt(Halt<N>),
 }
 
@@ -77,29 +77,27 @@ impl<N> From<Open> for Stop<N> {
     }
 }
 
-/// The motion of the ground end: what a march leaves.
+/// The motion of the ground end: the result of a march.
 #[derive(Clone, Debug)]
 pub struct GroundMotion<N> {
     /// The ground trace.
     pub trace: Trace<N>,
     /// Impacts and releases.
     pub events: Vec<GroundEvent<N>>,
-    /// Where it ended, and why.
+    /// Position and reason of the end.
     pub halt: Halt<N>,
-    /// How often the end landed, forgotten landings included.
+    /// Number of contacts, dropped ones included.
     pub contacts: u32,
-    /// The greatest error bound of any line, relative to the greatest speed of the start, and of any height, relative
-    /// to the greatest height, in roundoffs.
+    /// The greatest error bound in roundoffs: of any line, relative to the greatest speed of the start, or of any
+    /// height, relative to the greatest height.
     pub relative_error: f64,
-    /// The round trip in which a decision first lay within a bound of more than half of the digits: from there on,
-    /// events are not determined.
+    /// The first round trip with a decision whose bound exceeds half of the digits: later events are undetermined.
     pub undetermined: Option<usize>,
-    /// The first round trip in which two events, or an event and a break, were taken for one that are so only within
-    /// their bounds.
+    /// The first round trip in which two events, or an event and a break, are one only within their bounds.
     pub coincidence: Option<usize>,
 }
 
-/// The march, where it stands.
+/// The state of the march.
 pub(super) struct March<'a, N> {
     pub(super) problem: &'a Scaled<N>,
     pub(super) trace: Trace<N>,
@@ -109,12 +107,12 @@ pub(super) struct March<'a, N> {
     pub(super) contacts: u32,
     /// `v(0,·)`.
     pub(super) height: N,
-    /// Whether that is zero, in contact or not.
+    /// Whether `v(0,·)` is zero, in contact or not.
     pub(super) touches: bool,
     /// `q` and its slope just before the break.
     pub(super) arriving_q: N,
     pub(super) arriving_slope: N,
-    /// How far the touch at the break may be off in time.
+    /// Deviation in time of a touch at the break.
     pub(super) early: Option<N>,
     pub(super) relative_error: f64,
     pub(super) undetermined: Option<usize>,
@@ -122,18 +120,18 @@ pub(super) struct March<'a, N> {
     /// `u^{−1/2}`: half of the digits, in roundoffs.
     pub(super) half_digits: f64,
     pub(super) greatest_speed: f64,
-    /// At least `greatest_speed`, which is what a round trip lifts.
+    /// The greatest height, but at least `greatest_speed`: the height gained at that speed in one round trip.
     pub(super) greatest_height: f64,
     pub(super) zero: N,
 }
 
-/// Marches `problem` over round trip after round trip. `observe` receives the trips, or the contacts where so many are
-/// asked for, and the number of pieces, and may end the march.
+/// Marches `problem` over round trip after round trip. `observe` receives the number of trips, or of contacts if
+/// [`Until::Contacts`] is given, and the number of pieces. It may end the march.
 ///
-/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise within the bounds that the numbers carry.
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bounds* that the numbers carry.
 ///
-/// **Errors**: [`Error::TooManyPieces`]; [`Error::Interrupted`] by `observe`; [`Error::Open`] where not even the start
-/// is settled.
+/// **Errors**: [`Error::TooManyPieces`]; [`Error::Interrupted`] by `observe`; [`Error::Open`] if an enclosure leaves
+/// open whether the rod touches the ground at the start.
 pub fn march<N: Bounded>(
     problem: &Scaled<N>,
     until: &Until<N>,
@@ -188,7 +186,7 @@ pub fn march<N: Bounded>(
             forgotten += old;
             state.events.drain(..old);
         }
-        // A leap wants a rise of two units.
+        // A leap requires a rise of at least two units.
         if quiet && !state.contact && state.height.to_f64() - height.to_f64() >= 2.0 {
             trip += state.leap(trip);
         }
@@ -209,18 +207,18 @@ pub fn march<N: Bounded>(
 }
 
 impl<N: Bounded> March<'_, N> {
-    /// The end before a comparison that is open at or after this age; solutions that go on from there may be `spread`
-    /// apart, in lattice units.
+    /// Builds the halt before an undecided comparison at or after this age. Solutions that continue from there may
+    /// differ by `spread`, in lattice units.
     pub(super) fn open(&self, trip: usize, age: &N, spread: f64) -> Halt<N> {
         let Units { velocity, round_trip, .. } = &self.problem.units;
         let spread = spread * (velocity.clone() * round_trip).to_f64();
         let ending = Ending::Undecided(Reason::Touch { bits: age.bits().unwrap_or(0), spread });
-        // What began before the age that is not known is known.
+        // Everything before the beginning of the trip is known even if the age is not.
         Halt { trip, age: if age.is_finite() { age.clone() } else { age.zero() }, ending }
     }
 
-    /// Two round trips without an event repeat for ever, up to the drift of a rod that flies freely without gravity;
-    /// `height` is that of a trip before.
+    /// Returns the final halt if the motion repeats for ever: after two round trips without an event it does, up to the
+    /// drift of a rod that flies freely without gravity. `height` is the height one trip before.
     fn repeats(&self, height: &N) -> Result<Option<Halt<N>>, Open> {
         let why = Reason::Repeats { contact: self.contact };
         let ending = if self.contact {
@@ -233,12 +231,12 @@ impl<N: Bounded> March<'_, N> {
         Ok(Some(Halt { trip: self.trace.trips(), age: self.zero.clone(), ending }))
     }
 
-    /// Leaves out round trips of a long flight under gravity that only repeat the one before `trip`: as many as end
-    /// surely in flight. Returns how many.
+    /// Skips round trips of a long flight under gravity that repeat trip `trip` up to the fall: as many as surely end
+    /// in flight. Returns the number of skipped trips.
     ///
-    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, `v ≥
-    /// 0`: a concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One trip is kept
-    /// in hand, for the rounding of `D` to a double too.
+    /// With `D = ∫ q dt` over that trip, `v(0,·)` at age `f` is `v + j (D − f − (j − 1)/2)` after `j` more trips, with
+    /// `v ≥ 0`. This is a concave function of `j`, positive up to `k` for every `f ≤ 1` if `D − 1 − (k − 1)/2 > 0`. One
+    /// trip is kept in reserve, which also covers the rounding of `D` to a double.
     fn leap(&mut self, trip: usize) -> usize {
         if !self.trace.falls_freely() {
             return 0;
@@ -253,10 +251,10 @@ impl<N: Bounded> March<'_, N> {
         if trips < 2 {
             return 0;
         }
-        // At the beginning of the next trip, j trips after that of this one: v + j (D − 1 − (j − 1)/2).
+        // The beginning of the next trip is j trips after that of this one: v + j (D − 1 − (j − 1)/2).
         let j = rise.int(trips as i64);
         let lift = (rise.clone() - &one - (j.clone() - &one).halved()) * &j;
-        // The top of the flight is among what is left out: D²/2.
+        // The skipped part includes the highest point of the flight: D²/2.
         self.greatest_height = self.greatest_height.max(rise.to_f64() * rise.to_f64() / 2.0);
         self.height = self.height.clone() + lift;
         self.arriving_q = self.arriving_q.clone() - &j;

@@ -1,7 +1,7 @@
-//! The undamped rod: rays, jumps and contact on the characteristic lattice, exactly.
+//! The undamped rod: rays, jumps and contact on the characteristic lattice.
 //!
 //! Without damping the Riemann invariants `p = v_t − c v_x` (upward) and `q = v_t + c v_x` (downward) travel unchanged
-//! but for gravity, so the whole solution is the trace of `p` at the ground and a delay recursion:
+//! except for gravity. The whole solution is therefore the trace of `p` at the ground and a delay recursion:
 //!
 //! ```text
 //! q(0,t) =  p(0,t−t₁) − g t₁   free top          contact:  v_t = 0,  p = −q,  v_x = q/c ≤ 0
@@ -9,15 +9,14 @@
 //! ```
 //!
 //! `p` is piecewise linear. A break at age `f` of one round trip returns at the same age of every later one, so it is
-//! kept as that fraction and never drifts. There is no time step: the march goes from break to break and from event to
-//! event.
+//! stored as that fraction and never drifts. There is no time step: the march goes from break to break and from event
+//! to event.
 //!
-//! All of it is written on numbers that answer for their own error ([`crate::number::Bounded`]): estimates, fractions
-//! and enclosures.
+//! The code is generic over [`crate::number::Bounded`]: estimates, fractions and enclosures.
 //!
-//! Reading order: `start` (units and start), `trace` (what is stored), `march`
-//! (trip after trip), `ground` (contact law and events), `history` (times on the lattice), `answers` (what
-//! can be asked), `parts` (kinetic and strain energy apart).
+//! Reading order: `start` (units and initial data), `trace` (stored pieces), `march` (trip after trip), `ground`
+//! (contact law and events), `history` (times on the lattice), `answers` (queries), `parts` (kinetic and strain
+//! energy).
 
 mod answers;
 mod ground;

@@ -1,4 +1,4 @@
-//! The kinetic and the strain energy apart: what goes up meets what comes down.
+//! Kinetic and strain energy: the upward and the downward wave combined at each point of the rod.
 
 use std::cmp::Ordering;
 
@@ -12,26 +12,26 @@ use crate::number::{Bounded, Open};
 /// A stretch of the rod on which both invariants are linear.
 struct Both<N> {
     width: N,
-    /// `(p + q)/2` and `(q − p)/2` where it begins, and their slopes.
+    /// `(p + q)/2` and `(q − p)/2` at its lower end, and their slopes.
     values: [N; 2],
     slopes: [N; 2],
-    /// Jumps across its beginning, each with the deviation in place.
+    /// Jumps across its lower end, each with the deviation of its place.
     shifts: Vec<(N, N)>,
 }
 
-/// A jump that may lie elsewhere than where it is taken to be.
+/// A jump whose place is known only within a bound.
 pub(super) struct Shift<N> {
-    /// Where it is.
+    /// Its place.
     at: N,
-    /// Zero, within what `∫ |v_t| dx` and `∫ |v_x| dx` are off by that.
+    /// Zero, within the errors that the uncertain place causes in `∫ |v_t| dx` and `∫ |v_x| dx`.
     off: [N; 2],
 }
 
-/// The rod in stretches, and the jumps between them that may lie elsewhere.
+/// The stretches of the rod, and the jumps between them whose places are uncertain.
 pub(super) type Parted<N> = (Vec<Stretch<N>>, Vec<Shift<N>>);
 
-/// The moments of the cells between `points`, within what `shifts` make of them: v_x that lies elsewhere moves all that
-/// is above it.
+/// Widens the moments of the cells between `points` by the effect of `shifts`. An error in the place of a jump of `v_x`
+/// moves all of the rod above it.
 pub(super) fn widened<N: Bounded>(cells: &mut [Moments<N>], shifts: &[Shift<N>], points: &[N]) {
     let (Some(first), Some(point)) = (shifts.first(), points.first()) else { return };
     let (mut rest, mut below) = (shifts, first.off[1].zero());
@@ -54,7 +54,7 @@ pub(super) fn widened<N: Bounded>(cells: &mut [Moments<N>], shifts: &[Shift<N>],
 }
 
 impl<N: Bounded> Undamped<N> {
-    /// `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, in parts of `2L`.
+    /// Computes `∫ ((p + q)/2)²` and `∫ ((q − p)/2)²` over the rod at the end of a round trip, in units of `2L`.
     pub(super) fn squares(&self, trip: &Trip<N>) -> Result<[N; 2], Open> {
         let zero = self.problem.gravity.zero();
         let mut sums = [zero.clone(), zero.clone()];
@@ -64,7 +64,7 @@ impl<N: Bounded> Undamped<N> {
                 let (offset, width) = (zero.clone(), both.width.clone());
                 let part = Part { offset, width, value, slope, shift: None, late_end: None };
                 let mut area = part.square_integral();
-                // [f²] is at most (2|f| + |[f]|) |[f]|; only its size matters, as the deviation has no sign.
+                // `[f²]` is at most `(2|f| + |[f]|) |[f]|`; only its size matters because the deviation has no sign.
                 for (jump, late) in &both.shifts {
                     let jump = jump.clone().halved().magnitude();
                     area = area + (reach.clone() + &jump) * jump * late;
@@ -75,8 +75,8 @@ impl<N: Bounded> Undamped<N> {
         Ok(sums)
     }
 
-    /// The rod at a moment, in the units of the scene, with the jumps between its stretches that may lie elsewhere;
-    /// `height` is `v(0,t)`.
+    /// Returns the rod at a moment, in the units of the scene, and the jumps between its stretches whose places are
+    /// uncertain. `height` is `v(0,t)`.
     pub(super) fn stretches_at(&self, trip: &Trip<N>, height: N) -> Result<Parted<N>, Open> {
         let Units { velocity, length, wave_speed, .. } = &self.problem.units;
         let twice = length.clone().doubled();
@@ -110,13 +110,13 @@ impl<N: Bounded> Undamped<N> {
         let (gravity, one) = (&self.problem.gravity, until.age.one());
         let (mut down, mut up) = (Vec::new(), Vec::new());
         self.visit_ways(trip, &mut |rises, part| {
-            // w of `visit_rod`.
+            // The value is w of `visit_rod`.
             let value = part.value - gravity.clone() * (one.clone() - &part.offset);
             let part = Part { value, slope: part.slope + gravity, ..part };
             (if rises { &mut up } else { &mut down }).push(part);
         })?;
-        // What goes up is met from its last part on: x falls with the age, and a jump is across the other end; that
-        // of the last part is at the ground, that of the first at the top.
+        // The upward parts run in order of x from the last one on: x falls as the age grows, and a jump then lies
+        // across the other end. The jump of the last part is at the ground, that of the first at the top.
         let mut edges = up.iter_mut().map(|part| part.shift.take()).collect::<Vec<_>>();
         edges.push(self.edge(trip, until, Side::Left).and_then(|edge| edge.shift));
         let at_top = edges.remove(0);
@@ -134,17 +134,17 @@ impl<N: Bounded> Undamped<N> {
     }
 }
 
-/// `(p + q)/2` and `(q − p)/2`.
+/// Returns `(p + q)/2` and `(q − p)/2`.
 fn halves<N: Bounded>(p: &N, q: &N) -> [N; 2] {
     [(q.clone() + p).halved(), (q.clone() - p).halved()]
 }
 
-/// Two lists in the order of x that end together, cut where either is.
+/// Visits the common refinement of two lists of parts in the order of x that end together.
 fn join<N: Bounded>(up: Vec<Part<N>>, down: Vec<Part<N>>, visit: &mut dyn FnMut(Both<N>)) -> Result<(), Open> {
     let (mut up, mut down) = (up.into_iter(), down.into_iter());
     let (mut p, mut q) = (up.next(), down.next());
     while let (Some(rising), Some(falling)) = (p, q) {
-        // Both lists end at the top, whatever is known of their widths.
+        // Both lists end at the top, even if their widths differ within their bounds.
         let last = up.as_slice().is_empty() && down.as_slice().is_empty();
         let order = if last { Ordering::Equal } else { rising.width.compare(&falling.width)? };
         let width = if order.is_le() { rising.width.clone() } else { falling.width.clone() };

@@ -1,11 +1,11 @@
-//! The problem in its own units: one round trip, and the speed that gravity gives in it.
+//! The problem in lattice units: the round trip, and the speed that gravity produces in it.
 
 use crate::error::Error;
 use crate::motion::{AtStart, Segment};
 use crate::number::{Bounded, Open};
 use crate::problem::{Parameters, Problem, Start, Top};
 
-/// The units in which the lattice computes: with them a break returns after exactly 1, and gravity is 1 or 0.
+/// The units of the lattice. In these units a break returns after exactly 1, and gravity is 1 or 0.
 #[derive(Clone, Debug)]
 pub struct Units<N> {
     /// The unit of time, `t₁ = 2L/c`.
@@ -21,25 +21,25 @@ pub struct Units<N> {
 /// The undamped problem in [`Units`].
 #[derive(Clone, Debug)]
 pub struct Scaled<N> {
-    /// What the units are.
+    /// The units, in the numbers of the scene.
     pub units: Units<N>,
     /// Gravity: 1 or 0.
     pub gravity: N,
     /// The end `x = L`.
     pub top: Top,
-    /// The data, in the units of the problem.
+    /// The initial data, in the units of the scene.
     pub(crate) data: AtStart<N>,
     /// `v(0,0)`.
     pub ground_start: N,
     /// `v_t(0,0)`.
     pub ground_velocity: N,
-    /// The trace of `p` at the ground that, one round trip before the start, would have sent what the rod carries at
+    /// The trace of `p` at the ground during the round trip before the start that would produce the state of the rod at
     /// `t = 0`: `(age, value, slope)` in order of the age, the first at 0.
     pub before: Vec<(N, N, N)>,
 }
 
 impl<N: Bounded> Scaled<N> {
-    /// `problem` in the units of its own lattice.
+    /// Converts `problem` to lattice units.
     ///
     /// **Source**: `q(0,t) = q₀(ct) − g t` until `L/c` and, reflected at the top, `p₀(2L − ct)` after it.
     ///
@@ -51,7 +51,7 @@ impl<N: Bounded> Scaled<N> {
         Self::with(problem, &given, AtStart::of(problem, &given))
     }
 
-    /// The same with these numbers in place of those of `problem`.
+    /// Converts `problem` with `given` and `data` in place of its own numbers.
     pub(crate) fn with(problem: &Problem, given: &Parameters<N>, data: AtStart<N>) -> Result<Self, Error> {
         let round_trip = given.round_trip();
         let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
@@ -79,13 +79,13 @@ impl<N: Bounded> Scaled<N> {
         Ok(Scaled { units, gravity, top, data, ground_start, ground_velocity, before })
     }
 
-    /// The greatest of the speeds at the start and of 1, in lattice units.
+    /// Returns the greatest of 1 and the magnitudes of [`Scaled::before`] at its breaks, in lattice units.
     pub fn greatest_speed(&self) -> f64 {
         self.before.iter().map(|(_, p, _)| p.to_f64().abs()).fold(1.0, f64::max)
     }
 }
 
-/// The greatest of the speeds `v_t` and `c v_x`, or `c` where all are zero.
+/// Returns the greatest of `|v_t|` and `c |v_x|`, or `c` if all are zero.
 fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result<N, Open> {
     let mut greatest = wave_speed.zero();
     for Segment { velocities: [va, vb], strain, .. } in segments {
@@ -96,12 +96,12 @@ fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result
     Ok(if greatest.vanishes()? { wave_speed.clone() } else { greatest })
 }
 
-/// [`Scaled::before`]: `q₀` arrives on the first half of the trip, `p₀` on the second, after the reflection at the top.
+/// Builds [`Scaled::before`]: `q₀` arrives in the first half of the trip, `p₀`, reflected at the top, in the second.
 fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, top: Top) -> Vec<(N, N, N)> {
     let one = units.length.one();
     let twice = units.length.clone().doubled();
     let piece = |(up, Segment { ends: [a, b], velocities: [va, vb], strain }): (bool, &Segment<N>)| {
-        // q₀ at f = x/2L; p₀ at f = 1 − x/2L, from the top downwards.
+        // q₀ arrives at f = x/2L; p₀ arrives at f = 1 − x/2L, from the top downwards.
         let stretch = strain.clone() * &units.wave_speed;
         let place = |x: &N| if up { one.clone() - x.clone() / &twice } else { x.clone() / &twice };
         let wave = |v: &N| if up { v.clone() - &stretch } else { v.clone() + &stretch } / &units.velocity;
@@ -109,7 +109,7 @@ fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, to
         let [first, second] = ends;
         let ((from, value), (to, last)) = if up { (second, first) } else { (first, second) };
         let slope = (last - &value) / (to - &from);
-        // The fixed top sends −q₀ + g f where the free one sends q₀ + g (1 − f); p₀ is sent with g (1 − f) by both.
+        // The fixed top requires −q₀ + g f, the free top q₀ + g (1 − f); p₀ requires g (1 − f) in both cases.
         let (value, slope) = match top {
             Top::Fixed if !up => (gravity.clone() * &from - value, gravity.clone() - slope),
             _ => (value + gravity.clone() * (one.clone() - &from), slope - gravity),

@@ -1,4 +1,4 @@
-//! What the march stores: the upward invariant `p` at the ground, piece by piece.
+//! The stored upward invariant `p` at the ground, piece by piece.
 
 use std::cmp::Ordering;
 
@@ -7,35 +7,35 @@ use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
 
-/// `intercept + slope·f` at age `f`.
+/// A line `intercept + slope·f` in the age `f`.
 ///
-/// The intercept is all that a round trip changes: it only ever turns its sign and falls by gravity, so events leave no
-/// rounding in it, and it stays a fraction between events at irrational times.
+/// A round trip changes only the intercept: it flips the sign or subtracts gravity. Events therefore leave no rounding
+/// in the intercept, and it remains a fraction between events at irrational times.
 #[derive(Clone, Debug)]
 pub struct Line<N> {
-    /// The value where the line passes age 0.
+    /// The value at age 0, extrapolated.
     pub intercept: N,
     /// The rate of change.
     pub slope: N,
 }
 
 impl<N: Bounded> Line<N> {
-    /// The value at `age`.
+    /// Returns the value at `age`.
     pub fn value_at(&self, age: &N) -> N {
         self.slope.clone() * age + &self.intercept
     }
 
-    /// The value at the stored `age`.
+    /// Returns the value at the stored `age`, without the error of the age.
     pub(super) fn value_at_stored(&self, age: &N) -> N {
         self.slope.clone().times_stored(age) + &self.intercept
     }
 
-    /// One line for two that are the same within their bounds.
+    /// Merges two lines that agree within their bounds.
     pub(super) fn joined(self, other: &Self) -> Self {
         Line { intercept: self.intercept.joined(&other.intercept), slope: self.slope.joined(&other.slope) }
     }
 
-    /// Whether both are surely one line, or one within their bounds.
+    /// Returns whether both lines are proved equal, or agree within their bounds.
     pub(super) fn same(&self, other: &Self) -> bool {
         self.slope.same(&other.slope) && self.intercept.same(&other.intercept)
     }
@@ -48,34 +48,34 @@ impl<N: Bounded> std::ops::Neg for Line<N> {
     }
 }
 
-/// A stretch of the ground trace on which `p` is linear and nothing happens.
+/// A stretch of the ground trace on which `p` is linear, without break or event.
 #[derive(Clone, Debug)]
 pub struct Piece<N> {
-    /// Where it begins, as an age in its round trip.
+    /// Its beginning, as an age in its round trip.
     pub age: N,
     /// `p`.
     pub line: Line<N>,
     /// `v(0,·)` at its stored beginning.
     pub height: N,
-    /// Whether the end stands on the ground.
+    /// Whether the end is in contact with the ground.
     pub contact: bool,
-    /// `p` at its beginning as a multiple of gravity, where it began as the zero of a release without a ray and has no
-    /// jump: this is exact. The value of the line at the age is not, as each has its own error.
+    /// `p` at its beginning as an exact multiple of gravity, if the break started as the zero of a release without a
+    /// ray and carries no jump. The value of the line at the age is not exact: line and age have separate errors.
     pub(super) knot: Option<i64>,
 }
 
 /// A change between contact and flight, in lattice units.
 #[derive(Clone, Debug)]
 pub struct GroundEvent<N> {
-    /// Landing or leaving.
+    /// Impact or release.
     pub kind: EventKind,
     /// The round trip in which it happens.
     pub trip: usize,
     /// The age in it.
     pub age: N,
-    /// The number of the piece of this trip that begins with it.
+    /// The index of the piece of this trip that begins with it.
     pub piece: usize,
-    /// The number of the piece of the trip before that comes back meanwhile.
+    /// The index of the piece of the trip before that returns at this age.
     pub incoming: usize,
     /// `v_t(0,·)` just before an impact, just after a release; see [`crate::motion::Event`].
     pub end_velocity: N,
@@ -85,7 +85,7 @@ pub struct GroundEvent<N> {
 #[derive(Clone, Debug)]
 pub struct Trace<N> {
     pieces: Vec<Piece<N>>,
-    /// The round trips that are stored, the first being the one before the start.
+    /// The stored round trips; the first is the one before the start.
     slots: Vec<Slot<N>>,
     /// The index after the last trip.
     end: usize,
@@ -93,48 +93,47 @@ pub struct Trace<N> {
     gravity: N,
 }
 
-/// A stored round trip, and those after it that only repeat it.
+/// A stored round trip, and the later trips that repeat it.
 ///
-/// In flight under gravity `q` falls by `g = 1` from one trip to the next and nothing else changes. With `D = ∫ q dt`
+/// In flight under gravity `q` falls by `g = 1` from each trip to the next and nothing else changes. With `D = ∫ q dt`
 /// over the stored trip, `j` trips later `p` is lower by `j` and `v(0,·)` at age `f` higher by `j (D − f − (j − 1)/2)`.
 #[derive(Clone, Debug)]
 struct Slot<N> {
-    /// The index of the trip, 0 being the one before the start.
+    /// The index of the trip; 0 is the one before the start.
     first: usize,
-    /// Where it begins in the pieces.
+    /// The index of its first piece.
     start: usize,
-    /// `D`, if trips that repeat this one follow it.
+    /// `D`, if repeating trips follow.
     rise: Option<N>,
 }
 
-/// An age in a trip, with the piece of that trip in which it lies.
+/// An age in a trip, with the piece of that trip that contains it.
 #[derive(Clone, Debug)]
 pub(super) struct Place<N> {
-    /// 0: the trip before the start.
+    /// Index of the trip; 0 is the trip before the start.
     pub(super) index: usize,
     pub(super) piece: usize,
     pub(super) age: N,
 }
 
-/// A part of a piece that lies in a window: `p = value + slope·s` for `0 ≤ s ≤ width`, `offset` after the window's
-/// start.
+/// The part of a piece inside a window, `offset` after its start: `p = value + slope·s` for `0 ≤ s ≤ width`.
 pub(super) struct Part<N> {
     pub(super) offset: N,
     pub(super) width: N,
     pub(super) value: N,
     pub(super) slope: N,
-    /// `[p]` at its beginning, and the deviation of that in age, where it is a break whose age is not known exactly.
+    /// `[p]` at its beginning and the deviation of that age, if a break of uncertain age lies there.
     pub(super) shift: Option<(N, N)>,
     /// The deviation in age of its end.
     pub(super) late_end: Option<N>,
 }
 
-/// An age that is asked for is that of a ray where so many roundings set the two apart, besides its own.
+/// Number of roundings, besides its own error, within which a queried age counts as the age of a ray.
 const ON_A_RAY: f64 = 64.0;
 
-/// How an age that is asked for lies to that of a ray.
+/// Compares a queried age with the age of a ray.
 ///
-/// **Errors**: [`Open`] where the error of the ray's own age alone leaves it open.
+/// **Errors**: [`Open`] if only the error of the ray's own age leaves the order undecided.
 pub(super) fn place_to<N: Bounded>(age: &N, ray: &N) -> Result<Ordering, Open> {
     let order = age.compare(ray)?;
     let own = age.roundoffs() + ON_A_RAY;
@@ -146,26 +145,26 @@ pub(super) fn place_to<N: Bounded>(age: &N, ray: &N) -> Result<Ordering, Open> {
     if roundings > own { Err(Open) } else { Ok(order) }
 }
 
-/// A value where the place that it is taken at may deviate.
+/// Returns a value at a place that may deviate by `late`: it adds `slope · late` to the error.
 pub(super) fn at_deviating<N: Bounded>(value: &N, slope: &N, late: Option<&N>) -> N {
     late.map_or_else(|| value.clone(), |late| late.clone() * slope + value)
 }
 
 impl<N: Bounded> Part<N> {
-    /// `p` at both ends, wherever they are.
+    /// Returns `p` at both ends, within the deviations of their ages.
     pub(super) fn ends(&self) -> [N; 2] {
         let late = self.shift.as_ref().map(|(_, late)| late);
         let end = self.slope.clone() * &self.width + &self.value;
         [at_deviating(&self.value, &self.slope, late), at_deviating(&end, &self.slope, self.late_end.as_ref())]
     }
 
-    /// What is left of it after its first `width`.
+    /// Returns the rest of the part after its first `width`.
     pub(super) fn after(self, width: &N) -> Self {
         let value = self.slope.clone() * width + &self.value;
         Part { width: self.width - width, value, shift: None, ..self }
     }
 
-    /// `∫ p ds`.
+    /// Returns `∫ p ds`.
     pub(super) fn integral(&self) -> N {
         let mean = self.value.clone() + (self.slope.clone() * &self.width).halved();
         let integral = mean * &self.width;
@@ -175,14 +174,14 @@ impl<N: Bounded> Part<N> {
         }
     }
 
-    /// `∫ s p ds`.
+    /// Returns `∫ s p ds`.
     pub(super) fn moment(&self) -> N {
         let rise = self.slope.clone() * &self.width;
         let three = rise.int(3);
         (self.value.clone().halved() + rise / three) * self.width.square()
     }
 
-    /// `∫ p² ds`, as a sum of squares about the middle.
+    /// Computes `∫ p² ds` as a sum of squares about the middle.
     pub(super) fn square_integral(&self) -> N {
         let rise = self.slope.clone() * &self.width;
         let middle = self.value.clone() + rise.clone().halved();
@@ -195,7 +194,7 @@ impl<N: Bounded> Part<N> {
         }
     }
 
-    /// Without exact numbers inside.
+    /// Drops the exact numbers inside the enclosures.
     pub(super) fn without_exact(self) -> Self {
         let Part { offset, width, value, slope, .. } = self;
         let [offset, width, value, slope] = [offset, width, value, slope].map(N::without_exact);
@@ -210,30 +209,30 @@ impl<N: Bounded> Trace<N> {
             let line = Line { intercept, slope: slope.clone() };
             Piece { age: age.clone(), line, height: age.zero(), contact: false, knot: None }
         };
-        // A first contact and its flight fit without growing.
+        // The reserve holds a first contact and its flight without reallocation.
         let mut pieces = Vec::with_capacity(before.len() + 64);
         pieces.extend(before.iter().map(piece));
         Trace { pieces, slots: vec![Slot { first: 0, start: 0, rise: None }], end: 1, top, gravity }
     }
 
-    /// All pieces that are stored, the round trip before the start included.
+    /// Returns all stored pieces, the round trip before the start included.
     pub fn pieces(&self) -> &[Piece<N>] {
         &self.pieces
     }
 
-    /// The stored round trips after the start: number (from 0) and pieces. Between them lie flights that repeat the
-    /// trip before them but for gravity.
+    /// Returns the stored round trips after the start: number (from 0) and pieces. The trips missing between them are
+    /// flights that repeat the previous stored trip up to gravity.
     pub fn stored(&self) -> impl Iterator<Item = (usize, &[Piece<N>])> {
         let after_start = self.slots.iter().enumerate().filter(|(_, slot)| slot.first > 0);
         after_start.map(|(k, slot)| (slot.first - 1, self.pieces_of(k)))
     }
 
-    /// How many round trips there are, the last perhaps in part.
+    /// Returns the number of round trips; the last may be incomplete.
     pub fn trips(&self) -> usize {
         self.end - 1
     }
 
-    /// How many pieces are stored after the start.
+    /// Returns the number of stored pieces after the start.
     pub fn count(&self) -> usize {
         let before = match self.slots.first() {
             Some(slot) if slot.first == 0 => self.slots.get(1).map_or(self.pieces.len(), |slot| slot.start),
@@ -242,12 +241,12 @@ impl<N: Bounded> Trace<N> {
         self.pieces.len() - before
     }
 
-    /// The first trip with another stored before it, which is what questions about it need.
+    /// Returns the first trip that can be queried: a query needs the trip and a stored trip before it.
     pub(super) fn begin(&self) -> usize {
         self.slots.first().map_or(0, |slot| slot.first) + 1
     }
 
-    /// Forgets all but the last two trips that are stored.
+    /// Drops all but the last two stored trips.
     pub(super) fn forget(&mut self) {
         let old = self.slots.len().saturating_sub(2);
         let from = self.slots[old].start;
@@ -263,29 +262,29 @@ impl<N: Bounded> Trace<N> {
         &self.pieces[self.slots[slot].start..to]
     }
 
-    /// The slot that stands for trip `index`, and how many trips after its own that is.
+    /// Returns the slot of trip `index`, and the number of trips between the slot's own trip and `index`.
     fn slot(&self, index: usize) -> (usize, usize) {
         let slot = self.slots.partition_point(|slot| slot.first <= index).max(1) - 1;
         (slot, index - self.slots[slot].first)
     }
 
-    /// The pieces that stand for trip `index`: its own, or those of the trip that it repeats.
+    /// Returns the pieces of trip `index`: its own, or those of the trip that it repeats.
     pub(super) fn slice(&self, index: usize) -> &[Piece<N>] {
         self.pieces_of(self.slot(index).0)
     }
 
-    /// Where the pieces that stand for trip `index` begin.
+    /// Returns the index of the first piece of the slot of trip `index`.
     pub(super) fn start_of(&self, index: usize) -> usize {
         self.slots[self.slot(index).0].start
     }
 
-    /// How far `p` in trip `index` is below the pieces that stand for it, if it is.
+    /// Returns the distance of `p` in trip `index` below the stored pieces, if the trip repeats an earlier one.
     pub(super) fn fallen(&self, index: usize) -> Option<N> {
         let later = self.slot(index).1;
         (later > 0).then(|| self.gravity.int(later as i64))
     }
 
-    /// The piece at `place`, as it is in that trip.
+    /// Returns the piece at `place`, with the fall of a repeated trip applied.
     pub(super) fn piece(&self, place: &Place<N>) -> Piece<N> {
         let (slot, later) = self.slot(place.index);
         let mut piece = self.pieces_of(slot)[place.piece].clone();
@@ -303,7 +302,7 @@ impl<N: Bounded> Trace<N> {
         self.end += 1;
     }
 
-    /// Whether a flight repeats itself but for the fall: gravity and a free top.
+    /// Returns whether a flight repeats up to its fall: gravity and a free top.
     pub(super) fn falls_freely(&self) -> bool {
         self.top == Top::Free && self.gravity.to_f64() > 0.0
     }
@@ -312,7 +311,7 @@ impl<N: Bounded> Trace<N> {
         self.slots.last().map_or(0, |slot| slot.start)
     }
 
-    /// Lets `trips` trips that repeat the last one follow it; `rise` is `∫ q dt` over that one.
+    /// Appends `trips` trips that repeat the last one; `rise` is `∫ q dt` over the last one.
     pub(super) fn repeat(&mut self, rise: N, trips: usize) {
         if let Some(slot) = self.slots.last_mut() {
             slot.rise = Some(rise);
@@ -324,7 +323,7 @@ impl<N: Bounded> Trace<N> {
         self.pieces.push(piece);
     }
 
-    /// Forgets all pieces but the first `count`, and the last trip if nothing is left of it.
+    /// Drops all pieces but the first `count`, and the last trip if no piece of it remains.
     pub(super) fn truncate(&mut self, count: usize) {
         self.pieces.truncate(count);
         if self.slots.last().is_some_and(|slot| slot.start >= count && slot.rise.is_none()) {
@@ -333,11 +332,11 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// How far apart two solutions may be that both go on from here as it is known, in `v(0,·)` and within a round
-    /// trip: as far as the enclosures are wide in which `height`, the lines and the jumps between them lie. The
-    /// reflection at zero does not take two paths further apart than what drives them.
+    /// Bounds the distance, in `v(0,·)` and within one round trip, of two solutions that both continue from the known
+    /// state. It is the width of the enclosures of `height` and of the lines, plus the jumps times the widths of their
+    /// ages: reflection at zero does not increase the distance of two paths beyond that of their driving functions.
     pub(super) fn spread(&self, height: &N) -> f64 {
-        // What has left the ground in this trip, and what the one before still brings.
+        // The trip before still returns; the last trip will.
         let (mut lines, mut jumps) = (0.0f64, 0.0);
         for index in [self.end.saturating_sub(2), self.end - 1] {
             let pieces = self.slice(index);
@@ -349,11 +348,11 @@ impl<N: Bounded> Trace<N> {
                 }
             }
         }
-        // Doubles that were added without looking where they round to.
+        // The factor covers the rounding of these sums of doubles.
         (height.width().to_f64() + lines + jumps) * (1.0 + 1e-9)
     }
 
-    /// `p → q`: what comes back a round trip later.
+    /// Returns `q`, the line that returns one round trip after `p` = `line` has left.
     pub(super) fn returned(&self, line: Line<N>) -> Line<N> {
         match self.top {
             Top::Free => Line { intercept: line.intercept - &self.gravity, ..line },
@@ -361,7 +360,7 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// [`Piece::knot`] of what comes back a round trip later, in trip `index`.
+    /// Returns [`Piece::knot`] of the piece that returns one round trip later, in trip `index`.
     pub(super) fn knot_returned(&self, knot: i64, index: usize) -> i64 {
         match self.top {
             Top::Free if self.falls_freely() => knot - 1 - self.slot(index).1 as i64,
@@ -370,8 +369,8 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// The place of `age` in trip `index` (0: before the start): in the piece that begins there, or from the left in
-    /// the one before it, which may be the last of the trip before.
+    /// Returns the place of `age` in trip `index` (0: before the start): in the piece that begins there, or, from the
+    /// left, in the previous piece, which may be the last of the trip before.
     pub(super) fn place(&self, index: usize, age: &N, side: Side) -> Result<Place<N>, Open> {
         let begun = partition(self.slice(index), |piece| {
             let order = place_to(age, &piece.age)?;
@@ -380,7 +379,7 @@ impl<N: Bounded> Trace<N> {
         Ok(self.place_before(index, begun, age))
     }
 
-    /// The place of the `age` at which a piece begins, from the left.
+    /// Returns the place of the `age` at which a piece begins, as the limit from the left.
     pub(super) fn place_before(&self, index: usize, piece: usize, age: &N) -> Place<N> {
         match (piece, index) {
             (0, 0) => Place { index, piece, age: age.clone() },
@@ -389,8 +388,8 @@ impl<N: Bounded> Trace<N> {
         }
     }
 
-    /// What an end of a window, at `place` from this side, may miss of a break that it is not told from: nothing on the
-    /// one side of the break, on the other `[p]` times how far the two may be apart.
+    /// Returns the possible error of a window that ends or begins at `place` if a break is indistinguishable from that
+    /// place: zero on one side of the break, on the other `[p]` times the possible distance of the two.
     pub(super) fn edge(&self, place: &Place<N>, side: Side) -> Option<Part<N>> {
         let (mut index, mut piece, mut age) = (place.index, place.piece, place.age.clone());
         if side == Side::Left {
@@ -399,7 +398,7 @@ impl<N: Bounded> Trace<N> {
                 (index, piece, age) = (index + 1, 0, age.clone() - age.one());
             }
         }
-        // What was before the first trip that is stored is not known.
+        // The trace before the first stored trip is unknown.
         let first = self.slots.first().map_or(0, |slot| slot.first);
         if index >= self.end || (index, piece) <= (first, 0) {
             return None;
@@ -414,7 +413,7 @@ impl<N: Bounded> Trace<N> {
         Some(Part { offset, width, value, slope, shift: Some((jump, late)), late_end: None })
     }
 
-    /// [`Trace::window`] with the [`Trace::edge`] of its beginning.
+    /// Visits [`Trace::window`] with the [`Trace::edge`] of its beginning.
     pub(super) fn window_from(
         &self,
         from: &Place<N>,
@@ -426,7 +425,7 @@ impl<N: Bounded> Trace<N> {
         self.window(from, until, &mut |part| visit(Part { shift: part.shift.or_else(|| first.take()), ..part }));
     }
 
-    /// `p` from one place to another, in parts.
+    /// Visits `p` from one place to another, part by part.
     pub(super) fn window(&self, from: &Place<N>, until: &Place<N>, visit: &mut dyn FnMut(Part<N>)) {
         let (mut index, mut k) = (from.index, from.piece);
         let (mut start, mut offset, mut shift) = (from.age.clone(), from.age.zero(), None);

@@ -1,4 +1,4 @@
-//! The data at `t = 0`, in the numbers of an engine.
+//! Initial data at `t = 0`, in the numbers of an engine.
 
 use super::Field;
 use crate::number::{Number, Open, Scalar};
@@ -6,20 +6,20 @@ use crate::problem::{Parameters, Problem, Profile, Start, Top};
 
 /// The given displacement and velocity: the limit `t → 0⁻` of the motion.
 ///
-/// Where the data jump at a point of the rod, the value is that from above; at the top that from below. A point within
-/// eight roundings of a jump is on it.
+/// At a jump of the data inside the rod the value is the limit from above; at the top it is the limit from below. A
+/// point within eight roundings of a jump counts as the jump.
 #[derive(Clone, Debug)]
 pub(crate) struct AtStart<S> {
     pub(crate) displacement: Vec<(S, S)>,
     pub(crate) velocity: Vec<(S, S)>,
-    /// In order, from the ground up.
+    /// Segments in order, from the ground up.
     pub(crate) segments: Vec<Segment<S>>,
-    /// The points from which it sends rays.
+    /// Points from which the start sends rays.
     pub(crate) corners: Vec<S>,
     zero: S,
 }
 
-/// A stretch of the rod on which displacement and velocity are linear.
+/// A segment of the rod on which displacement and velocity are linear.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment<S> {
     /// `x_a`, `x_b`.
@@ -30,23 +30,23 @@ pub(crate) struct Segment<S> {
     pub(crate) strain: S,
 }
 
-/// Which number of a start that is no speed.
+/// A number of the initial data other than the impact speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Datum {
     Point,
-    /// The displacement there, by the place in its list; that of all points where there is one only.
+    /// Displacement, by its index in the list; a single point holds the displacement of the whole rod.
     Displacement(usize),
     Velocity(usize),
 }
 
 impl<S: Scalar> AtStart<S> {
-    /// The data of `problem`, whose numbers are `given`.
+    /// Returns the data of `problem` with the parameters `given`.
     pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
         let precision = given.length.precision();
         AtStart::with(problem, given, &|_, number| S::from_number(number, &precision))
     }
 
-    /// The same, with those numbers that `lift` makes of them.
+    /// Returns the data of `problem`, with its numbers converted by `lift`.
     pub(crate) fn with(problem: &Problem, given: &Parameters<S>, lift: &dyn Fn(Datum, &Number) -> S) -> Self {
         let zero = given.length.zero();
         let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {
@@ -76,14 +76,14 @@ impl<S: Scalar> AtStart<S> {
         AtStart { displacement, velocity, segments, corners, zero }
     }
 
-    /// `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.
+    /// Returns `v`, `v_t`, `v_x` at `t = 0` and the point `x` of the rod.
     pub(crate) fn at(&self, x: &S) -> Result<Field<S>, Open> {
         let (displacement, strain) = self.on_line(&self.displacement, x)?;
         let (velocity, _) = self.on_line(&self.velocity, x)?;
         Ok(Field { displacement, velocity, strain })
     }
 
-    /// The value at `x`, and the slope, of the lines between `points`; constant where there is one point only.
+    /// Returns value and slope at `x` of the piecewise linear function through `points`, constant for one point.
     fn on_line(&self, points: &[(S, S)], x: &S) -> Result<(S, S), Open> {
         let mut line = points.first().map(|(x, value)| (x, value, self.zero.clone()));
         let roundings = self.zero.double(8.0 * self.zero.log2_roundoff().exp2());
@@ -100,7 +100,7 @@ impl<S: Scalar> AtStart<S> {
     }
 }
 
-/// The stretches on which both lists of `profile`, whose numbers are `displacement` and `velocity`, are linear.
+/// Returns the segments on which both lists of `profile`, with the numbers `displacement` and `velocity`, are linear.
 fn segments<S: Scalar>(
     profile: &Profile,
     (place, length): (&Number, &S),
@@ -127,7 +127,7 @@ fn segments<S: Scalar>(
             let velocities = [from, to].map(|(_, x, _)| va.2.clone() + rate.clone() * (x.clone() - &va.1));
             segments.push(Segment { ends: [from.1.clone(), to.1.clone()], velocities, strain });
         }
-        // Whichever list's segment ends first is left behind; both where they end together.
+        // Advance the list whose segment ends first, or both lists if their segments end together.
         let order = yb.0.compare(&vb.0);
         i += usize::from(order.is_le());
         j += usize::from(order.is_ge());

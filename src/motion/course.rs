@@ -1,4 +1,4 @@
-//! What happens to a rod, as data: events, contacts, energies, pieces of the stress, and why a history ends.
+//! Data of a motion: events, contacts, energies, pieces of the stress, and the reason of its end.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::number::Scalar;
 use crate::reason::{Near, Reason, Warning};
 
-/// Which of two values at a jump: the limit from earlier or from later times.
+/// One of the two limits at a jump in time.
 #[derive(
     Clone,
     Copy,
@@ -24,7 +24,7 @@ use crate::reason::{Near, Reason, Warning};
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// The limit from earlier times, `t⁻`; at the start the given data.
+    /// The limit from earlier times, `t⁻`; at the start, the given data.
     #[strum(serialize = "left")]
     Left,
     /// The limit from later times, `t⁺`.
@@ -34,26 +34,26 @@ pub enum Side {
 }
 
 impl Side {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// What happens to the ground end.
+/// Kind of an event at the ground end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
 #[serde(rename_all = "snake_case")]
 pub enum EventKind {
-    /// It lands: contact begins.
+    /// Contact begins: the end lands.
     #[strum(serialize = "impact")]
     Impact,
-    /// It leaves: contact ends.
+    /// Contact ends: the end leaves the ground.
     #[strum(serialize = "release")]
     Release,
 }
 
 impl EventKind {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -62,50 +62,50 @@ impl EventKind {
 /// A change between contact and flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event<S> {
-    /// Landing or leaving.
+    /// Impact or release.
     pub kind: EventKind,
-    /// Its time.
+    /// The time `t`.
     pub t: S,
-    /// `v_t(0,t)`: just before an impact, just after a release. At a landing without speed that a ray turns into an
-    /// impact, the `v_t + c v_x < 0` which that ray brings.
+    /// `v_t(0,·)`: just before an impact, just after a release. If a ray turns a landing without speed into an impact,
+    /// the `v_t + c v_x < 0` of that ray.
     pub v_end: S,
-    /// `h(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    /// `h(t)`: the position of the centre of mass, relative to its position in the undeformed rod on the ground.
     pub h: S,
     /// `h′(t)`.
     pub h_rate: S,
-    /// Bound of the error of `t`: zero where it is exact.
+    /// Error bound of `t`; zero if `t` is exact.
     pub t_error: f64,
 }
 
-/// A time on the ground.
+/// A period of contact between the end and the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact<S> {
-    /// Time of the impact, at which it begins.
+    /// Time of the impact that begins the contact.
     pub impact: S,
-    /// Time of the release, at which it ends; `None` where the history ends before.
+    /// Time of the release that ends the contact; `None` if the history ends before.
     pub release: Option<S>,
-    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: momentum per linear density `ρS` that the ground gives;
-    /// [`History::units`](crate::History::units) has the factor that makes it that of the rod.
+    /// `−c² ∫ v_x(0,t) dt ≥ 0` over the contact: the momentum that the ground gives, per linear density `ρS`.
+    /// [`History::units`](crate::History::units) returns the factor that converts it to the impulse on the rod.
     pub impulse: S,
-    /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) has the
-    /// factors that make it a stress and a force.
+    /// The most compressive strain `v_x(0,t)` of the contact, `≤ 0`; [`History::units`](crate::History::units) returns
+    /// the factors that convert it to a stress and a force.
     pub peak_strain: S,
 }
 
-/// The energies (3.54), (3.61)–(3.63), per linear density `ρS`; [`History::units`](crate::History::units) has the
-/// factor that makes them those of the rod.
+/// The energies (3.54), (3.61)–(3.63), per linear density `ρS`; [`History::units`](crate::History::units) returns the
+/// factor that converts them to the energies of the rod.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Energy<S> {
     /// `E = E_h + E_z`.
     pub total: S,
-    /// `E_h = L h′²/2 + L g h`: the motion of the centre of mass.
+    /// `E_h = L h′²/2 + L g h`: energy of the motion of the centre of mass.
     pub translational: S,
     /// `E_z = ½ ∫ ((v_t − h′)² + c² v_x²) dx`, a sum of squares.
     pub vibrational: S,
 }
 
-/// A stretch of the stress history without jump or kink. Its values are strains `v_x(0,·)`, stress divided by the
-/// modulus: see [`StressHistory`].
+/// A piece of the stress history without jump or kink. Its values are strains `v_x(0,·)`: stress divided by the
+/// modulus, see [`StressHistory`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressPiece<S> {
     /// Its first time.
@@ -121,7 +121,7 @@ pub struct StressPiece<S> {
 }
 
 impl<S> Event<S> {
-    /// The same event in other numbers.
+    /// Converts the event to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
         Event {
             kind: self.kind,
@@ -139,7 +139,7 @@ impl<S> Event<S> {
 }
 
 impl<S> Contact<S> {
-    /// The same contact in other numbers.
+    /// Converts the contact to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
         Contact {
             impact: f(self.impact),
@@ -149,7 +149,7 @@ impl<S> Contact<S> {
         }
     }
 
-    /// When it begins and ends.
+    /// Returns the times of impact and release.
     pub fn times(&self) -> (&S, Option<&S>) {
         (&self.impact, self.release.as_ref())
     }
@@ -160,7 +160,7 @@ impl<S> Contact<S> {
 }
 
 impl<S: Clone> Contact<S> {
-    /// The contacts between events; `found` has the impulse and the peak of the one that begins with an event.
+    /// Builds the contacts between events; `found` returns impulse and peak of the contact that begins at an event.
     pub(crate) fn between(events: &[Event<S>], mut found: impl FnMut(usize) -> (S, S)) -> Vec<Self> {
         let impacts = events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact);
         let contact = |(k, impact): (usize, &Event<S>)| {
@@ -173,7 +173,7 @@ impl<S: Clone> Contact<S> {
 }
 
 impl<S> Energy<S> {
-    /// The same energies in other numbers.
+    /// Converts the energies to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
         Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
     }
@@ -185,12 +185,12 @@ impl<S> Energy<S> {
 }
 
 impl<S> StressPiece<S> {
-    /// Where pieces begin and end, and the values there.
+    /// Returns the times at which pieces begin and end, and the strains there.
     pub fn numbers(pieces: &[Self]) -> Vec<&S> {
         pieces.iter().flat_map(|piece| [&piece.start, &piece.end, &piece.strain_start, &piece.strain_end]).collect()
     }
 
-    /// The same piece in other numbers.
+    /// Converts the piece to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> StressPiece<T> {
         StressPiece {
             start: f(self.start),
@@ -203,7 +203,7 @@ impl<S> StressPiece<S> {
 }
 
 impl<S: Scalar> StressPiece<S> {
-    /// `v_x(0,t)` at a time of the piece: linear between its ends, or the Chebyshev sum.
+    /// Returns `v_x(0,t)` at a time of the piece: linear between its ends, or the Chebyshev sum.
     ///
     /// **Accuracy**: that of the coefficients, and a rounding for each of them.
     ///
@@ -233,7 +233,7 @@ impl<S: Scalar> StressPiece<S> {
         }
     }
 
-    /// `∫ v_x(0,s) ds` from the beginning of the piece to a time of it.
+    /// Returns `∫ v_x(0,s) ds` from the beginning of the piece to a time of it.
     ///
     /// **Source**: `∫ T_k = T_{k+1}/(2(k+1)) − T_{k−1}/(2(k−1))`, from −1 on.
     ///
@@ -253,12 +253,12 @@ impl<S: Scalar> StressPiece<S> {
         }
         let coefficient = |k: usize| self.chebyshev.get(k).cloned().unwrap_or_else(|| passed.zero());
         let term = |k: usize| {
-            // The first coefficient is whole.
+            // The first coefficient counts in full, not by half.
             let before = if k == 1 { coefficient(0) * &passed.int(2) } else { coefficient(k - 1) };
             (before - coefficient(k + 1)) / passed.int(2 * k as i64)
         };
         let mut chebyshev: Vec<S> = (1..=self.chebyshev.len()).map(term).collect();
-        // Zero at −1, where T_k = (−1)^k.
+        // The integral is zero at −1, where T_k = (−1)^k.
         let start =
             chebyshev.iter().enumerate().fold(passed.zero(), |sum, (j, c)| if j % 2 == 0 { sum + c } else { sum - c });
         chebyshev.insert(0, start);
@@ -268,17 +268,17 @@ impl<S: Scalar> StressPiece<S> {
 }
 
 /// `v_x(0,·)`: the strain at the ground, piece by piece, from `t = 0` to the end of the history. The paper calls it the
-/// stress: it is the stress divided by the modulus.
+/// stress, which is this strain times the modulus.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressHistory<S> {
     /// The pieces, in order and without a gap.
     pub pieces: Vec<StressPiece<S>>,
-    /// Why the last one ends where it does. Before an event at no fraction that is a fraction just below its time.
+    /// Reason of the end of the last piece. Before an irrational event, the end is a fraction just below its time.
     pub ending: Ending,
 }
 
-/// A piece a line: `from … to: left … right`, with the number of Chebyshev coefficients where it is not linear; below
-/// them why the last one ends.
+/// Prints one line for each piece: `from … to: left … right`, with the number of Chebyshev coefficients unless the
+/// piece is linear. The last line states the reason of the end.
 impl<S: Scalar> fmt::Display for StressHistory<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, piece) in self.pieces.iter().enumerate() {
@@ -298,50 +298,49 @@ impl<S: Scalar> fmt::Display for StressHistory<S> {
     }
 }
 
-/// Why a history ends where it does.
+/// Reason of the end of a history.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
-    /// The time that was asked for.
+    /// The requested time.
     Time,
-    /// The next impact after the contacts that were asked for.
+    /// The next impact after the requested contacts.
     NextImpact,
-    /// No impact can follow, for the reason that is said.
+    /// No impact can follow, for the given reason.
     NoFurtherImpact(Reason),
-    /// No release can follow, for the reason that is said.
+    /// No release can follow, for the given reason.
     NoBounce(Reason),
-    /// The rod has come to rest, by the criterion that is said. Where a time was asked for, the history reaches it: as
-    /// it does with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
+    /// The rod has come to rest, by the given criterion. A history with a requested time reaches that time, here as
+    /// well as with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
     Rest(Reason),
-    /// The next event is at no fraction.
+    /// The next event has an irrational time.
     ExactnessEnds {
         /// The event.
         kind: EventKind,
         /// Its time as a surd, `3 + √2`.
         time: String,
-        /// The double nearest to it, or next to that.
+        /// The nearest double, or a neighbour of it.
         near: f64,
     },
-    /// The first bounce: what follows it is not proved.
+    /// The first bounce: no proof covers what follows.
     Bounce,
-    /// What follows is not proved: something comes so close to happening that no bits that are worth trying tell
-    /// whether it does.
+    /// No proof covers what follows: no affordable number of bits decides whether a close event happens.
     Unproved {
-        /// What is open.
+        /// The undecided event.
         what: Near,
-        /// By how much velocities may differ from then on.
+        /// Possible difference of velocities from then on.
         differ: f64,
     },
-    /// The asked accuracy or effort does not settle what comes next.
+    /// The requested accuracy or effort does not decide what follows.
     Undecided(Reason),
 }
 
 impl Ending {
-    /// Whether the history may be shorter than what was asked for, because what follows is not known.
+    /// Returns whether the history may be shorter than requested because the continuation is unknown.
     pub fn is_open(&self) -> bool {
         matches!(self, Ending::ExactnessEnds { .. } | Ending::Undecided(_) | Ending::Bounce | Ending::Unproved { .. })
     }
 
-    /// The reason with the time that it holds for: `ends at t = 12: …`.
+    /// Returns the reason together with the end time: `ends at t = 12: …`.
     pub fn at(&self, end: &str) -> String {
         match self {
             Ending::ExactnessEnds { .. } => self.to_string(),
@@ -375,28 +374,28 @@ impl fmt::Display for Ending {
     }
 }
 
-/// What has happened, up to the end.
+/// Events and contacts up to the end of a history.
 #[derive(Clone, Debug)]
 pub struct Course<S> {
-    /// The last time that is known.
+    /// The last known time.
     pub end: S,
-    /// Why it is the last.
+    /// Reason of the end.
     pub ending: Ending,
     /// All impacts and releases, in order.
     pub events: Vec<Event<S>>,
     /// All contacts, in order.
     pub contacts: Vec<Contact<S>>,
-    /// What a user should know beside the numbers.
+    /// Warnings about the numbers.
     pub warnings: Vec<Warning>,
 }
 
 impl<S> Course<S> {
-    /// Nothing yet.
+    /// Returns a course without events, contacts and warnings.
     pub fn new(end: S, ending: Ending) -> Self {
         Course { end, ending, events: Vec::new(), contacts: Vec::new(), warnings: Vec::new() }
     }
 
-    /// The same in other numbers.
+    /// Converts the course to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Course<T> {
         Course {
             end: f(self.end),

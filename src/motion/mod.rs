@@ -1,4 +1,4 @@
-//! What a motion is: events, contacts, endings, fields, waves, moments, and what can be asked of every engine.
+//! Data of a motion (events, contacts, endings, fields, waves, moments) and the queries that every engine answers.
 
 mod at_start;
 mod course;

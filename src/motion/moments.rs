@@ -1,4 +1,4 @@
-//! Integrals of the field over the cells of a grid: of polynomials between rays, or from the nodes of a quadrature.
+//! Integrals of the field over the cells of a grid, from polynomials between rays or from quadrature nodes.
 
 use super::Stretch;
 use crate::error::Error;
@@ -7,7 +7,7 @@ use crate::number::Scalar;
 /// `∫ f dx` and `∫ f (x − a) dx` over a cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
 pub(crate) type Moments<S> = [[S; 2]; 3];
 
-/// The moments of stretches on which all is polynomial.
+/// Computes the moments of stretches with polynomial fields.
 pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<Moments<S>>, Error> {
     let mut cells = Vec::with_capacity(points.len());
     let mut rest = stretches.iter().peekable();
@@ -17,8 +17,8 @@ pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) ->
         let mut sums = [zero(), zero(), zero()];
         while let Some(&stretch) = rest.peek() {
             let end = stretch.from.clone() + &stretch.width;
-            // Before the grid, in the cell, and beyond it. Each part is one of the whole stretch: a part of a part
-            // would double the bound of where it begins, cell by cell.
+            // The stretch ends before the cell, reaches into it from below, or begins in it. Each part is cut from the
+            // whole stretch: a cut of a cut would double the bound of its beginning, cell by cell.
             let skipped = a.clone() - &stretch.from;
             let part = match skipped.positive()? {
                 true if !a.below(&end)? => {
@@ -45,7 +45,7 @@ pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) ->
     Ok(cells)
 }
 
-/// A node of a quadrature along the rod.
+/// A quadrature node on the rod.
 #[derive(Clone, Debug)]
 pub(crate) struct Node<S> {
     pub(crate) weight: S,
@@ -62,7 +62,7 @@ impl<S> Node<S> {
     }
 }
 
-/// `∫ v_x (x − a)ⁿ dx` and `∫ v_t (x − a)ⁿ dx` over a cell from a on.
+/// `∫ v_x (x − a)ⁿ dx` for n < 3 and `∫ v_t (x − a)ⁿ dx` for n < 2, over a cell that begins at a.
 #[derive(Clone, Debug)]
 pub(crate) struct Sums<S> {
     from: S,
@@ -89,7 +89,7 @@ impl<S: Scalar> Sums<S> {
         sums
     }
 
-    /// The same, where what is off in `∫ |v_t| dx` and `∫ |v_x| dx` over a cell of this width is at most so much.
+    /// Widens the sums for errors up to `velocity` in `∫ |v_t| dx` and `strain` in `∫ |v_x| dx` over this width.
     pub(crate) fn widened(mut self, width: &S, velocity: &S, strain: &S) -> Self {
         let mut power = width.one();
         for (n, sum) in self.strain.iter_mut().enumerate() {
@@ -102,8 +102,8 @@ impl<S: Scalar> Sums<S> {
         self
     }
 
-    /// The moments of the cell up to `to`, and `v` there, from `v` at its beginning: by parts, those of `v` are
-    /// `∫ v = h v(a) + ∫ (b − x) v_x` and `∫ v (x − a) = ½h² v(a) + ½∫ (h² − (x − a)²) v_x`, h the width.
+    /// Returns the moments of the cell up to `to`, and `v` there, given `v` at its beginning. Integration by parts:
+    /// `∫ v = h v(a) + ∫ (b − x) v_x` and `∫ v (x − a) = ½h² v(a) + ½∫ (h² − (x − a)²) v_x`, with h the width.
     pub(crate) fn moments(self, to: &S, start: &S) -> (Moments<S>, S) {
         let Sums { from, strain: [rise, first, second], velocity } = self;
         let width = to.clone() - &from;
@@ -114,7 +114,7 @@ impl<S: Scalar> Sums<S> {
     }
 }
 
-/// The moments of all cells, from the sums below the first point and in each cell, and `v` at the ground.
+/// Computes the moments of all cells from the sums below the first point and in each cell, and from `v` at the ground.
 pub(crate) fn of_sums<S: Scalar>(sums: Vec<Sums<S>>, points: &[S], ground: S) -> Vec<Moments<S>> {
     let mut start = ground;
     let moments = sums.into_iter().zip(points).map(|(sums, to)| {

@@ -1,4 +1,4 @@
-//! What can be asked of a motion, whatever engine answers.
+//! Queries that a motion answers, for every engine.
 
 use std::ops::ControlFlow;
 
@@ -10,13 +10,13 @@ use crate::number::Scalar;
 use crate::problem::Parameters;
 use crate::reason::Warning;
 
-/// The scales of a motion: what its quantities are to be compared with.
+/// Natural scales of a motion, with which its quantities are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales<S> {
-    /// `t₁`, of times; later times scale with themselves.
+    /// `t₁`, the scale of times below `t₁`; a later time is its own scale.
     pub time: S,
-    /// About the greatest speed: `μ`, or `g t₁` where that is greater. Displacements scale with `time · velocity`, or
-    /// with the greatest of them.
+    /// Approximately the greatest speed: `μ`, or `g t₁` if that is greater. The scale of displacements is
+    /// `time · velocity`, or the greatest displacement.
     pub velocity: S,
     /// `L`.
     pub length: S,
@@ -27,7 +27,7 @@ pub struct Scales<S> {
 }
 
 impl<S: Scalar> Scales<S> {
-    /// Those of a rod that lands with its impact speed.
+    /// Returns the scales of a rod that lands with its impact speed.
     pub fn of(rod: &Parameters<S>) -> Self {
         let Parameters { length, wave_speed, gravity, speed, .. } = rod.clone();
         Scales { time: rod.round_trip(), velocity: speed, length, wave_speed, gravity }
@@ -35,7 +35,7 @@ impl<S: Scalar> Scales<S> {
 }
 
 impl<S> Scales<S> {
-    /// The same scales in other numbers.
+    /// Converts the scales to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
         Scales {
             time: f(self.time),
@@ -47,7 +47,7 @@ impl<S> Scales<S> {
     }
 }
 
-/// Two numbers at a time that an engine finds together.
+/// Two quantities at a time that an engine computes together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pair {
     /// `v(0,t)` and `v_t(0,t)`.
@@ -60,94 +60,94 @@ pub enum Pair {
     EnergyParts,
 }
 
-/// What can be asked of a solution. All times are absolute, in the units of the scene; a time outside of
-/// `0 … end()` is [`Error::TimeOutside`], a point outside of the rod is [`Error::PointOutside`].
+/// Queries that every solution answers. All times are absolute, in the units of the scene. A time outside
+/// `0 … end()` is [`Error::TimeOutside`], a point outside the rod is [`Error::PointOutside`].
 ///
-/// An engine answers the first six; the rest follows from them, where it has no better answer of its own.
+/// An engine implements the methods without a default; the others follow from them unless an engine overrides them.
 pub trait Motion<S: Scalar>: Send + Sync {
-    /// What has happened, up to the end.
+    /// Returns events and contacts up to the end, with the reason of the end.
     fn course(&self) -> &Course<S>;
 
-    /// The natural scales of the motion.
+    /// Returns the natural scales of the motion.
     fn scales(&self) -> Scales<S>;
 
-    /// `v_x(0,·)` from 0 to the end, pieces in order, canonical: neighbours that continue each other are one.
+    /// Returns `v_x(0,·)` from 0 to the end, pieces in order, with neighbours that continue each other merged.
     fn stress_pieces(&self) -> Vec<StressPiece<S>>;
 
-    /// `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
+    /// Returns `v_x(0,t)`: the stress at the ground divided by the modulus; zero in flight.
     fn strain(&self, time: &S, side: Side) -> Result<S, Error>;
 
-    /// Two numbers at a time. Only [`Pair::GroundEnd`] has two limits.
+    /// Returns two quantities at a time. Only [`Pair::GroundEnd`] has two limits.
     fn pair(&self, pair: Pair, time: &S, side: Side) -> Result<[S; 2], Error>;
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`.
+    /// Returns `v`, `v_t`, `v_x` at `(x,t)`.
     fn field(&self, point: &S, time: &S, side: Side) -> Result<Field<S>, Error>;
 
-    /// The last time that is known.
+    /// Returns the last known time.
     fn end(&self) -> S {
         self.course().end.clone()
     }
 
-    /// Why it is the last.
+    /// Returns the reason of the end.
     fn ending(&self) -> &Ending {
         &self.course().ending
     }
 
-    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     fn events(&self) -> &[Event<S>] {
         &self.course().events
     }
 
-    /// All contacts, in order.
+    /// Returns all contacts, in order.
     fn contacts(&self) -> &[Contact<S>] {
         &self.course().contacts
     }
 
-    /// When a contact, counted from 0, begins and ends.
+    /// Returns the times of impact and release of a contact, counted from 0.
     fn contact_times(&self, contact: usize) -> Option<(S, Option<S>)> {
         self.contacts().get(contact).map(|contact| (contact.impact.clone(), contact.release.clone()))
     }
 
-    /// The impulse of a contact, counted from 0.
+    /// Returns the impulse of a contact, counted from 0.
     fn impulse(&self, contact: usize) -> Option<S> {
         self.contacts().get(contact).map(|contact| contact.impulse.clone())
     }
 
-    /// What a user should know beside the numbers.
+    /// Returns warnings about the numbers.
     fn warnings(&self) -> &[Warning] {
         &self.course().warnings
     }
 
-    /// `v(0,t)` and `v_t(0,t)`.
+    /// Returns `v(0,t)` and `v_t(0,t)`.
     fn ground_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
         self.pair(Pair::GroundEnd, time, side).map(Into::into)
     }
 
-    /// `v(L,t)` and `v_t(L,t)`.
+    /// Returns `v(L,t)` and `v_t(L,t)`.
     fn top_end(&self, time: &S, side: Side) -> Result<(S, S), Error> {
         let Field { displacement, velocity, .. } = self.field(&self.scales().length, time, side)?;
         Ok((displacement, velocity))
     }
 
-    /// `h(t)` and `h′(t)`.
+    /// Returns `h(t)` and `h′(t)`.
     fn centre(&self, time: &S) -> Result<(S, S), Error> {
         self.pair(Pair::Centre, time, Side::Left).map(Into::into)
     }
 
-    /// `E(t)`, `E_h(t)`, `E_z(t)`.
+    /// Returns `E(t)`, `E_h(t)`, `E_z(t)`.
     fn energy(&self, time: &S) -> Result<Energy<S>, Error> {
         let [translational, vibrational] = self.pair(Pair::Energy, time, Side::Left)?;
         Ok(Energy { total: translational.clone() + &vibrational, translational, vibrational })
     }
 
-    /// `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`, each a sum of squares, per linear density: the kinetic energy of the whole
-    /// motion, and the strain energy.
+    /// Returns `½ ∫ v_t² dx` and `½ c² ∫ v_x² dx`, each a sum of squares, per linear density: the kinetic energy of the
+    /// whole motion, and the strain energy.
     fn energy_parts(&self, time: &S) -> Result<[S; 2], Error> {
         self.pair(Pair::EnergyParts, time, Side::Left)
     }
 
-    /// `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by time,
-    /// all points of one time together. Where a ray passes, the value on one of its sides.
+    /// Returns `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by
+    /// time, with all points of one time together. On a ray, the values are the limit from one side.
     fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
         let places = times.iter().flat_map(|time| points.iter().map(move |point| (point, time)));
         places
@@ -159,20 +159,20 @@ pub trait Motion<S: Scalar>: Send + Sync {
             .collect()
     }
 
-    /// `t*` and `h(t*)`: where the centre of mass turns in the flight after the release that is this event, if nothing
-    /// ends the flight before. `None` where it does not turn: without gravity, under a fixed top, or already falling at
-    /// the release.
+    /// Returns `t*` and `h(t*)`, at which the centre of mass is highest in the flight after the release with this event
+    /// index, if nothing ends the flight before. `None` without such a point: without gravity, under a fixed top, or if
+    /// the centre falls at the release already.
     fn highest(&self, release: usize) -> Option<(S, S)>;
 
-    /// The rays that leave the ground in round trip `trip`, counted from 0, in order: jumps, and mere kinks.
+    /// Returns the rays that leave the ground in round trip `trip`, counted from 0, in order: jumps and mere kinks.
     ///
-    /// **Errors**: [`Error::NoRays`] where they are not followed: under damping.
+    /// **Errors**: [`Error::NoRays`] if the engine does not follow rays: under damping.
     fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
         let _ = trip;
         Err(Error::NoRays)
     }
 
-    /// The rod at a time, in stretches between the rays.
+    /// Returns the stretches of the rod between the rays at a time.
     ///
     /// **Errors**: [`Error::NoWaves`] under damping.
     fn stretches(&self, time: &S) -> Result<Vec<Stretch<S>>, Error> {
@@ -180,24 +180,24 @@ pub trait Motion<S: Scalar>: Send + Sync {
         Err(Error::NoWaves)
     }
 
-    /// The points from which the start sends rays: where its data bend or jump, and a top that is held.
+    /// Returns the points from which the start sends rays: kinks and jumps of its data, and a fixed top.
     fn corners(&self) -> Vec<S> {
         Vec::new()
     }
 
-    /// `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of `points`, which increase, for `f` =
-    /// `v`, `v_t`, `v_x`.
+    /// Returns `∫ f dx` and `∫ f (x − a) dx` over each cell `a … b` between neighbours of the increasing `points`, for
+    /// `f` = `v`, `v_t`, `v_x`.
     fn moments(&self, time: &S, points: &[S]) -> Result<Vec<Moments<S>>, Error> {
         moments::of_stretches(&self.stretches(time)?, points)
     }
 
-    /// Whether the end is on the ground just before or just after a time: 1 or 0.
+    /// Returns 1 if the end is in contact just before or just after a time, and 0 otherwise.
     fn in_contact(&self, time: &S, side: Side) -> Result<S, Error> {
         let like = self.end();
         if like.below(time) == Ok(true) || time.negative() == Ok(true) {
             return Err(Error::TimeOutside { found: time.text(), end: like.text() });
         }
-        // The impact that ends a history is no event of it.
+        // The impact that ends a history is not one of its events.
         if side == Side::Right && *self.ending() == Ending::NextImpact && !time.below(&like)? {
             return Ok(like.one());
         }
@@ -210,37 +210,36 @@ pub trait Motion<S: Scalar>: Send + Sync {
         Ok(like.int(contact.into()))
     }
 
-    /// The times that were asked for and are not told from that of an event or a ray, with the motion as it answers
-    /// where they stand for these; `None` where there are none. Other answers at such times cover both sides.
+    /// Returns the queried times that are indistinguishable from an event or a ray, with the motion that answers for
+    /// these events and rays; `None` if there are none. Other answers at such times cover both sides.
     fn covered(&self) -> Option<(Vec<f64>, &dyn Motion<S>)> {
         None
     }
 
-    /// Whether the two limits in time of anything at the ends may differ: `false` where no ray is there.
+    /// Returns whether the two limits in time of any quantity at the ends may differ: `false` if no ray is there.
     fn may_jump(&self, time: &S) -> Result<bool, Error> {
         let _ = time;
         Ok(true)
     }
 
-    /// The whole solution as two travelling waves.
+    /// Returns the whole solution as two travelling waves.
     ///
     /// **Errors**: [`Error::NoWaves`] under damping.
     fn waves(&self) -> Result<Waves<S>, Error> {
         Err(Error::NoWaves)
     }
 
-    /// How far any quantity may be off, relative to its natural scale; zero where all is exact. The bound that the run
-    /// carries.
+    /// Returns the error bound that the run carries for all quantities, relative to their natural scales; 0 if exact.
     fn error_estimate(&self) -> S;
 
-    /// How many impacts there were and `log₁₀` of the factor by which rounding may have grown over them; `None` where
-    /// that is not followed.
+    /// Returns the number of impacts and `log₁₀` of the factor by which rounding errors may have grown over them;
+    /// `None` if the engine does not track this.
     fn digits_lost(&self) -> Option<(u32, f64)> {
         None
     }
 }
 
-/// An observer that does nothing.
+/// Ignores the progress and continues.
 pub fn unobserved(_: usize, _: usize) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }

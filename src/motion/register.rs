@@ -1,4 +1,4 @@
-//! The register of rays: when each is where.
+//! Register of rays: the times at which each ray passes a point.
 
 use super::{Event, EventKind, Motion, Scales};
 use crate::number::Scalar;
@@ -6,50 +6,50 @@ use crate::number::Scalar;
 /// The rays of a motion, by the times at which they leave the ground, modulo round trips.
 ///
 /// **Source**: a ray that leaves the ground at τ passes the point x at `τ + x/c + k t₁` and `τ − x/c + (k + 1) t₁`,
-/// `k ≥ 0`. Rays begin at impacts and releases, and at the points between which the data of the start are linear: these
-/// as if they had left the ground before.
+/// `k ≥ 0`. Rays begin at impacts and releases, and at the points between which the initial data are linear; the latter
+/// are entered as if they had left the ground before the start.
 ///
-/// **Accuracy**: each time is known within the bound that it carries, and no other tolerance tells two rays apart.
+/// **Accuracy**: each time is known within the bound that it carries; no other tolerance distinguishes two rays.
 #[derive(Clone, Debug)]
 pub struct RayRegister<S> {
     round_trip: S,
     wave_speed: S,
     end: S,
-    /// Rays that are at the ground at the same times, modulo round trips, in the order of these.
+    /// Groups of rays that are at the ground at the same times modulo round trips, in the order of these times.
     known: Vec<Phase<S>>,
-    /// The greatest of their bounds, in round trips.
+    /// The greatest bound of their times, in round trips.
     widest: f64,
 }
 
 /// Rays whose times differ by whole round trips.
 #[derive(Clone, Debug)]
 struct Phase<S> {
-    /// The fraction of a round trip, in doubles.
+    /// Fraction of a round trip, as a double.
     fraction: f64,
-    /// When they leave the ground, ascending, and whether they may carry a jump, or a kink alone.
+    /// Times at which they leave the ground, ascending, and whether they may carry a jump (otherwise only a kink).
     rays: Vec<(S, bool)>,
 }
 
 /// A ray at a point.
 #[derive(Clone, Debug)]
 pub struct Passing<S> {
-    /// When it is there.
+    /// Time of the passage.
     pub time: S,
-    /// How long ago it began: under damping its jump has faded by `e^{−r·age}`.
+    /// Time since the ray began: under damping its jump has faded by `e^{−r·age}`.
     pub age: f64,
-    /// Whether it may carry a jump, or a kink alone.
+    /// Whether the ray may carry a jump (otherwise only a kink).
     pub jump: bool,
 }
 
-/// Rays are compared in the numbers of the run where doubles tell them apart by less than this part of a round trip:
-/// doubles hold a fraction of a million round trips to 1e-10.
+/// Difference of fractions of a round trip below which rays are compared in the numbers of the run: doubles hold the
+/// fraction of a million round trips to 1e-10.
 const NEAR: f64 = 1e-6;
-/// A ray that may be off by more than this part of a round trip is left out: the run warns that its events are in
-/// doubt.
+/// Maximum error of a displaced ray in round trips; rays with a greater error are left out, because the run already
+/// warns that its events are in doubt.
 const MOST_LATE: f64 = 0.01;
 
 impl<S: Scalar> RayRegister<S> {
-    /// The rays of `motion`.
+    /// Returns the rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
         let mut found = Self::of_start(motion);
         for event in motion.events().iter().filter(|event| event.t.to_f64() != 0.0) {
@@ -58,8 +58,8 @@ impl<S: Scalar> RayRegister<S> {
         Self::with(motion, found)
     }
 
-    /// The rays of the start, and those that begin at events whose time is off by more than `roundings` of its own, or
-    /// that are on no ray of the start.
+    /// Returns the rays of the start, and the displaced rays: those of events whose time error exceeds `roundings`
+    /// roundings of the time, or that lie on no ray of the start.
     pub(crate) fn parted(motion: &dyn Motion<S>, roundings: f64) -> [Self; 2] {
         let start = Self::with(motion, Self::of_start(motion));
         let own = |time: &S| {
@@ -73,7 +73,7 @@ impl<S: Scalar> RayRegister<S> {
         [start, displaced]
     }
 
-    /// Those of the data, and of a rod that stands on the ground.
+    /// Returns the rays of the initial data, and the ray of a rod that stands on the ground.
     fn of_start(motion: &dyn Motion<S>) -> Vec<(S, bool)> {
         let Scales { time: round_trip, wave_speed, .. } = motion.scales();
         let mut found = Vec::new();
@@ -109,14 +109,14 @@ impl<S: Scalar> RayRegister<S> {
         rays
     }
 
-    /// Whether two times are whole round trips apart, within their bounds.
+    /// Returns whether two times differ by whole round trips, within their bounds.
     fn same_phase(&self, a: &S, b: &S) -> bool {
         let apart = b.clone() - a;
         let trips = (apart.to_f64() / self.round_trip.to_f64()).round();
         (apart - self.round_trip.double(trips) * &self.round_trip).vanishes() != Ok(false)
     }
 
-    /// `time`, or that within `roundings` of it, and within the bound of the ray, at which a ray passes `point`.
+    /// Returns the time of a ray at `point` within `roundings` plus the ray's own bound of `time`, or else `time`.
     pub fn meant(&self, point: &S, time: S, roundings: f64) -> S {
         let known = |met: &S| {
             let bound = met.log2_error().exp2();
@@ -126,9 +126,9 @@ impl<S: Scalar> RayRegister<S> {
         self.about(point, &time, 0.0).into_iter().find(known).unwrap_or(time)
     }
 
-    /// When rays pass `point` at times that are not told from `time` within both bounds.
+    /// Returns the times at which rays pass `point` that are indistinguishable from `time` within both bounds.
     pub fn near(&self, point: &S, time: &S) -> Vec<S> {
-        // Doubles settle nearly all.
+        // Doubles decide almost all cases.
         let (trip, seconds) = (self.round_trip.to_f64(), time.to_f64());
         let wave_speed = self.wave_speed.to_f64();
         let travel = point.to_f64() / wave_speed;
@@ -147,7 +147,7 @@ impl<S: Scalar> RayRegister<S> {
         near
     }
 
-    /// When rays pass `point` at about `time`, and as much more apart as `widest` says, in round trips.
+    /// Returns the times at which rays pass `point` near `time`, up to `widest` round trips apart.
     fn about(&self, point: &S, time: &S, widest: f64) -> Vec<S> {
         let travel = point.clone() / &self.wave_speed;
         let delays = if point.vanishes() == Ok(true) { vec![travel] } else { vec![travel.clone(), -travel] };
@@ -165,7 +165,7 @@ impl<S: Scalar> RayRegister<S> {
         met
     }
 
-    /// The rays at about this fraction of a round trip: 0 and 1 are neighbours.
+    /// Returns the rays near this fraction of a round trip; 0 and 1 are neighbours.
     fn known_near(&self, fraction: f64, apart: f64) -> Vec<&S> {
         let near = [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(|fraction| {
             let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
@@ -174,8 +174,8 @@ impl<S: Scalar> RayRegister<S> {
         near.map(|phase| &phase.rays[0].0).collect()
     }
 
-    /// The rays that pass `point` from one time to another, in order; at the ground also those that come from the start
-    /// and have never been there, as if they had left it before.
+    /// Returns the rays that pass `point` from one time to another, in order. At the ground this includes rays from the
+    /// start that have never been there, as if they had left it before.
     pub fn passing(&self, point: &S, from: f64, to: f64) -> Vec<Passing<S>> {
         let (trip, travel) = (self.round_trip.to_f64(), point.clone() / &self.wave_speed);
         let mut found: Vec<Passing<S>> = Vec::new();
@@ -193,7 +193,7 @@ impl<S: Scalar> RayRegister<S> {
                     if at > to {
                         break;
                     }
-                    // The ray that began last goes on as those before it.
+                    // The latest ray of the phase carries on for the earlier ones.
                     let begun = rays.partition_point(|(ray, _)| ray.to_f64() <= at - late + NEAR * trip).max(1);
                     if at >= from {
                         let (jump, age) = (begun > first_jump, at - rays[begun - 1].0.to_f64());
@@ -215,12 +215,12 @@ impl<S: Scalar> RayRegister<S> {
     }
 }
 
-/// When it leaves the ground, and whether it may carry a jump.
+/// Returns the time at which the ray leaves the ground, and whether it may carry a jump.
 fn ray_of<S: Scalar>(event: &Event<S>) -> (S, bool) {
     (event.t.clone(), event.kind == EventKind::Impact && event.v_end.vanishes() != Ok(true))
 }
 
-/// The fraction of a number of round trips.
+/// Returns the fractional part of a number of round trips.
 fn fraction<S: Scalar>(trips: &S) -> f64 {
     let trips = trips.to_f64();
     trips - trips.floor()

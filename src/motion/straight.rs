@@ -1,17 +1,17 @@
-//! A curved piece of the stress history as straight ones.
+//! Piecewise linear approximation of curved pieces of the stress history.
 
 use std::f64::consts::PI;
 
 use super::StressPiece;
 use crate::number::Scalar;
 
-/// The pieces cut into straight ones, each within `share` of the greatest `|v_x(0,·)|` at their ends.
+/// Cuts the pieces into linear ones, each within `share` of the greatest `|v_x(0,·)|` at the ends of the pieces.
 ///
-/// **Source**: between its ends a `T_k` is off its chord by at most 2, and `T₀` and `T₁` are straight. A piece is
-/// halved until `2 Σ_{k≥2} |c_k|` of its own coefficients is at most half of the tolerance; each halving leaves out a
-/// 64th of it, and no piece is halved more than [`MOST_HALVINGS`] times.
+/// **Source**: `T_k` differs from its chord by at most 2; `T₀` and `T₁` are linear. A piece is halved until
+/// `2 Σ_{k≥2} |c_k|` of its own coefficients is at most half of the tolerance. Each halving drops coefficients worth a
+/// 64th of the tolerance, and the number of halvings of a piece is limited.
 ///
-/// **Accuracy**: the tolerance, and that of the pieces.
+/// **Accuracy**: the tolerance, plus the accuracy of the pieces.
 pub fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressPiece<S>> {
     let ends = pieces.iter().flat_map(|piece| [&piece.strain_start, &piece.strain_end]);
     let greatest = ends.fold(0.0, |most: f64, strain| most.max(strain.to_f64().abs()));
@@ -22,7 +22,7 @@ pub fn straight<S: Scalar>(pieces: &[StressPiece<S>], share: f64) -> Vec<StressP
     parts
 }
 
-/// Halvings of which each may leave out a 64th of the tolerance.
+/// Maximum number of halvings; each may drop coefficients worth a 64th of the tolerance.
 const MOST_HALVINGS: u32 = 30;
 
 fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<StressPiece<S>>) {
@@ -52,8 +52,8 @@ fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<Stress
     });
 }
 
-/// Where the parts of the polynomial with these Chebyshev coefficients end whose chords are within the tolerance, from
-/// left to right.
+/// Appends the ends, from left to right, of the parts whose chords are within the tolerance of the polynomial with
+/// these Chebyshev coefficients.
 fn halve(mut c: Vec<f64>, (from, to): (f64, f64), tolerance: f64, halvings: u32, ends: &mut Vec<f64>) {
     let mut left_out = tolerance / 64.0;
     while let Some(last) = c.pop_if(|last| last.abs() <= left_out) {
@@ -68,7 +68,7 @@ fn halve(mut c: Vec<f64>, (from, to): (f64, f64), tolerance: f64, halvings: u32,
     halve(half(&c, 0.5), (middle, to), tolerance, halvings - 1, ends);
 }
 
-/// The coefficients of a polynomial on the half of −1 … 1 about `middle`, from its values at Chebyshev points of it.
+/// Returns the coefficients of a polynomial on the half of −1 … 1 about `middle`, from values at its Chebyshev points.
 fn half(c: &[f64], middle: f64) -> Vec<f64> {
     let n = c.len();
     let angle = |k: usize, j: usize| (PI * k as f64 * (j as f64 + 0.5) / n as f64).cos();

@@ -1,4 +1,4 @@
-//! The field along the rod; an undamped motion as two travelling waves, and the rays that they carry.
+//! The field along the rod; an undamped motion as two travelling waves; rays.
 
 use glam::{DMat2, DVec2};
 
@@ -17,7 +17,7 @@ pub struct Field<S> {
 }
 
 impl<S> Field<S> {
-    /// The same values in other numbers.
+    /// Converts the field to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
         Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
     }
@@ -55,7 +55,7 @@ pub struct Waves<S> {
     pub linear: S,
     /// `d`.
     pub quadratic: S,
-    /// What holds the end `x = L`.
+    /// The boundary condition at `x = L`.
     pub top: Top,
     /// `t₁`.
     pub round_trip: S,
@@ -68,20 +68,20 @@ pub struct Waves<S> {
 /// A stretch of an undamped rod at one time, without a ray inside: velocity and strain are linear along it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch<S> {
-    /// `x` where it begins.
+    /// `x` at its lower end.
     pub from: S,
     /// Its width.
     pub width: S,
-    /// `v` where it begins.
+    /// `v` at its lower end.
     pub displacement: S,
-    /// `v_t` where it begins, and `v_tx`.
+    /// `v_t` at its lower end, and `v_tx`.
     pub velocity: [S; 2],
-    /// `v_x` where it begins, and `v_xx`.
+    /// `v_x` at its lower end, and `v_xx`.
     pub strain: [S; 2],
 }
 
 impl<S> Stretch<S> {
-    /// The same stretch in other numbers.
+    /// Converts the stretch to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
         Stretch {
             from: f(self.from),
@@ -94,13 +94,13 @@ impl<S> Stretch<S> {
 }
 
 impl<S: Scalar> Stretch<S> {
-    /// `v` so far behind its beginning.
+    /// Returns `v` at the distance `way` above the lower end.
     pub(crate) fn displacement_after(&self, way: &S) -> S {
         let [strain, bend] = &self.strain;
         (bend.clone() * way / way.int(2) + strain) * way + &self.displacement
     }
 
-    /// What is left of it behind its first `way`.
+    /// Returns the rest of the stretch above its first `way`.
     pub(crate) fn after(&self, way: &S) -> Self {
         let along = |[value, slope]: &[S; 2]| [slope.clone() * way + value, slope.clone()];
         Stretch {
@@ -112,7 +112,7 @@ impl<S: Scalar> Stretch<S> {
         }
     }
 
-    /// `∫ f dx` and `∫ f (x − from) dx` over its first `way`, for `f` = `v`, `v_t`, `v_x`.
+    /// Returns `∫ f dx` and `∫ f (x − from) dx` over the first `way` of the stretch, for `f` = `v`, `v_t`, `v_x`.
     pub(crate) fn moments(&self, way: &S) -> [[S; 2]; 3] {
         let square = way.square();
         let linear = |[value, slope]: &[S; 2]| {
@@ -129,10 +129,10 @@ impl<S: Scalar> Stretch<S> {
     }
 }
 
-/// A piece of `P`: `sum + rate·τ + slope·τ²/2` from `τ = s − from = 0` on.
+/// A piece of `P`: `sum + rate·τ + slope·τ²/2` for `τ = s − from ≥ 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WavePiece<S> {
-    /// Where it begins.
+    /// The argument of `P` at which it begins.
     pub from: S,
     /// `P`.
     pub sum: S,
@@ -143,7 +143,7 @@ pub struct WavePiece<S> {
 }
 
 impl<S: Scalar> WavePiece<S> {
-    /// `P` and `P′` at `s`.
+    /// Returns `P` and `P′` at `s`.
     pub fn at(&self, s: &S) -> (S, S) {
         let passed = s.clone() - &self.from;
         let gained = self.slope.clone() * &passed;
@@ -153,7 +153,7 @@ impl<S: Scalar> WavePiece<S> {
 }
 
 impl<S: Scalar> Waves<S> {
-    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, x: &S, t: &S) -> Field<S> {
         let late = x.clone() / &self.wave_speed;
         let up = self.wave(&(t.clone() - &late));
@@ -171,7 +171,7 @@ impl<S: Scalar> Waves<S> {
         }
     }
 
-    /// `P` and `P′`. A comparison that is open puts `s` before a break, where `P` is the same.
+    /// Returns `P` and `P′`. An undecided comparison puts `s` before the break; `P` is continuous there.
     fn wave(&self, s: &S) -> (S, S) {
         let begun = self.pieces.partition_point(|piece| s.below(&piece.from) == Ok(false));
         self.pieces[begun.max(1) - 1].at(s)
@@ -210,39 +210,39 @@ impl<S: Scalar> Waves<S> {
 /// `[v_x] = [q]/2c`, `[v_t] = [q]/2`, the jump being taken in the direction of time at a fixed point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ray<S> {
-    /// When it leaves the ground.
+    /// Time at which it leaves the ground.
     pub from: S,
-    /// When it comes back.
+    /// Time at which it returns.
     pub to: S,
     /// `([v_x], [v_t])` on the way up.
     pub up: [S; 2],
     /// `([v_x], [v_t])` on the way down.
     pub down: [S; 2],
-    /// The jump of `v_tt` along with it, `[p′]/2` on the way up: all that a release from zero stress leaves.
+    /// Jump of `v_tt` along the ray, `[p′]/2` on the way up. A release from zero stress leaves only this.
     pub kink: S,
 }
 
 impl<S> Ray<S> {
-    /// The same ray in other numbers.
+    /// Converts the ray to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Ray<T> {
         Ray { from: f(self.from), to: f(self.to), up: self.up.map(&f), down: self.down.map(&f), kink: f(self.kink) }
     }
 }
 
 impl<S: Scalar> Ray<S> {
-    /// `([v_x], [v_t])` on the way up as a plane vector. **Accuracy**: rounded to doubles.
+    /// Returns `([v_x], [v_t])` on the way up as a plane vector. **Accuracy**: rounded to doubles.
     pub fn up_vector(&self) -> DVec2 {
         DVec2::new(self.up[0].to_f64(), self.up[1].to_f64())
     }
 
-    /// `([v_x], [v_t])` on the way down as a plane vector. **Accuracy**: rounded to doubles.
+    /// Returns `([v_x], [v_t])` on the way down as a plane vector. **Accuracy**: rounded to doubles.
     pub fn down_vector(&self) -> DVec2 {
         DVec2::new(self.down[0].to_f64(), self.down[1].to_f64())
     }
 }
 
-/// What an end does to the jump `([v_x], [v_t])` of a ray that it reflects: an end that is held (a fixed top, the
-/// ground in contact) turns `[v_t]` round, a free one `[v_x]`.
+/// Returns the reflection of the jump `([v_x], [v_t])` of a ray at an end: a held end (a fixed top, the ground in
+/// contact) reverses `[v_t]`, a free end reverses `[v_x]`.
 ///
 /// ```
 /// use glam::DVec2;

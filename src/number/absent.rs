@@ -1,6 +1,6 @@
-//! What stands for long numbers and enclosures in a build without the feature `mp`: types without a value.
+//! Empty types in place of long numbers and enclosures in a build without the feature `mp`.
 //!
-//! They let every other room name the number systems without asking for the feature. No plan chooses them, because
+//! They let all other modules name these number systems without a `cfg`. No plan chooses them, because
 //! [`Plan`](crate::Plan) refuses with [`Error::NoMultiprecision`](crate::Error::NoMultiprecision) first.
 
 use std::cmp::Ordering;
@@ -39,7 +39,7 @@ macro_rules! absent {
                 sin() -> Self, pi() -> Self);
         }
     )*};
-    // Methods that nothing can call.
+    // Uncallable methods: the type has no value.
     (@none $($method:ident($($_:tt: $of:ty)?) -> $answer:ty),*) => {$(
         fn $method(&self $(, $_: $of)?) -> $answer {
             match *self {}
@@ -56,9 +56,9 @@ macro_rules! absent {
 }
 
 absent!(
-    /// In a build with the feature `mp`, `rug::Float`.
+    /// Placeholder for `rug::Float`, which needs the feature `mp`.
     Float,
-    /// In a build with the feature `mp`, an enclosure.
+    /// Placeholder for an enclosure, which needs the feature `mp`.
     Interval
 );
 

@@ -1,117 +1,116 @@
-//! Numbers that answer for their own error.
+//! Numbers that account for their own error.
 
 use super::{Estimate, Interval, Rational, Rounded, Scalar};
 
-/// A number that answers for its own error: by having none, by enclosing it, or by carrying a bound of it.
+/// A number that accounts for its own error: it is exact, encloses the true number, or carries an error bound.
 ///
-/// Three kinds of algorithm are written once on it, and each of its methods is the part in which they differ: exact
-/// numbers and enclosures take part in formulas as they are (the defaults), while an [`Estimate`] is a stored value,
-/// for which a formula may be evaluated, and a bound of how far the number meant lies from it, which may be counted
-/// where it matters.
+/// Algorithms are written once for all three kinds, and the methods of this trait are the steps in which the kinds
+/// differ. Exact numbers and enclosures enter formulas as they are (the defaults). An [`Estimate`] is a stored value
+/// with a bound of its distance from the true number: a formula can be evaluated on the stored values alone, and the
+/// bound added only where it matters.
 pub trait Bounded: Scalar {
-    /// The bound of the error in roundoffs; zero where the number is exact or an enclosure.
+    /// Returns the error bound in roundoffs; zero for exact numbers and enclosures.
     fn roundoffs(&self) -> f64 {
         0.0
     }
 
-    /// The stored value, without the error: for formulas that count it elsewhere.
+    /// Returns the stored value without the error, for formulas that account for it elsewhere.
     fn nominal(self) -> Self {
         self
     }
 
-    /// The difference of the stored values.
+    /// Returns the difference of the stored values.
     fn minus_stored(self, other: &Self) -> Self {
         self - other
     }
 
-    /// The product with the stored value of `other`.
+    /// Returns the product with the stored value of `other`.
     fn times_stored(self, other: &Self) -> Self {
         self * other
     }
 
-    /// Zero, within the error of this number; `None` where it answers for that in its value.
+    /// Returns zero within the error of this number; `None` if its value contains the error already or is exact.
     fn deviation(&self) -> Option<Self> {
         None
     }
 
-    /// Zero, within what this number may differ from zero: for a number that has been taken for zero.
+    /// Returns zero within the possible distance of this number from zero, for a number that is replaced by zero.
     fn taken_for_zero(&self) -> Self {
         self.zero()
     }
 
-    /// One number for two that are the same within their bounds.
+    /// Merges two numbers that agree within their bounds.
     fn joined(self, other: &Self) -> Self {
         let _ = other;
         self
     }
 
-    /// Whether both are surely the same number, or the same within their bounds; false also where that is not known.
+    /// Returns whether both numbers are proved equal, or agree within their bounds; false also if this is unknown.
     fn same(&self, other: &Self) -> bool {
         self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
     }
 
-    /// For the value of a function at the stored `place` of a break, where its rate and bend change from `before` to
-    /// `after`: counts what it is off where the break lies elsewhere in its bound.
+    /// Widens `self`, a function value at the stored `place` of a break, by the error from the true place of the break.
+    /// Rate and bend of the function change from `before` to `after` at the break.
     fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
         let _ = (place, before, after);
     }
 
-    /// Zero, within how far a root of `self + rate·s + bend·s²/2` may lie from `s = 0`, where `self` is zero within its
-    /// bound; `None` where it is zero.
+    /// Returns zero within the possible distance of a root of `self + rate·s + bend·s²/2` from `s = 0`, where `self` is
+    /// zero within its bound; `None` if `self` is exactly zero.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
         let _ = (rate, bend);
         None
     }
 
-    /// `self/2`.
+    /// Returns `self/2`.
     fn halved(self) -> Self {
         let two = self.int(2);
         self / two
     }
 
-    /// `2 self`.
+    /// Returns `2 self`.
     fn doubled(self) -> Self {
         self.clone() + &self
     }
 
-    /// With a symbol for the exact number where nothing else is known of it, so that it equals itself. For enclosures.
+    /// Adds a symbol for the exact number, so that it equals itself, if it has no exact form. For enclosures.
     fn with_identity(self) -> Self {
         self
     }
 
-    /// The same number by a formula that keeps the exact number, or the ends, where this one has lost them. For
-    /// enclosures.
+    /// Evaluates another formula for the same enclosure if this one has lost its exact number or its ends.
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
         let _ = other;
         self
     }
 
-    /// Without the exact number, which outgrows any use in long sums. For enclosures.
+    /// Drops the exact number, which becomes too long in long sums. For enclosures.
     fn without_exact(self) -> Self {
         self
     }
 }
 
-/// A number system of answers, with the one that computations carry beside it: the bound of a rounded number, nothing
-/// for exact numbers and enclosures.
+/// A number system of answers, with the system that computations carry for it: rounded numbers are carried with their
+/// bound, exact numbers and enclosures as they are.
 pub trait Answer: Scalar {
-    /// What computations are done in.
+    /// Number system of the computations.
     type Carried: Bounded<Precision = Self::Precision>;
 
-    /// The number in the carried system. A rounded number stands for all that round to it: `0.6` is 6/10 and meets a
-    /// ray that comes at 3 · 0.2.
+    /// Converts the number to the carried system. A rounded number represents all numbers that round to it: `0.6` is
+    /// 6/10 and meets a ray that arrives at 3 · 0.2.
     fn carry(&self) -> Self::Carried;
 
-    /// The number in the carried system, taken for exact.
+    /// Converts the number to the carried system as an exact number.
     fn exactly(&self) -> Self::Carried {
         self.carry()
     }
 
-    /// The number without what is carried beside it.
+    /// Returns the number without its bound.
     fn strip(carried: Self::Carried) -> Self;
 }
 
-/// Exact numbers and enclosures, which carry nothing beside themselves.
+/// Implements [`Answer`] for exact numbers and enclosures, which carry no separate bound.
 macro_rules! carried_as_they_are {
     ($($type:ty),*) => {$(
         impl Answer for $type {
@@ -161,7 +160,7 @@ impl<S: Rounded> Bounded for Estimate<S> {
         Estimate::rounded(self.into_value() - other.value(), 1.0)
     }
 
-    /// `|a b − a′ b| = |a − a′| |b|`.
+    /// Multiplies with the error `|a b − a′ b| = |a − a′| |b|`.
     #[inline]
     fn times_stored(self, other: &Self) -> Self {
         let error = self.error() * other.to_f64().abs();
@@ -180,15 +179,15 @@ impl<S: Rounded> Bounded for Estimate<S> {
         Estimate::new(self.value().zero(), self.error_of_zero())
     }
 
-    /// The bound of the first is widened by how far the second lies off, and by the bound of that.
+    /// Widens the bound of the first number by the distance to the second and the bound of the second.
     fn joined(self, other: &Self) -> Self {
         let error = other.error() + (self.clone() - other).nominal().error_of_zero();
         let error = error.max(self.error());
         Estimate::new(self.into_value(), error)
     }
 
-    /// With the break at `b + δ` the value at b is off by `∫ (after − before)` from b to b + δ, which is at most
-    /// `|[rate]| |δ| + |[bend]| δ²/2`.
+    /// Widens the value at b by `|[rate]| |δ| + |[bend]| δ²/2`, an upper bound of its error `∫ (after − before)` from b
+    /// to b + δ if the break is at `b + δ`.
     #[inline]
     fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
         let late = place.error();
@@ -196,8 +195,7 @@ impl<S: Rounded> Bounded for Estimate<S> {
             return;
         }
         let unit = self.value().unit();
-        // The jumps are differences of doubles, whose own rounding is counted with the errors of what they are taken
-        // of.
+        // The jumps are differences of doubles; their rounding is added to the errors of both operands.
         let jump = |k: usize| {
             let (a, b) = (before[k].to_f64(), after[k].to_f64());
             let error = (before[k].error() + after[k].error()) * unit;
@@ -206,8 +204,8 @@ impl<S: Rounded> Bounded for Estimate<S> {
         self.widen(late * (jump(0) + jump(1) * late * unit / 2.0));
     }
 
-    /// With `|self| ≤ e` the root next to zero lies within `2e/|rate|` where `rate² ≥ 2 |bend| e`, and a double root
-    /// within `√(2e/|bend|)`; where the first does not hold, the second is the smaller one.
+    /// Computes the deviation of the root next to zero. With `|self| ≤ e` it is within `2e/|rate|` if
+    /// `rate² ≥ 2 |bend| e`, and a double root is within `√(2e/|bend|)`. Otherwise the second bound is smaller.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
         let twice = 2.0 * self.error_of_zero();
         let least = |x: &Self| (x.to_f64().abs() - x.bound()).max(0.0);

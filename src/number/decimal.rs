@@ -1,10 +1,10 @@
-//! Fractions as decimals of any number of digits.
+//! Decimals of fractions, with any number of digits.
 
 use super::rational::{self, Integer, Rational};
 
-/// A decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.
+/// Returns a decimal with exactly `digits` significant digits, rounded to nearest from the exact value of `x`.
 ///
-/// Zero is `0`. Plain notation where the exponent is small (`0.00123`, `31.0000`), otherwise `1.23e-45`.
+/// Zero is `0`. The notation is plain for small exponents (`0.00123`, `31.0000`), otherwise `1.23e-45`.
 ///
 /// **Accuracy**: correctly rounded.
 ///
@@ -21,7 +21,7 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
     }
     let (p, q) = rational::parts(x);
     let p = if order.is_lt() { -p } else { p };
-    // Scale to an integer of `digits` digits; the first guess at the exponent can be one off.
+    // Scale to an integer with `digits` digits; the first guess of the exponent may be off by one.
     let mut exponent = ((log2(&p) - log2(&q)) * std::f64::consts::LOG10_2).floor() as i64;
     let (mantissa, exponent) = loop {
         let text = scaled(&p, &q, digits as i64 - 1 - exponent).to_string();
@@ -48,13 +48,13 @@ pub fn decimal(x: &Rational, digits: u32) -> String {
     format!("{sign}{head}{dot}{tail}e{exponent}")
 }
 
-/// `log₂ n` of an integer above zero, about.
+/// Approximates `log₂ n` for an integer `n > 0`.
 fn log2(n: &Integer) -> f64 {
     let limbs = rational::limbs(n);
     limbs.last().map_or(0.0, |top| (*top as f64).log2()) + 64.0 * (limbs.len() as f64 - 1.0)
 }
 
-/// `p/q · 10^power`, rounded to the nearest integer.
+/// Returns `p/q · 10^power`, rounded to the nearest integer.
 fn scaled(p: &Integer, q: &Integer, power: i64) -> Integer {
     let zeros = "0".repeat(power.unsigned_abs() as usize);
     let factor = format!("1{zeros}").parse::<Integer>().unwrap_or_default();

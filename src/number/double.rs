@@ -1,10 +1,10 @@
-//! Double precision.
+//! Double precision numbers.
 
 use std::cmp::Ordering;
 
 use super::{Analytic, Number, Open, Rounded, Scalar};
 
-/// The shortest decimal that rounds to `x`, with an exponent where it would have many zeros.
+/// Returns the shortest decimal that rounds to `x`, with an exponent where plain notation would need many zeros.
 pub(crate) fn shortest(x: f64) -> String {
     if x == 0.0 || (1e-5..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
@@ -58,7 +58,7 @@ impl Scalar for f64 {
         f64::is_finite(*self)
     }
 
-    /// Zero for what is no number.
+    /// Returns the sign; equal for NaN.
     #[inline]
     fn sign(&self) -> Result<Ordering, Open> {
         Ok(self.partial_cmp(&0.0).unwrap_or(Ordering::Equal))
@@ -69,9 +69,9 @@ impl Scalar for f64 {
         Ok(self.partial_cmp(other).unwrap_or(Ordering::Equal))
     }
 
-    /// Without trailing zeros.
+    /// Returns the decimal without trailing zeros.
     fn decimal(&self, digits: u32) -> String {
-        // Every double is spelt by 17 digits, and most by the fewer that its shortest text has.
+        // Every double has a decimal of 17 digits; the shortest text often has fewer.
         if digits >= 16 {
             return self.text();
         }
@@ -84,7 +84,7 @@ impl Scalar for f64 {
     }
 
     fn text(&self) -> String {
-        // Display never uses an exponent; Debug does so for very large and very small values.
+        // Display never uses an exponent; Debug does for very large and very small values.
         format!("{self:?}")
     }
 }

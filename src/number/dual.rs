@@ -1,21 +1,20 @@
-//! Numbers with a derivative.
+//! Numbers with a derivative, for sensitivities.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Bounded, Number, Open, Scalar};
 
-/// A number and how fast it grows with a value of the problem that becomes a little greater: `a + b ε`, `ε > 0` and
-/// `ε² = 0`.
+/// A number with its rate of change with respect to one value of the problem: `a + b ε`, with `ε > 0` and `ε² = 0`.
 ///
-/// Comparisons are those of the problem with the greater value: where the numbers are equal, their rates decide. So
-/// events come in the order that they have beside a threshold, and the derivative is that from the right. Rounded
-/// numbers are equal within their bounds only, so that no rate decides between them: then it is open.
+/// Comparisons are those of the problem with a slightly greater value: the rates decide between equal numbers. Events
+/// therefore occur in the order beyond a threshold, and the derivative is the right-hand one. Rounded numbers are equal
+/// only within their bounds, so rates cannot decide between them: the comparison is open.
 ///
-/// What first order does not tell, such as a quotient by `b ε` or the root of one, is open in every comparison.
+/// Results beyond first order, such as a quotient by `b ε` or its root, are open in every comparison.
 ///
-/// What a system of numbers counts beside a formula is counted for `a` and `b` alike: each is a stored number and the
-/// deviation from it, and the formula holds for the sums `a + b ε` of both.
+/// Error terms that a number system adds beside a formula apply to `a` and `b` alike: each is a stored number plus its
+/// deviation, and the formula holds for the sums `a + b ε` of both.
 #[derive(Clone, Debug)]
 pub(crate) struct Dual<S> {
     value: S,
@@ -24,7 +23,7 @@ pub(crate) struct Dual<S> {
 }
 
 impl<S: Bounded> Dual<S> {
-    /// `value + rate ε`.
+    /// Returns `value + rate ε`.
     pub(crate) fn new(value: S, rate: S) -> Self {
         Dual { value, rate, known: true }
     }
@@ -33,7 +32,7 @@ impl<S: Bounded> Dual<S> {
         Dual { rate: value.zero(), value, known: true }
     }
 
-    /// `b`; `None` where first order does not tell.
+    /// Returns `b`; `None` if first order does not determine it.
     pub(crate) fn rate(&self) -> Option<&S> {
         Some(&self.rate).filter(|_| self.known)
     }
@@ -46,12 +45,12 @@ impl<S: Bounded> Dual<S> {
         Dual { known: false, ..Dual::constant(near.zero()) }
     }
 
-    /// `f` of both numbers.
+    /// Applies `f` to both components.
     fn each(self, f: impl Fn(S) -> S) -> Self {
         Dual { value: f(self.value), rate: f(self.rate), known: self.known }
     }
 
-    /// `f` of both numbers and those of `other`.
+    /// Applies `f` to the components of `self` and `other`, pair by pair.
     fn with(self, other: &Self, f: impl Fn(S, &S) -> S) -> Self {
         let known = self.known && other.known;
         Dual { value: f(self.value, &other.value), rate: f(self.rate, &other.rate), known }
@@ -119,7 +118,7 @@ impl<S: Bounded> Scalar for Dual<S> {
         Dual::constant(self.value.double(x))
     }
 
-    /// `√(a + b ε) = √a + b ε/2√a`: a step of Newton's method.
+    /// Computes `√(a + b ε) = √a + b ε/2√a`: a step of Newton's method.
     fn try_sqrt(&self) -> Option<Self> {
         let root = self.value.try_sqrt()?;
         if root.vanishes() != Ok(false) {
@@ -169,7 +168,7 @@ impl<S: Bounded> Scalar for Dual<S> {
 }
 
 impl<S: Bounded> Bounded for Dual<S> {
-    /// Never zero: numbers may be equal in first order only.
+    /// Returns a number above zero even for exact numbers: they may be equal in first order only.
     fn roundoffs(&self) -> f64 {
         self.value.roundoffs().max(f64::MIN_POSITIVE)
     }
@@ -201,7 +200,7 @@ impl<S: Bounded> Bounded for Dual<S> {
         self.with(other, S::joined)
     }
 
-    /// The rate of `[rate] δ + [bend] δ²/2`, where δ is the deviation of the place.
+    /// Widens the rate by the rate of `[rate] δ + [bend] δ²/2`, where δ is the deviation of the place.
     fn cross_break(&mut self, place: &Self, before: [&Self; 2], after: [&Self; 2]) {
         let values = |line: [&Self; 2]| line.map(|number| number.value.clone());
         self.value.cross_break(&place.value, values(before).each_ref(), values(after).each_ref());
@@ -211,8 +210,8 @@ impl<S: Bounded> Bounded for Dual<S> {
         self.rate = self.rate.clone().widened(&(by * &late).rate);
     }
 
-    /// The root s of `a + b s + c s²/2` has the rate `−(ȧ + ḃ s + ċ s²/2)/(b + c s)`. Never `None`: root and break may
-    /// be one in first order only.
+    /// Computes the root s of `a + b s + c s²/2`, whose rate is `−(ȧ + ḃ s + ċ s²/2)/(b + c s)`. The result is never
+    /// `None`, because root and break may coincide in first order only.
     fn root_deviation(&self, rate: &Self, bend: &Self) -> Option<Self> {
         let zero = || self.value.zero();
         let root = self.value.root_deviation(&rate.value, &bend.value).unwrap_or_else(zero);

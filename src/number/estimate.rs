@@ -1,4 +1,4 @@
-//! A rounded number with the bound of its own error.
+//! Rounded numbers with a bound of their own error.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -6,8 +6,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::fraction::spelling;
 use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
 
-/// The bound of a number that was spelled, in roundings, of which it has one: no operation leaves these, which tell it
-/// from a number that was computed.
+/// Returns the bound, in roundings, that marks a number as spelled; its true error is at most one. Rounding operations
+/// do not produce these bounds (negation, halving and doubling keep them), so they identify spelled numbers.
 fn roundings(spelling: Spelling) -> f64 {
     match spelling {
         Spelling::Decimal => 1.25,
@@ -16,13 +16,13 @@ fn roundings(spelling: Spelling) -> f64 {
     }
 }
 
-/// A rounded number and how far the number meant may lie from it, carried through every operation.
+/// A rounded number with a bound of its distance from the true number, carried through every operation.
 ///
-/// The error is counted in roundoffs `u` of the number system, so that it neither underflows nor overflows where a
-/// number has thousands of bits: the number meant lies within `error · u` of the value.
+/// The error is counted in roundoffs `u` of the number system, so that it neither underflows nor overflows for numbers
+/// with thousands of bits: the true number lies within `error · u` of the value.
 ///
-/// **Accuracy**: *within its own bound*. Each operation adds what it makes of the errors of its operands, products of
-/// two errors included, and one rounding of its result; an elementary function, two.
+/// **Accuracy**: *within its own bound*. Each operation propagates the errors of its operands, products of two errors
+/// included, and adds one rounding of its result; an elementary function adds two.
 ///
 /// ```
 /// use dalembert::Estimate;
@@ -41,36 +41,36 @@ pub struct Estimate<S> {
 }
 
 impl<S> Estimate<S> {
-    /// `value`, within `error` roundoffs.
+    /// Returns `value` with a bound of `error` roundoffs.
     #[inline]
     pub fn new(value: S, error: f64) -> Self {
         Estimate { value, error }
     }
 
-    /// `value`, without an error.
+    /// Returns `value` as an exact number.
     #[inline]
     pub fn exact(value: S) -> Self {
         Estimate { value, error: 0.0 }
     }
 
-    /// The value.
+    /// Returns the value.
     #[inline]
     pub fn value(&self) -> &S {
         &self.value
     }
 
-    /// Adds so many roundoffs to the bound.
+    /// Adds this many roundoffs to the bound.
     #[inline]
     pub(super) fn widen(&mut self, roundoffs: f64) {
         self.error += roundoffs;
     }
 
-    /// The value, without its bound.
+    /// Returns the value without its bound.
     pub fn into_value(self) -> S {
         self.value
     }
 
-    /// The bound of the error, in roundoffs.
+    /// Returns the error bound in roundoffs.
     #[inline]
     pub fn error(&self) -> f64 {
         self.error
@@ -78,46 +78,46 @@ impl<S> Estimate<S> {
 }
 
 impl<S: Rounded> Estimate<S> {
-    /// `value`, within so many roundings of itself.
+    /// Returns `value` with a bound of this many roundings of itself.
     #[inline]
     pub fn rounded(value: S, roundings: f64) -> Self {
         let error = roundings * size(&value);
         Estimate { value, error }
     }
 
-    /// The bound of the error as a double.
+    /// Returns the error bound as a double.
     #[inline]
     pub fn bound(&self) -> f64 {
         self.error * self.value.unit()
     }
 
-    /// The bound of the error, in roundoffs, if zero stands for the number.
+    /// Returns the error bound in roundoffs if zero replaces the number.
     #[inline]
     pub(super) fn error_of_zero(&self) -> f64 {
         self.error + self.value.in_roundoffs()
     }
 
-    /// `value`, with `error` from the operands and one rounding.
+    /// Returns `value` with the propagated `error` of the operands plus one rounding.
     #[inline]
     fn once(value: S, error: f64) -> Self {
         let error = error + size(&value);
         Estimate { value, error }
     }
 
-    /// `f(x)` where `|f′| ≤ slope` within the error of x, with two roundings.
+    /// Returns `f(x)` with two roundings, where `|f′| ≤ slope` within the error of x.
     fn function(&self, value: S, slope: f64) -> Self {
         let error = if self.error == 0.0 { 0.0 } else { self.error * slope };
         Estimate { error: error + 2.0 * size(&value), value }
     }
 
-    /// `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
+    /// Returns `√(e u)` in roundoffs: the error of the square root of a number that may be zero.
     fn root_of_error(&self) -> f64 {
         (self.error.log2() / 2.0 - self.value.log2_roundoff() / 2.0).exp2()
     }
 }
 
-/// What a rounding of `value` is counted as: its size, but at least the least normal double where it is not zero, below
-/// which doubles round by more, and long numbers have no size in doubles.
+/// Returns the size of one rounding of `value`, in roundoffs: `|value|`, but at least the least normal double unless
+/// the value is zero. Below that, doubles round more coarsely, and a long number has no size as a double.
 #[inline]
 fn size<S: Rounded>(value: &S) -> f64 {
     let size = value.to_f64().abs();
@@ -153,7 +153,7 @@ impl<S: Rounded> Mul<&Estimate<S>> for Estimate<S> {
     #[inline]
     fn mul(self, other: &Self) -> Self {
         let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
-        // In this order a product of errors beyond the range of doubles is still a number.
+        // This order keeps a product of errors in the range of doubles.
         let both = self.error * self.value.unit() * other.error;
         Estimate::once(self.value * &other.value, a * other.error + b * self.error + both)
     }
@@ -161,13 +161,13 @@ impl<S: Rounded> Mul<&Estimate<S>> for Estimate<S> {
 
 impl<S: Rounded> Div<&Estimate<S>> for Estimate<S> {
     type Output = Self;
-    /// `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
+    /// Divides with the bound `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
     #[inline]
     fn div(self, other: &Self) -> Self {
         let least = other.value.to_f64().abs() - other.bound();
         let value = self.value / &other.value;
         let error = self.error + value.to_f64().abs() * other.error;
-        // Without an error in the divisor there is none from it, whatever it is.
+        // An exact divisor contributes no error, whatever its value.
         let error = if least > 0.0 {
             error / least
         } else if other.error == 0.0 && error == 0.0 {
@@ -215,9 +215,9 @@ impl<S: Rounded> Scalar for Estimate<S> {
         Estimate::exact(self.value.double(x))
     }
 
-    /// Zero where the number is zero within its bound.
+    /// Computes the square root; zero within its bound for a negative value that is zero within its bound.
     ///
-    /// `|√a − √b| = |a − b|/(√a + √b)`, and at most `√|a − b|`.
+    /// The error bound follows from `|√a − √b| = |a − b|/(√a + √b)`, which is at most `√|a − b|`.
     fn try_sqrt(&self) -> Option<Self> {
         match self.sign() {
             Ok(Ordering::Less) => None,
@@ -225,7 +225,7 @@ impl<S: Rounded> Scalar for Estimate<S> {
             _ => {
                 let value = self.value.try_sqrt()?;
                 let least = self.value.to_f64() - self.bound();
-                // From the bound on, the first of both is the smaller one.
+                // Once the value exceeds its bound, the first of both expressions is the smaller one.
                 let error = if self.error == 0.0 {
                     0.0
                 } else if least > 0.0 {
@@ -255,7 +255,7 @@ impl<S: Rounded> Scalar for Estimate<S> {
     #[inline]
     fn sign(&self) -> Result<Ordering, Open> {
         let size = self.value.to_f64();
-        // One comparison of doubles settles nearly all.
+        // One comparison of doubles decides almost all cases.
         if size.abs() > (2.0 * self.bound()).max(f64::MIN_POSITIVE) {
             return Ok(if size < 0.0 { Ordering::Less } else { Ordering::Greater });
         }
@@ -266,7 +266,7 @@ impl<S: Rounded> Scalar for Estimate<S> {
         self.value.sign()
     }
 
-    /// `|a² − a′²| = |a − a′| |a + a′|`.
+    /// Squares with the error bound from `|a² − a′²| = |a − a′| |a + a′|`.
     #[inline]
     fn square(&self) -> Self {
         let value = self.value.square();
@@ -278,12 +278,12 @@ impl<S: Rounded> Scalar for Estimate<S> {
         self.error.log2() + self.value.log2_roundoff()
     }
 
-    /// An integer that the number is equal to within its bound is that integer.
+    /// Returns the floor; an integer that equals the number within its bound counts as the number.
     #[inline]
     fn floor_int(&self) -> Option<i64> {
         let floor = self.value.floor_int()?;
         let past = (self.value.clone() - self.value.int(floor)).to_f64();
-        // One pair of comparisons of doubles settles nearly all.
+        // Two comparisons of doubles decide almost all cases.
         if past.min(1.0 - past) > 2.0 * self.bound() && past.is_normal() {
             return Some(floor);
         }
@@ -327,7 +327,7 @@ impl<S: Rounded> Analytic for Estimate<S> {
     fn sqrt(&self) -> Self {
         self.try_sqrt().unwrap_or_else(|| Estimate::new(self.value.sqrt(), f64::INFINITY))
     }
-    /// The slope within the error is at most `eˣ⁺ᵉ`.
+    /// Computes `eˣ`; the slope within the error is at most `eˣ⁺ᵉ`.
     fn exp(&self) -> Self {
         let value = self.value.exp();
         let slope = value.to_f64() * self.bound().exp();

@@ -1,4 +1,4 @@
-//! Any number of bits.
+//! Floating-point numbers with any number of bits.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use super::fraction::spelled_as;
 use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar, decimal};
 
 impl Scalar for Float {
-    /// Bits of the significand.
+    /// Number of bits of the significand.
     type Precision = u32;
 
     fn from_number(number: &Number, precision: &u32) -> Self {
@@ -52,7 +52,7 @@ impl Scalar for Float {
         Float::is_finite(self)
     }
 
-    /// Zero for what is no number.
+    /// Returns the sign; equal for NaN.
     fn sign(&self) -> Result<Ordering, Open> {
         Ok(self.cmp0().unwrap_or(Ordering::Equal))
     }
@@ -97,7 +97,7 @@ impl Rounded for Float {
     }
 }
 
-/// Both systems round: the bound of the longer number, and the rounding to a double.
+/// Adds the bound of the longer number and the rounding to a double.
 impl Reads<Estimate<Float>> for Estimate<f64> {
     fn read(number: Estimate<Float>) -> Self {
         let (bound, value) = (number.bound(), number.to_f64());
@@ -112,7 +112,7 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
     }
 }
 
-/// `value` in so many bits, rounded down.
+/// Returns `value` in this many bits, rounded down.
 pub(crate) fn down<T>(bits: u32, value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
@@ -120,7 +120,7 @@ where
     Float::with_val_round(bits, value, Round::Down).0
 }
 
-/// `value` in so many bits, rounded up.
+/// Returns `value` in this many bits, rounded up.
 pub(crate) fn up<T>(bits: u32, value: T) -> Float
 where
     Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,

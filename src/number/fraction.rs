@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::rational::{self, Integer, Rational};
 use super::{Bounded, Estimate, Number, Open, Reads, Scalar, Spelling};
 
-/// Square factors below this leave the root of a surd that is printed.
+/// Upper limit of the square factors that a printed surd moves out of its root.
 const SMALL_FACTOR: u32 = 10_000;
 
 impl Scalar for Rational {
@@ -51,7 +51,7 @@ impl Scalar for Rational {
     }
 
     fn surd(&self, plus: bool, square: &Self) -> String {
-        // √(n/d) = √(n d)/d, and squares of small primes leave the root.
+        // √(n/d) = √(n d)/d; squares of small primes move out of the root.
         let (numerator, denominator) = rational::parts(square);
         let (zero, one) = (Integer::from(0), Integer::from(1));
         let mut radicand = numerator * &denominator;
@@ -88,7 +88,7 @@ impl Bounded for Rational {
     }
 }
 
-/// Rounded once.
+/// Rounds once.
 impl Reads<Rational> for Estimate<f64> {
     fn read(number: Rational) -> Self {
         let value = Scalar::to_f64(&number);
@@ -102,11 +102,11 @@ impl Reads<Rational> for Estimate<f64> {
     }
 }
 
-/// A fraction is looked for with denominators up to this, of which no two lie as close as doubles do.
+/// Maximum denominator of a simple fraction: no two such fractions are as close as neighbouring doubles.
 const MOST_DENOMINATOR: i64 = 10_000;
 
-/// The number that a double stands for: the shortest decimal that rounds to it, or, where that takes all digits of a
-/// double, a simple fraction that does. `None` for what is no number.
+/// Returns the number that a double represents: the shortest decimal that rounds to it, or, if that decimal takes all
+/// digits of a double, a simple fraction that rounds to it. `None` for NaN and infinities.
 pub(super) fn spelled(x: f64) -> Option<Number> {
     let decimal = x.to_string();
     let digits = decimal.bytes().filter(u8::is_ascii_digit).count();
@@ -114,12 +114,12 @@ pub(super) fn spelled(x: f64) -> Option<Number> {
     fraction.unwrap_or(decimal).parse().ok()
 }
 
-/// How a number is spelled that is rounded to `x`.
+/// Returns the spelling of `number`, which rounds to `x`.
 pub(super) fn spelling(x: f64, number: &Number) -> Spelling {
     let same = |other: Option<Number>| other.is_some_and(|other| other.compare(number).is_eq());
     let text = number.to_string();
     let mantissa = text.split(['e', 'E']).next().unwrap_or_default();
-    // A decimal of no more digits than any double holds.
+    // Every double represents a decimal with so few digits.
     let short = !text.contains('/') && mantissa.bytes().filter(u8::is_ascii_digit).count() <= 15;
     match short || same(x.to_string().parse().ok()) {
         true => Spelling::Decimal,
@@ -128,7 +128,7 @@ pub(super) fn spelling(x: f64, number: &Number) -> Spelling {
     }
 }
 
-/// The number that a double stands for, if it is known how that was spelled.
+/// Returns the number that a double represents if its spelling is known.
 pub(crate) fn spelled_as(x: f64, spelling: Option<Spelling>) -> Option<Number> {
     match spelling {
         Some(Spelling::Decimal) => x.to_string().parse().ok(),
@@ -136,7 +136,7 @@ pub(crate) fn spelled_as(x: f64, spelling: Option<Spelling>) -> Option<Number> {
     }
 }
 
-/// The convergents of the continued fraction of `x`, as far as denominators are small: the first that rounds to it.
+/// Returns the first convergent of the continued fraction of `x` that rounds to it, if its denominator is small.
 fn simple_fraction(x: f64) -> Option<String> {
     let (mut rest, mut last, mut now) = (x.abs(), (0i64, 1i64), (1i64, 0i64));
     while rest < 1e15 {

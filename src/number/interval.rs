@@ -1,7 +1,7 @@
 //! Enclosures: intervals with ends of any number of bits, rounded outwards.
 //!
-//! A comparison of intervals has three answers. The third is the error [`Open`](super::Open), which is handled where it
-//! is asked, or passed on to where more bits are taken.
+//! A comparison of intervals has three answers. The third is the error [`Open`](super::Open): the caller handles it, or
+//! passes it on to code that repeats the computation with more bits.
 
 mod system;
 
@@ -16,23 +16,23 @@ use super::Estimate;
 use super::float::{down, up};
 use super::radical::Radical;
 
-/// How an [`Interval`] is carried.
+/// Precision of an [`Interval`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntervalPrecision {
     /// Bits of the significands of both ends.
     pub bits: u32,
-    /// Whether the exact number inside, made of fractions and square roots, is carried as well, for as long as it is
-    /// short: with it coincidences are decided that no interval can decide.
+    /// Whether the interval carries the exact number inside, made of fractions and square roots, as long as it is
+    /// short. The exact number decides coincidences that no interval can decide.
     pub exact: bool,
 }
 
 impl IntervalPrecision {
-    /// Intervals alone.
+    /// Returns the precision of intervals alone.
     pub fn bits(bits: u32) -> Self {
         IntervalPrecision { bits, exact: false }
     }
 
-    /// Intervals with the exact number inside, where it is known.
+    /// Returns the precision of intervals with the exact number inside while it is known.
     pub fn with_exact(bits: u32) -> Self {
         IntervalPrecision { bits, exact: true }
     }
@@ -41,18 +41,18 @@ impl IntervalPrecision {
 /// The exact number inside an interval.
 #[derive(Clone, Debug)]
 enum Inside {
-    /// Not followed.
+    /// No exact number is requested.
     Off,
-    /// Not made of fractions and square roots, or too long.
+    /// The exact number is not made of fractions and square roots, or too long.
     Lost,
     Known(Box<Radical>),
 }
 
-/// All numbers from `lo` to `hi`, one of which is meant.
+/// A closed interval from `lo` to `hi` that contains the true number.
 ///
 /// **Accuracy**: *enclosure*: every operation rounds its ends outwards.
 ///
-/// A comparison that the ends do not settle is [`Open`](super::Open).
+/// A comparison that the ends do not decide is [`Open`](super::Open), unless exact numbers decide it.
 #[derive(Clone, Debug)]
 pub struct Interval {
     lo: Float,
@@ -83,7 +83,7 @@ impl Inside {
 }
 
 impl Interval {
-    /// From `lo` to `hi`; everything, where one of them is no number.
+    /// Returns the interval from `lo` to `hi`; the whole line if an end is NaN.
     fn checked(lo: Float, hi: Float, inside: Inside) -> Self {
         if lo.is_nan() || hi.is_nan() {
             return Interval { inside, ..Interval::everything(lo.prec()) };
@@ -100,21 +100,21 @@ impl Interval {
         Interval { lo, hi, inside: Inside::Off }
     }
 
-    /// All numbers from `lo` to `hi`.
+    /// Returns the interval from `lo` to `hi`.
     ///
-    /// **Errors**: everything from −∞ to ∞ where an end is no number or they are in the wrong order.
+    /// **Errors**: the whole line from −∞ to ∞ if an end is NaN or the ends are in the wrong order.
     pub fn between(lo: Float, hi: Float) -> Self {
         if lo > hi { Interval::everything(lo.prec()) } else { Interval::checked(lo, hi, Inside::Off) }
     }
 
-    /// A fraction. **Accuracy**: *enclosure* of one unit in the last place, a point where it fits.
+    /// Encloses a fraction. **Accuracy**: *enclosure* of one unit in the last place, a point if the fraction fits.
     pub fn rational(x: &Rational, precision: IntervalPrecision) -> Self {
         let IntervalPrecision { bits, exact } = precision;
         let inside = if exact { Inside::of(Radical::rational(x.clone())) } else { Inside::Off };
         Interval { lo: down(bits, x), hi: up(bits, x), inside }
     }
 
-    /// The lower end: no number meant is smaller.
+    /// Returns the lower end: the true number is not smaller.
     ///
     /// ```
     /// let rod = dalembert::Problem::builder().length(1).wave_speed(3).impact_speed(1).build()?;
@@ -130,12 +130,12 @@ impl Interval {
         &self.lo
     }
 
-    /// The upper end: no number meant is greater.
+    /// Returns the upper end: the true number is not greater.
     pub fn hi(&self) -> &Float {
         &self.hi
     }
 
-    /// A number in the middle, for starting values and pictures.
+    /// Returns a number in the middle, for starting values and pictures.
     pub fn mid(&self) -> Float {
         let bits = self.lo.prec();
         let mut mid = Float::with_val(bits + 1, &self.lo + &self.hi);
@@ -144,25 +144,24 @@ impl Interval {
         mid
     }
 
-    /// At least half the width, rounded up.
+    /// Returns an upper bound of half the width.
     pub fn radius(&self) -> Float {
         up(53, &self.hi - &self.lo) / 2u32
     }
 
-    /// Whether `x` is one of the numbers.
+    /// Returns whether the interval contains `x`.
     pub fn contains(&self, x: &Rational) -> bool {
         self.lo <= *x && self.hi >= *x
     }
 
-    /// Everything in both, for two enclosures of one number; `None` where they have nothing in common, which proves one
-    /// of them wrong.
+    /// Intersects two enclosures of the same number; `None` if they are disjoint, which proves one of them wrong.
     pub fn meet(&self, other: &Self) -> Option<Self> {
         let lo = if self.lo >= other.lo { &self.lo } else { &other.lo };
         let hi = if self.hi <= other.hi { &self.hi } else { &other.hi };
         (lo <= hi).then(|| Interval { lo: lo.clone(), hi: hi.clone(), inside: self.inside.clone() })
     }
 
-    /// The middle in so many bits, and a bound of how far the number meant lies from it.
+    /// Returns the middle in this many bits, with a bound of its distance from the true number.
     pub(crate) fn estimate(&self, bits: u32) -> Estimate<Float> {
         let middle = Float::with_val(bits, self.mid());
         let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::AwayZero).0.abs();
@@ -171,7 +170,7 @@ impl Interval {
         Estimate::new(middle, error)
     }
 
-    /// Everything within the bound of `x`. A part in 10⁹ and 10⁻³⁰⁰ are for the doubles in it.
+    /// Encloses all numbers within the bound of `x`. The factor and the summand cover the rounding of doubles.
     pub(crate) fn within(x: &Estimate<Float>) -> Self {
         let (middle, bits) = (x.value(), x.value().prec());
         let radius = Float::with_val(64, x.error() * (1.0 + 1e-9) + 1e-300) >> bits;
@@ -190,7 +189,7 @@ impl Interval {
         }
     }
 
-    /// `f` of the middle, give or take the radius, for functions of slope at most 1 and size at most 1.
+    /// Encloses `f` by its value at the middle, plus or minus the radius, for functions with `|f′| ≤ 1` and `|f| ≤ 1`.
     fn lipschitz(&self, f: impl Fn(&Float, Round) -> Float) -> Self {
         let bits = self.lo.prec();
         let (mid, one) = (self.mid(), Float::with_val(bits, 1));
@@ -242,7 +241,7 @@ impl Mul<&Interval> for Interval {
         if self.lo.is_infinite() || self.hi.is_infinite() || c.is_infinite() || d.is_infinite() {
             return Interval { inside, ..Interval::everything(bits) };
         }
-        // The end of one factor that makes each end of the product.
+        // The signs select the ends of both factors that give each end of the product.
         let (lo, hi) = match (positive(a), negative(b), positive(c), negative(d)) {
             (true, _, true, _) => (down(bits, a * c), up(bits, b * d)),
             (true, _, _, true) => (down(bits, b * c), up(bits, a * d)),

@@ -1,4 +1,4 @@
-//! A number as a person wrote it.
+//! Numbers as a person writes them.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::rational::{self, Integer, Rational};
 
-/// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It stands for exactly the rational that it
+/// A number as a person wrote it: `3`, `0.1`, `1e-9`, `1/3`, `2.5/7`. It represents exactly the rational that it
 /// spells: `0.1` is 1/10, never the nearest double.
 ///
 /// **Accuracy**: exact; [`Number::to_f64`] rounds once.
@@ -27,7 +27,7 @@ pub struct Number {
     value: f64,
 }
 
-/// Why a text is not a number that can be used.
+/// Reason to reject a text as a number.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum NumberError {
     /// The text does not spell a number.
@@ -36,7 +36,7 @@ pub enum NumberError {
     /// The denominator is zero.
     #[error("found `{0}`, expected a fraction whose denominator is not zero")]
     ZeroDenominator(String),
-    /// The magnitude is outside what every number system here holds.
+    /// The magnitude is outside the range that every number system holds.
     #[error("found `{0}`, expected zero or a magnitude between 1e-300 and 1e300")]
     Size(String),
     /// The text is too long.
@@ -47,19 +47,19 @@ pub enum NumberError {
 const MAX_CHARACTERS: usize = 20_000;
 
 impl Number {
-    /// The nearest double. **Accuracy**: correctly rounded for decimals and for fractions of integers below 2⁵³;
-    /// within 1.5 ulp for other fractions.
+    /// Returns the nearest double. **Accuracy**: correctly rounded for decimals and for fractions of integers below
+    /// 2⁵³; within 1.5 ulp for other fractions.
     #[inline]
     pub fn to_f64(&self) -> f64 {
         self.value
     }
 
-    /// Whether the number is zero.
+    /// Returns whether the number is zero.
     pub fn is_zero(&self) -> bool {
         self.value == 0.0
     }
 
-    /// The order of two numbers by value: `1/2` and `0.5` are equal here.
+    /// Compares two numbers by value: `1/2` and `0.5` are equal here.
     ///
     /// **Accuracy**: *exact*.
     ///
@@ -72,7 +72,7 @@ impl Number {
     /// # Ok::<(), dalembert::number::NumberError>(())
     /// ```
     pub fn compare(&self, other: &Number) -> Ordering {
-        // Both values are within 1.5 ulp: where they lie farther apart than that, doubles decide.
+        // Both doubles are within 1.5 ulp: they decide if they differ by more than that.
         let slack = 4.0 * f64::EPSILON * self.value.abs().max(other.value.abs());
         if (self.value - other.value).abs() > slack {
             return self.value.total_cmp(&other.value);
@@ -80,24 +80,24 @@ impl Number {
         self.to_rational().cmp(&other.to_rational())
     }
 
-    /// Numerator and denominator, each a decimal.
+    /// Returns numerator and denominator, each as a decimal.
     fn parts(&self) -> (&str, &str) {
         self.text.split_once('/').unwrap_or((&self.text, "1"))
     }
 
-    /// The fraction that the text spells. **Accuracy**: exact.
+    /// Returns the fraction that the text spells. **Accuracy**: exact.
     pub fn to_rational(&self) -> Rational {
         let (numerator, denominator) = self.parts();
         decimal_to_rational(numerator) / decimal_to_rational(denominator)
     }
 
-    /// The number that `fraction` spells; `None` beyond the sizes that are read.
+    /// Returns the number that `fraction` spells; `None` if its magnitude or its length is not accepted.
     pub(crate) fn of_rational(fraction: &Rational) -> Option<Number> {
         fraction.to_string().parse().ok()
     }
 }
 
-/// The fraction that a checked decimal spells.
+/// Converts a checked decimal to a fraction.
 fn decimal_to_rational(text: &str) -> Rational {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
@@ -142,7 +142,7 @@ impl FromStr for Number {
     }
 }
 
-/// A text for a message: on one line, at most 40 characters.
+/// Shortens a text for a message: one line, at most 40 characters.
 pub fn short(text: &str) -> String {
     const MOST: usize = 40;
     let mut shown = String::new();
@@ -159,13 +159,13 @@ pub fn short(text: &str) -> String {
     shown
 }
 
-/// Whether no digit of the mantissa is other than 0.
+/// Returns whether all digits of the mantissa are 0.
 fn spells_zero(decimal: &str) -> bool {
     let mantissa = decimal.split(['e', 'E']).next().unwrap_or(decimal);
     !mantissa.contains(|c: char| c.is_ascii_digit() && c != '0')
 }
 
-/// Sign, digits with at most one point, exponent; nothing else that `f64::from_str` would take (`inf`, `nan`).
+/// Returns whether the text is a plain decimal; `f64::from_str` also accepts `inf` and `nan`.
 fn is_decimal(text: &str) -> bool {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let (mantissa, exponent) = unsigned.split_once(['e', 'E']).unwrap_or((unsigned, "0"));
@@ -183,7 +183,7 @@ impl From<i64> for Number {
     }
 }
 
-/// The same text spells the same number; `1/2` and `0.5` are equal in value but not here.
+/// Compares the texts: `1/2` and `0.5` are equal in value but not here.
 impl PartialEq for Number {
     fn eq(&self, other: &Self) -> bool {
         self.text == other.text
@@ -196,7 +196,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// As its text: a JSON number would be rounded.
+/// Writes the text: a JSON number would be rounded.
 impl serde::Serialize for Number {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.text)

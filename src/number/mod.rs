@@ -1,6 +1,6 @@
-//! Numbers: what they can do, in six systems; exact text in and rounded text out.
+//! Numbers in six systems; exact text in and rounded text out.
 //!
-//! | type | system | what it promises |
+//! | type | system | guarantee |
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
 //! | [`Wide`] | two to six machine words | each operation correctly rounded; elementary functions within 0.51 ulp |
@@ -9,12 +9,12 @@
 //! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
 //! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
-//! `Dual`, a number with a derivative, is for computations inside.
+//! `Dual`, a number with a derivative, is for internal computations.
 //!
-//! Formulas are written once: [`Scalar`] has the field operations and the square root, [`Analytic`] the elementary
-//! functions; [`Rounded`] numbers round, and [`Bounded`] ones answer for their own error.
+//! Formulas are written once. [`Scalar`] provides the field operations and the square root, [`Analytic`] the elementary
+//! functions; [`Rounded`] numbers round, and [`Bounded`] numbers account for their own error.
 
-/// The operators with the right operand by value, from those by reference.
+/// Implements the operators with the right operand by value on top of those by reference.
 macro_rules! by_value {
     ([$($bound:tt)*] $type:ty) => {
         by_value!(@ [$($bound)*] $type, Add add);

@@ -1,4 +1,4 @@
-//! Exact numbers made of fractions and square roots: `3 + √2`, `1/2 + √(5 + 2√3)`.
+//! Exact numbers composed of fractions and square roots: `3 + √2`, `1/2 + √(5 + 2√3)`.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -8,39 +8,39 @@ use rug::{Assign, Float, Integer, Rational};
 
 use super::float::{down, up};
 
-/// A positive square root, or a number of which nothing is known but that it is always the same. By depth first, so
-/// that a radicand has only roots before its own.
+/// A positive square root, or a named number that equals only itself. Roots are ordered by depth first, so that a
+/// radicand contains only roots that precede its own.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Root {
-    /// How many roots stand in each other.
+    /// Nesting depth of roots.
     depth: u32,
-    /// What stands under the root; `None` where the number is only named.
+    /// The radicand; `None` for a named number.
     radicand: Option<Radical>,
-    /// Told from others by this.
+    /// Identifier of a named number; 0 for roots.
     name: u64,
 }
 
-/// A product of roots in order, each once, and of named numbers, as often as it takes; empty for 1.
+/// A product of roots, in order and each once, and of named numbers with multiplicity; empty for 1.
 type Product = Vec<Arc<Root>>;
 
-/// `Σ c_k ρ_i ρ_j …`: fractions times products of roots.
+/// A sum `Σ c_k ρ_i ρ_j …` of fractions times products of roots.
 ///
-/// Where all `c_k` are zero the number is zero. Where they are not it may still be, if the roots depend on each other
-/// in a way that was not seen; only the digits then tell, and never say zero. So no sign told is ever wrong.
+/// The number is zero if all `c_k` are zero. It may also be zero otherwise, if its roots are dependent in an undetected
+/// way. Then only digits could decide, and these never prove zero. A reported sign is therefore never wrong.
 ///
-/// Operations give `None` where the result outgrows [`MOST_TERMS`] or [`MOST_BITS`].
+/// Operations return `None` if the result exceeds [`MOST_TERMS`] or [`MOST_BITS`].
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Radical {
     terms: Vec<(Product, Rational)>,
 }
 
-/// Longer numbers are not worth carrying.
+/// Maximum number of terms; longer numbers are not worth carrying.
 const MOST_TERMS: usize = 16;
 const MOST_BITS: u32 = 1 << 12;
 const MOST_DEPTH: u32 = 3;
-/// Square factors below this leave the root of a fraction.
+/// Upper limit of the square factors that leave the root of a fraction.
 const SMALL_FACTOR: u32 = 200;
-/// Digits of no more bits are asked for a sign.
+/// Maximum number of bits that are tried to decide a sign.
 const MOST_SIGN_BITS: u32 = 4096;
 
 impl Radical {
@@ -48,7 +48,7 @@ impl Radical {
         Radical::checked(vec![(Vec::new(), x)])
     }
 
-    /// A number of which nothing else is known.
+    /// Returns a new named number, of which nothing else is known.
     pub(super) fn named() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let name = NEXT.fetch_add(1, atomic::Ordering::Relaxed);
@@ -69,12 +69,12 @@ impl Radical {
         self.terms.iter().flat_map(|(product, _)| product.iter().map(|root| root.depth)).max().unwrap_or(0)
     }
 
-    /// Whether all coefficients are zero, which makes the number zero.
+    /// Returns whether all coefficients are zero, which makes the number zero.
     pub(super) fn vanishes(&self) -> bool {
         self.terms.is_empty()
     }
 
-    /// The number, where it has no roots.
+    /// Returns the number if it has no roots.
     fn as_rational(&self) -> Option<Rational> {
         match self.terms.as_slice() {
             [] => Some(Rational::new()),
@@ -127,7 +127,7 @@ impl Radical {
         let mut sum = Radical::default();
         for (p, c) in &self.terms {
             for (q, d) in &other.terms {
-                // Roots that both have leave as their radicands.
+                // Roots in both products are replaced by their radicands.
                 let (mut product, mut radicands) = (Vec::with_capacity(p.len() + q.len()), Vec::new());
                 let mut rest = q.iter().peekable();
                 for root in p {
@@ -150,7 +150,7 @@ impl Radical {
         Some(sum)
     }
 
-    /// `(A, B, ρ)` with `self = A + Bρ` for the last of its roots.
+    /// Returns `(A, B, ρ)` with `self = A + Bρ` for the last of its roots.
     fn split(&self) -> Option<(Self, Self, Arc<Root>)> {
         let roots = self.terms.iter().filter_map(|(product, _)| product.last());
         let last = roots.max()?.clone();
@@ -162,12 +162,12 @@ impl Radical {
         Some((Radical { terms: without }, Radical { terms: factor }, last))
     }
 
-    /// `A² − B²ρ²` of [`Radical::split`]; `None` for a root that is only named.
+    /// Returns `A² − B²ρ²` of [`Radical::split`]; `None` for a named number.
     fn norm(a: &Self, b: &Self, root: &Root) -> Option<Self> {
         a.mul(a)?.sub(&b.mul(b)?.mul(root.radicand.as_ref()?)?)
     }
 
-    /// `None` also for division by zero.
+    /// Returns the quotient; `None` also for division by zero.
     pub(super) fn div(&self, other: &Self) -> Option<Self> {
         self.mul(&other.inverse()?)
     }
@@ -181,7 +181,7 @@ impl Radical {
         conjugate.mul(&Radical::norm(&a, &b, &root)?.inverse()?)
     }
 
-    /// The sign; `None` where too many digits do not tell.
+    /// Returns the sign; `None` if [`MOST_SIGN_BITS`] bits do not decide it.
     pub(super) fn sign(&self) -> Option<Ordering> {
         if let Some(c) = self.as_rational() {
             return Some(c.cmp0());
@@ -197,11 +197,11 @@ impl Radical {
         None
     }
 
-    /// Between two numbers of so many bits; `None` where something is only named.
+    /// Encloses the number between two numbers of this precision; `None` if it contains a named number.
     fn enclosed(&self, bits: u32) -> Option<[Float; 2]> {
         let [mut lo, mut hi] = [0, 0].map(|zero| Float::with_val(bits, zero));
         for (product, c) in &self.terms {
-            // The size of the term first, whose factors are all positive.
+            // The magnitude of the term is enclosed first; all its roots are positive.
             let size = Rational::from(c.abs_ref());
             let (mut least, mut most) = (down(bits, &size), up(bits, &size));
             for root in product {
@@ -225,19 +225,19 @@ impl Radical {
         self.sub(other)?.sign()
     }
 
-    /// `⌊self⌋` of a fraction.
+    /// Returns `⌊self⌋` of a fraction.
     pub(super) fn floor(&self) -> Option<Integer> {
         self.as_rational().map(|c| Integer::from(c.floor_ref()))
     }
 
-    /// `√self ≥ 0`, for what is known not to be negative.
+    /// Returns `√self ≥ 0` of a number known to be nonnegative.
     pub(super) fn sqrt(&self) -> Option<Self> {
         if let Some(root) = self.root_within()
             && let Some(sign) = root.sign()
         {
             return Some(if sign == Ordering::Less { root.neg() } else { root });
         }
-        // √x = s √(x/s²) with whole coefficients under the root, and no common square in them that is easily seen.
+        // √x = s √(x/s²) with integer coefficients under the root that have no easily detected common square.
         let below = self.terms.iter().fold(Integer::from(1), |lcm, (_, c)| lcm.lcm(c.denom()));
         let whole = self.scaled(&Rational::from(Integer::from(below.square_ref())))?;
         let content = whole.terms.iter().fold(Integer::new(), |gcd, (_, c)| gcd.gcd(c.numer()));
@@ -248,9 +248,9 @@ impl Radical {
         if root.depth > MOST_DEPTH { None } else { Radical::checked(vec![(vec![Arc::new(root)], scale)]) }
     }
 
-    /// A root of either sign that needs no new one.
+    /// Returns a root of either sign that needs no new root.
     ///
-    /// `(u + vρ)² = A + Bρ` wants `u² = (A ± n)/2` with `n² = A² − B²ρ²`, and `v = B/2u`.
+    /// `(u + vρ)² = A + Bρ` requires `u² = (A ± n)/2` with `n² = A² − B²ρ²`, and `v = B/2u`.
     fn root_within(&self) -> Option<Self> {
         if let Some(c) = self.as_rational() {
             let square = c.cmp0().is_ge() && c.numer().is_perfect_square() && c.denom().is_perfect_square();
@@ -271,7 +271,7 @@ impl Radical {
     }
 }
 
-/// The greatest `s` made of small primes with `s² | n`, for `n > 0`.
+/// Returns a factor `s` with `s² | n`, for `n > 0`: squares of small primes, and the cofactor if it is a square.
 fn square_factor(n: &Integer) -> Integer {
     let (mut rest, mut factor) = (n.clone(), Integer::from(1));
     for prime in 2..SMALL_FACTOR {

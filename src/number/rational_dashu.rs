@@ -1,4 +1,4 @@
-//! Fractions in Rust alone: what `rational_gmp` has.
+//! Fractions in pure Rust, with the functions of `rational_gmp`.
 
 use std::cmp::Ordering;
 

@@ -13,17 +13,17 @@ pub(super) fn quotient(p: Integer, q: Integer) -> Rational {
     Rational::from((p, q))
 }
 
-/// Numerator and denominator.
+/// Returns numerator and denominator.
 pub(super) fn parts(x: &Rational) -> (Integer, Integer) {
     (x.numer().clone(), x.denom().clone())
 }
 
-/// The nearest double. `Rational::to_f64` truncates; a `Float` rounds to nearest.
+/// Returns the nearest double. `Rational::to_f64` truncates; a `Float` rounds to nearest.
 pub(super) fn nearest_double(x: &Rational) -> f64 {
     Float::with_val_round(53, x, Round::Nearest).0.to_f64()
 }
 
-/// The greatest integer `≤ x`; `None` where it does not fit.
+/// Returns the greatest integer `≤ x`; `None` if it does not fit.
 pub(super) fn floor(x: &Rational) -> Option<i64> {
     Integer::from(x.numer().div_floor(x.denom())).to_i64()
 }
@@ -32,22 +32,22 @@ pub(super) fn sign(x: &Rational) -> Ordering {
     x.cmp0()
 }
 
-/// `x/2`.
+/// Returns `x/2`.
 pub(super) fn half(x: Rational) -> Rational {
     x >> 1u32
 }
 
-/// `√n` of a perfect square; `None` for any other integer.
+/// Returns `√n` of a perfect square; `None` for any other integer.
 pub(super) fn exact_root(n: &Integer) -> Option<Integer> {
     n.is_perfect_square().then(|| n.clone().sqrt())
 }
 
-/// The limbs of the magnitude, the least significant first; none of zero.
+/// Returns the limbs of the magnitude, the least significant first; none for zero.
 pub(super) fn limbs(n: &Integer) -> Vec<u64> {
     n.to_digits(Order::Lsf)
 }
 
-/// The integer of these limbs, the least significant first.
+/// Builds the integer from its limbs, the least significant first.
 pub(super) fn from_limbs(limbs: &[u64]) -> Integer {
     Integer::from_digits(limbs, Order::Lsf)
 }

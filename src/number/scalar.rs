@@ -1,4 +1,4 @@
-//! What a formula may ask of a number.
+//! Operations that formulas require of a number.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -6,16 +6,16 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Number;
 
-/// A comparison that what is known of its operands does not settle: an enclosure reaches to both sides.
+/// A comparison that remains undecided: an enclosure extends to both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a comparison of enclosures is not settled by their ends")]
 pub struct Open;
 
-/// A field with an order: all that the undamped rod needs.
+/// An ordered field: the operations that the undamped rod needs.
 ///
-/// Neither `Copy` nor a nullary `zero()` is offered, because an arbitrary-precision number carries its precision with
-/// it: constants are lifted from a neighbour, `t.int(2)`. Binary operations take the right operand by value or by
-/// reference and the result has the precision of the left one: `a.clone() * &b + &c`.
+/// The trait offers neither `Copy` nor a nullary `zero()`, because an arbitrary-precision number carries its precision:
+/// constants are lifted from a neighbour, `t.int(2)`. Binary operations take the right operand by value or by
+/// reference; the result has the precision of the left operand: `a.clone() * &b + &c`.
 pub trait Scalar:
     Clone
     + Debug
@@ -32,250 +32,250 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// What it takes to make a first number: nothing for `f64` and fractions, the number of bits for a `Float`.
+    /// The precision of a new number: nothing for `f64` and fractions, the number of bits for a `Float`.
     type Precision: Clone + Debug + Send + Sync;
 
-    /// The number that a person wrote. **Accuracy**: correctly rounded (exact for fractions).
+    /// Converts a number that a person wrote. **Accuracy**: correctly rounded (exact for fractions).
     fn from_number(number: &Number, precision: &Self::Precision) -> Self;
 
-    /// The number that a person wrote, as a time that is asked for: it stands for exactly what it spells, and
-    /// [`Scalar::spelled_as`] tells it from one that was computed.
+    /// Converts a number that a person wrote as a time of a query: it represents exactly the number that it spells, and
+    /// [`Scalar::spelled_as`] distinguishes it from a computed number.
     ///
     /// **Accuracy**: that of [`Scalar::from_number`].
     fn spelling(number: &Number, precision: &Self::Precision) -> Self {
         Self::from_number(number, precision)
     }
 
-    /// How this is a [`Scalar::spelling`] that no computation has changed. Exact numbers and enclosures do not need it.
+    /// Returns the kind of spelling if this is a [`Scalar::spelling`] that no computation has changed. Exact numbers
+    /// and enclosures do not need it.
     fn spelled_as(&self) -> Option<Spelling> {
         None
     }
 
-    /// The precision of this number.
+    /// Returns the precision of this number.
     fn precision(&self) -> Self::Precision;
 
-    /// An integer, in the precision of `self`.
+    /// Converts an integer to the precision of `self`.
     fn int(&self, n: i64) -> Self;
 
-    /// A double, in the precision of `self` (exact if that is at least 53 bits).
+    /// Converts a double to the precision of `self` (exact with at least 53 bits).
     fn double(&self, x: f64) -> Self;
 
-    /// `√self` where this system has it: `None` for a fraction that is no square and for negative numbers.
+    /// Returns `√self` if this system has it: `None` for a fraction that is not a square and for negative numbers.
     fn try_sqrt(&self) -> Option<Self>;
 
-    /// The nearest double. **Accuracy**: correctly rounded.
+    /// Returns the nearest double. **Accuracy**: correctly rounded.
     fn to_f64(&self) -> f64;
 
-    /// The unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.
+    /// Returns the unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.
     fn roundoff(&self) -> Self {
         self.zero()
     }
 
-    /// Bits of the significand; `None` for exact systems.
+    /// Returns the number of bits of the significand; `None` for exact systems.
     fn bits(&self) -> Option<u32> {
         None
     }
 
-    /// Whether the number is negative, zero or positive. A number that carries a bound is zero within it.
+    /// Returns whether the number is negative, zero or positive. A number with a bound counts as zero within the bound.
     ///
-    /// **Errors**: [`Open`] where an enclosure does not tell.
+    /// **Errors**: [`Open`] if an enclosure does not decide.
     fn sign(&self) -> Result<Ordering, Open>;
 
-    /// The sign of `self − other`.
+    /// Returns the sign of `self − other`.
     ///
     /// **Errors**: [`Open`], as [`Scalar::sign`].
     fn compare(&self, other: &Self) -> Result<Ordering, Open> {
         Scalar::sign(&(self.clone() - other))
     }
 
-    /// `self > 0`. Decided for an enclosure that touches zero from below. **Errors**: [`Open`].
+    /// Returns `self > 0`; also decided for an enclosure that touches zero from below. **Errors**: [`Open`].
     fn positive(&self) -> Result<bool, Open> {
         Ok(Scalar::sign(self)?.is_gt())
     }
 
-    /// `self < 0`. Decided for an enclosure that touches zero from above. **Errors**: [`Open`].
+    /// Returns `self < 0`; also decided for an enclosure that touches zero from above. **Errors**: [`Open`].
     fn negative(&self) -> Result<bool, Open> {
         Ok(Scalar::sign(self)?.is_lt())
     }
 
-    /// `self = 0`. **Errors**: [`Open`].
+    /// Returns `self = 0`. **Errors**: [`Open`].
     fn vanishes(&self) -> Result<bool, Open> {
         Ok(Scalar::sign(self)?.is_eq())
     }
 
-    /// `self < other`. Decided for enclosures that only touch. **Errors**: [`Open`].
+    /// Returns `self < other`; also decided for enclosures that only touch. **Errors**: [`Open`].
     fn below(&self, other: &Self) -> Result<bool, Open> {
         (self.clone() - other).negative()
     }
 
-    /// `log₂` of how far the number meant may lie from the stored one: −∞ where it is exact.
+    /// Returns `log₂` of the bound of the distance between the stored and the true number: −∞ if it is exact.
     fn log2_error(&self) -> f64 {
         f64::NEG_INFINITY
     }
 
-    /// The largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
+    /// Returns the largest integer `≤ self`. **Errors**: `None` if it does not fit an `i64` or `self` is not finite.
     fn floor_int(&self) -> Option<i64>;
 
-    /// Whether the number is finite (fractions always are).
+    /// Returns whether the number is finite (fractions always are).
     fn is_finite(&self) -> bool {
         true
     }
 
-    /// The number to so many significant digits, correctly rounded; exact numbers as they are.
+    /// Returns the number to this many significant digits, correctly rounded; an exact number in full.
     fn decimal(&self, digits: u32) -> String {
         let _ = digits;
         self.text()
     }
 
-    /// Both ends of an enclosure to ten digits more, rounded outwards; `None` for all other numbers.
+    /// Returns both ends of an enclosure with ten more digits, rounded outwards; `None` for all other numbers.
     fn ends(&self, digits: u32) -> Option<[String; 2]> {
         let _ = digits;
         None
     }
 
-    /// Whether both are stored alike. Two enclosures that were computed alike are, although no comparison says that the
-    /// numbers in them are equal.
+    /// Returns whether both are stored alike. Two enclosures from the same computation are, although no comparison
+    /// proves the numbers in them equal.
     fn alike(&self, other: &Self) -> bool {
         self.compare(other).is_ok_and(std::cmp::Ordering::is_eq)
     }
 
-    /// How many of so many significant digits are proved: those of an enclosure in which both of its ends agree, one or
-    /// two more where they agree in these only; all of other numbers.
+    /// Returns the number of proved significant digits, out of `digits`. For an enclosure these are the digits in which
+    /// both ends agree, or one or two more than `digits` if the ends agree only there; other numbers prove all digits.
     fn proved(&self, digits: u32) -> u32 {
         digits
     }
 
-    /// The number, if it is a double.
+    /// Returns the number if it is a double.
     fn as_double(&self) -> Option<f64> {
         None
     }
 
-    /// The shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
+    /// Returns the shortest faithful text: `0.1` for a double, `3/2` for a fraction, all digits for a `Float`.
     fn text(&self) -> String;
 
-    /// `log₂ u` of the unit roundoff `u`: −53 for `f64`, −∞ for exact systems.
+    /// Returns `log₂ u` of the unit roundoff `u`: −53 for `f64`, −∞ for exact systems.
     fn log2_roundoff(&self) -> f64 {
         self.bits().map_or(f64::NEG_INFINITY, |bits| -f64::from(bits))
     }
 
-    /// The text of `self ± √square`, simplified where the system can: `3 + √2`.
+    /// Returns the text of `self ± √square`, simplified if the system can: `3 + √2`.
     fn surd(&self, plus: bool, square: &Self) -> String {
         format!("{} {} √({})", self.text(), if plus { '+' } else { '−' }, square.text())
     }
 
-    /// `p/q` in the precision of `self`, for formulas with fractional constants.
+    /// Returns `p/q` in the precision of `self`, for formulas with fractional constants.
     fn ratio(&self, p: i64, q: i64) -> Self {
         self.int(p) / self.int(q)
     }
 
-    /// The same number, known only up to `by` in either direction. Only enclosures hold that in themselves; elsewhere
-    /// the caller counts it among the roundings.
+    /// Returns the number with an uncertainty of `by` in either direction. Enclosures and estimates hold the
+    /// uncertainty; in other systems the caller adds it to the roundings.
     fn widened(self, by: &Self) -> Self {
         let _ = by;
         self
     }
 
-    /// How far the number meant may lie from [`Scalar::to_f64`], but for the rounding of that: the width of an
-    /// enclosure, zero elsewhere.
+    /// Returns the bound of the distance of the true number from [`Scalar::to_f64`], apart from the rounding of that
+    /// double: the width of an enclosure, zero for other numbers.
     fn width(&self) -> Self {
         self.zero()
     }
 
-    /// Zero, in the precision of `self`.
+    /// Returns zero in the precision of `self`.
     fn zero(&self) -> Self {
         self.int(0)
     }
 
-    /// One, in the precision of `self`.
+    /// Returns one in the precision of `self`.
     fn one(&self) -> Self {
         self.int(1)
     }
 
-    /// `self²`.
+    /// Returns `self²`.
     fn square(&self) -> Self {
         self.clone() * self
     }
 
-    /// `|self|`.
+    /// Returns `|self|`.
     fn magnitude(&self) -> Self {
         if self.negative() == Ok(true) { -self.clone() } else { self.clone() }
     }
 
-    /// The greater of both.
+    /// Returns the greater of both.
     fn larger(self, other: Self) -> Self {
         if self.below(&other) == Ok(true) { other } else { self }
     }
 }
 
-/// A number system that rounds and carries no bound of it: `f64`, `Float`. [`Estimate`](super::Estimate) adds the
-/// bound.
+/// A number system that rounds without an error bound: `f64`, `Float`. [`Estimate`](super::Estimate) adds it.
 pub trait Rounded: Analytic + PartialOrd {
-    /// Whether both are the same number but for eight roundings: `3 · 0.2` is `0.6`.
+    /// Returns whether both numbers are equal within eight roundings: `3 · 0.2` is `0.6`.
     fn meets(&self, other: &Self) -> bool {
         (self.clone() - other).magnitude() <= other.magnitude() * &self.roundoff() * &self.int(8)
     }
 
-    /// `self < 0`.
+    /// Returns `self < 0`.
     fn is_negative(&self) -> bool {
         *self < self.zero()
     }
 
-    /// `self > 0`.
+    /// Returns `self > 0`.
     fn is_positive(&self) -> bool {
         *self > self.zero()
     }
 
-    /// `self = 0`.
+    /// Returns `self = 0`.
     fn is_zero(&self) -> bool {
         *self == self.zero()
     }
 
-    /// The unit roundoff `u` as a double, no less than the least normal one.
+    /// Returns the unit roundoff `u` as a double, but at least the least normal double.
     fn unit(&self) -> f64;
 
-    /// `|self|/u`.
+    /// Returns `|self|/u`.
     fn in_roundoffs(&self) -> f64;
 }
 
-/// A number system in which the numbers of another can be read: each stays within the bound that it carries.
+/// A number system that can read the numbers of another: each stays within the bound that it carries.
 pub trait Reads<N: Scalar>: Scalar {
-    /// The number in this system, rounded once, its bound with it.
+    /// Converts the number to this system, rounded once, together with its bound.
     fn read(number: N) -> Self;
 
-    /// A number of this system in the other one, where a question about it is answered. A double stands for the
-    /// shortest decimal that spells it, or for a simple fraction.
+    /// Converts a number of this system to the other one, which answers a question about it. A double represents the
+    /// shortest decimal that rounds to it, or a simple fraction.
     fn give(&self, precision: &N::Precision) -> N;
 }
 
-/// How a rounded number was spelled.
+/// Form in which a rounded number was spelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spelling {
-    /// As the shortest decimal that is rounded to it, or, in longer numbers, anyhow.
+    /// The shortest decimal that rounds to it; for longer numbers, any form.
     Decimal,
-    /// As a simple fraction.
+    /// A simple fraction.
     Fraction,
-    /// As another number that is rounded to it.
+    /// Another number that rounds to it.
     Near,
 }
 
-/// A `Scalar` with the elementary functions: what the damped rod needs. Where a signature asks for it, exactness ends.
+/// A `Scalar` with the elementary functions that the damped rod needs. A signature with this trait is not exact.
 ///
 /// **Accuracy**: correctly rounded for `rug::Float`; within an ulp or two for `f64`.
 pub trait Analytic: Scalar {
-    /// `√self`.
+    /// Returns `√self`.
     fn sqrt(&self) -> Self;
-    /// `eˣ`.
+    /// Returns `eˣ`.
     fn exp(&self) -> Self;
-    /// `eˣ − 1` without cancellation near zero.
+    /// Returns `eˣ − 1` without cancellation near zero.
     fn exp_m1(&self) -> Self;
-    /// `ln x`.
+    /// Returns `ln x`.
     fn ln(&self) -> Self;
-    /// `ln(1 + x)` without cancellation near zero.
+    /// Returns `ln(1 + x)` without cancellation near zero.
     fn ln_1p(&self) -> Self;
-    /// `cos x`.
+    /// Returns `cos x`.
     fn cos(&self) -> Self;
-    /// `sin x`.
+    /// Returns `sin x`.
     fn sin(&self) -> Self;
-    /// `π`, in the precision of `self`.
+    /// Returns `π` in the precision of `self`.
     fn pi(&self) -> Self;
 }

@@ -1,10 +1,7 @@
 //! The rod, the ground and the start: what is solved, in exact numbers.
 
-use serde::Serialize;
-
 use super::{Builder, ProblemError};
 use crate::number::Number;
-use crate::reason::Warning;
 
 /// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
 ///
@@ -36,7 +33,7 @@ use crate::reason::Warning;
 /// | fall of a free rod that starts above the ground | at most 1e6 `t₁` |
 /// | impacts | 1 … 10 000 000 |
 /// | points of a profile | 2 … 100 000, at least 1e-12 L apart |
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// The rod.
     pub rod: Rod,
@@ -44,16 +41,16 @@ pub struct Problem {
     pub gravity: Option<Number>,
     /// Displacement and velocity at `t = 0`.
     pub start: Start,
-    /// How far to follow the motion.
+    /// The end of the run.
     pub run: Run,
 }
 
 /// The rod: geometry, material, damping and what holds its top.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rod {
     /// `L > 0`.
     pub length: Number,
-    /// What sets the wave speed.
+    /// The material.
     pub material: Material,
     /// `r ≥ 0`; `None` where the scene has no damping.
     pub damping: Option<Number>,
@@ -61,9 +58,8 @@ pub struct Rod {
     pub top: Top,
 }
 
-/// What sets the wave speed `c`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+/// The material, which sets the wave speed `c`.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Material {
     /// `c > 0` itself.
     WaveSpeed(Number),
@@ -79,8 +75,7 @@ pub enum Material {
 }
 
 /// The end `x = L`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Top {
     /// `v_x(L,t) = 0`.
     #[default]
@@ -90,8 +85,7 @@ pub enum Top {
 }
 
 /// Displacement and velocity at `t = 0`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Start {
     /// Undeformed on the ground, with uniform velocity `−μ`: (1.7), (1.8).
     Uniform(Speed),
@@ -107,8 +101,7 @@ pub enum Start {
 }
 
 /// The impact speed `μ > 0`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Speed {
     /// `μ` itself.
     Given(Number),
@@ -118,7 +111,7 @@ pub enum Speed {
 
 /// A start that is not uniform: values at points `x` in increasing order from `0` to `L`, linear between them.
 /// An empty list means zero. The velocity may jump: the same `x` twice.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Pairs `(x, v)`.
     pub displacement: Vec<(Number, Number)>,
@@ -126,9 +119,8 @@ pub struct Profile {
     pub velocity: Vec<(Number, Number)>,
 }
 
-/// How far to follow the motion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+/// The end of the run.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Run {
     /// This many contacts, each with the flight after it. The default is one.
     Impacts(u32),
@@ -196,7 +188,7 @@ impl Problem {
         .build()
     }
 
-    /// How far the undeformed rod starts above the ground; `None` where it starts on it, or by a profile.
+    /// Returns the height of the undeformed rod above the ground at the start; `None` where it starts on it, or by a profile.
     ///
     /// ```
     /// use dalembert::Problem;
@@ -217,22 +209,5 @@ impl Problem {
     /// **Source**: (1.3), (1.7), (1.8).
     pub fn has_closed_form(&self) -> bool {
         self.rod.top == Top::Free && matches!(self.start, Start::Uniform(_))
-    }
-
-    /// What the problem leaves out although it matters: a rod that falls from `drop_height` is taken to reach
-    /// `√(2 g h)` without drag, but no rod that is damped as it is in flight falls faster than `g/2r`.
-    ///
-    /// ```
-    /// use dalembert::Problem;
-    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(2).drop_height(1).damping(0.1).build()?;
-    /// assert_eq!(rod.neglected(), None); // μ = 2, g/2r = 10
-    /// assert!(rod.to_builder().damping(1).build()?.neglected().is_some()); // g/2r = 1
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
-    /// ```
-    pub fn neglected(&self) -> Option<Warning> {
-        let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());
-        let Start::Uniform(speed @ Speed::DropHeight(_)) = &self.start else { return None };
-        let (speed, terminal) = (speed.value(gravity), gravity / (2.0 * damping));
-        (terminal < speed).then_some(Warning::DragNeglected { speed, terminal })
     }
 }

@@ -8,6 +8,7 @@ mod parameters;
 pub(crate) mod profile;
 pub(crate) mod validate;
 mod vary;
+mod warnings;
 pub(crate) mod written;
 
 pub use crate::error::{ProblemError, ProblemErrorKind};

@@ -106,7 +106,7 @@ parameters! {
     number Gravity: "gravity.acceleration", gravity, ["g"];
     /// The time up to which to follow the motion, which is included.
     number Time: "run.time", time, ["t", "t_end", "end_time", "duration", "until"];
-    /// How many contacts to follow, each with the flight after it; without it and without a `time`, one.
+    /// The number of contacts to follow, each with the flight after it; without it and without a `time`, one.
     number Impacts: "run.impacts", impacts, ["n", "bounces", "contacts", "hits"];
 }
 

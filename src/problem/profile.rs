@@ -11,7 +11,7 @@ const MAX_POINTS: usize = 100_000;
 /// Least distance of two points of a profile, in lengths of the rod.
 const MIN_SPACING: f64 = 1e-12;
 
-/// What a list of points looks like.
+/// The form of a list of points, in words.
 pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such as [[0, 0], [1, -1]]";
 
 /// A list of points `(x, value)` that is not checked.

@@ -126,7 +126,7 @@ impl Parameter {
         if square { 2 } else { 1 }
     }
 
-    /// What a value that is zero is moved by a part of: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
+    /// Returns the scale of a step from zero: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
     /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000` or `c/1000`.
     pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
         let rod = Parameters::<f64>::of(problem, &());

@@ -10,7 +10,7 @@ use crate::number::{Number, NumberError, Rational, shortest};
 /// **Accuracy**: *exact*.
 #[derive(Clone, Debug)]
 pub struct Written {
-    /// As messages show it.
+    /// The text that messages show.
     pub(super) shown: String,
     pub(super) number: Result<Number, NumberError>,
 }

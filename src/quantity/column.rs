@@ -122,12 +122,12 @@ pub(crate) fn finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
     times.iter().find(|time| !time.is_finite()).map_or(Ok(()), |time| Err(outside(time)))
 }
 
-/// What is asked at each time, and where the answers stand in a row.
+/// The questions of each time, and the places of their answers in a row.
 struct Asked {
-    /// What has two limits stands first.
+    /// Questions that have two limits, which stand first.
     sided: Vec<Source>,
     plain: Vec<Source>,
-    /// Where each column is.
+    /// The place of each column in a row.
     places: Vec<usize>,
     /// The length of a row.
     count: usize,
@@ -246,8 +246,8 @@ impl<S: Scalar> Pushes<S> {
         Pushes { pieces, stiffness, most }
     }
 
-    /// Where a time is not told from the break of two pieces, `∫` from the break to it is at most so long times the
-    /// greatest stress.
+    /// Returns the impulse up to `time`. Near a break of two pieces that the bound of `time` covers, it is widened by the
+    /// distance from the break times the greatest stress.
     fn at(&self, time: &S) -> S {
         // A time in fewer bits than the pieces have.
         let longer = (time.log2_roundoff() > self.stiffness.log2_roundoff()).then(|| self.stiffness.zero() + time);

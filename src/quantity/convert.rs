@@ -8,7 +8,7 @@ struct Unit {
     ten: i32,
 }
 
-/// What a number in one unit is multiplied with to be in another: `factor · 10^ten`.
+/// The factor from one unit to another: `factor · 10^ten`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conversion {
     factor: f64,
@@ -92,10 +92,10 @@ impl Unit {
 }
 
 impl Conversion {
-    /// Of a number that is in its unit.
+    /// The conversion of a number that is in its unit.
     pub const NONE: Self = Conversion { factor: 1.0, ten: 0 };
 
-    /// From the unit `found` to the unit `expected`, nothing being a unit without dimension; `None` where either is not
+    /// Returns the conversion from the unit `found` to the unit `expected`, nothing being a unit without dimension; `None` where either is not
     /// known, or they do not measure the same.
     pub fn between(found: &str, expected: &str) -> Option<Self> {
         let (from, to) = (Unit::parse(found)?, Unit::parse(if expected.is_empty() { "1" } else { expected })?);

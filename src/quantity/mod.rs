@@ -1,4 +1,4 @@
-//! What follows from a history: the table of quantities, and how each is asked; slices along the rod, units. Nothing
+//! Quantities of a history: the table of them, their values, slices along the rod, units. Nothing
 //! here looks back at the scene.
 
 mod column;

@@ -10,33 +10,37 @@ use crate::motion::{Ending, EventKind, Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::problem::Run;
 
-/// A quantity, and what it needs: one number is asked for.
+/// Question for one number: a quantity with its place and time.
 #[derive(Clone, Debug)]
 pub struct One {
+    /// The quantity.
     pub quantity: Quantity,
     /// `x`, for a quantity along the rod.
     pub point: Option<Number>,
-    /// `t`, for a quantity at a time, where `None` stands for the end of the first contact; for the beginning and the
-    /// end of a contact a time next to it, where `None` stands for the first contact.
+    /// `t`, for a quantity at a time; `None` stands for the end of the first contact. For the impact and the release of
+    /// a contact, a time next to it; `None` stands for the first contact.
     pub time: Option<Number>,
+    /// The limit, where a value jumps.
     pub side: Side,
 }
 
-/// Why there is no number.
+/// The reason why there is no number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
-    /// Whether that is left undecided, and not known.
+    /// Whether the bounds leave it undecided.
     pub open: bool,
+    /// The reason, as it is printed.
     pub why: String,
 }
 
 impl Missing {
+    /// Builds the reason for a number that is known not to exist.
     pub fn none(why: impl std::fmt::Display) -> Self {
         Missing { open: false, why: why.to_string() }
     }
 }
 
-/// How far an event may be from the time that it is next to.
+/// Largest distance of an event from the time that it is asked next to.
 const NEXT: f64 = 0.25;
 
 impl Quantity {

@@ -15,7 +15,7 @@ pub struct Restitution<S> {
     pub e_e2: Result<S, Undefined>,
 }
 
-/// Why a quantity of a contact or a flight is not defined.
+/// The reason why a quantity of a contact or a flight is not defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Undefined {
     /// The contact has no end.

@@ -7,7 +7,7 @@ use crate::motion::moments::Moments;
 use crate::motion::{Motion, Side};
 use crate::number::Scalar;
 
-/// How the field is given on a grid.
+/// Form of the field on a grid.
 #[derive(
     Clone,
     Copy,

@@ -9,7 +9,7 @@ use Measure::{Energy, Force, Impulse, Length, Strain, Stress, Time, Velocity};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Source {
     Time,
-    /// Which limit a row holds.
+    /// The limit that a row holds.
     Side,
     End,
     Strain,
@@ -18,7 +18,7 @@ pub(super) enum Source {
     Centre,
     Energy,
     Parts,
-    /// What the ground has given since `t = 0`.
+    /// The impulse of the ground since `t = 0`.
     Impulse,
     /// `x`, and [`Motion::field`].
     Field,
@@ -43,7 +43,7 @@ pub(super) enum Source {
     Shortest,
 }
 
-/// What a quantity needs to have a value.
+/// The object that a quantity belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// A time.
@@ -70,7 +70,7 @@ struct Facts {
     also: &'static [&'static str],
     symbol: &'static str,
     measure: Option<Measure>,
-    /// Where it comes from, and which of the answers there it is.
+    /// The question that gives it, and its place among the answers.
     source: (Source, usize),
     meaning: &'static str,
 }
@@ -240,7 +240,7 @@ impl Source {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
 
-    /// How many numbers it gives at a time.
+    /// Returns the number of its answers.
     pub(super) fn answers(self) -> usize {
         match self {
             Source::Energy => 3,
@@ -301,7 +301,7 @@ impl Quantity {
         self.facts().name
     }
 
-    /// What else it is called.
+    /// Returns other names that are understood.
     pub fn also(self) -> &'static [&'static str] {
         self.facts().also
     }
@@ -311,17 +311,17 @@ impl Quantity {
         self.facts().symbol
     }
 
-    /// What it is, in a line.
+    /// Returns its meaning, in a line.
     pub fn meaning(self) -> &'static str {
         self.facts().meaning
     }
 
-    /// What its values measure; `None` for ratios, and for [`Quantity::Side`] and [`Quantity::Contact`].
+    /// Returns the measure of its values; `None` for ratios, and for [`Quantity::Side`] and [`Quantity::Contact`].
     pub fn measure(self) -> Option<Measure> {
         self.facts().measure
     }
 
-    /// What it needs to have a value.
+    /// Returns the object that it belongs to.
     pub fn needs(self) -> Needs {
         self.source().0.needs()
     }
@@ -377,7 +377,7 @@ impl Quantity {
         self.facts().source
     }
 
-    /// What the answer is multiplied with; `None` where it is the value itself.
+    /// Returns the factor from the answer to the value; `None` where it is the value itself.
     pub fn factor<S: Scalar>(self, scales: &Scales<S>, units: &Units) -> Option<S> {
         let square = scales.wave_speed.square();
         let factor = |measure| units.factor(measure, &square.precision());
@@ -392,7 +392,7 @@ impl Quantity {
         }
     }
 
-    /// A number of [`Quantity::source`] in its unit.
+    /// Returns an answer of the motion in the unit of the quantity.
     pub fn in_unit<S: Scalar>(self, value: S, scales: &Scales<S>, units: &Units) -> S {
         match self.factor(scales, units) {
             Some(factor) => value * factor,

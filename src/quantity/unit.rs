@@ -1,4 +1,4 @@
-//! Which unit and which factor a quantity has: the one place where strains become pascals and newtons.
+//! Units and factors of quantities: the one place where strains become pascals and newtons.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use crate::number::{Number, Scalar};
 use crate::problem::Parameters;
 use crate::problem::{Material, Problem};
 
-/// What a number measures.
+/// The measure of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
@@ -103,7 +103,7 @@ impl UnitSystem {
     }
 }
 
-/// What turns the answers of a history, which are strains and values per `ρS`, into quantities with a unit.
+/// Factors and names of units that turn the answers of a history, which are strains and values per `ρS`, into quantities with a unit.
 ///
 /// **Units**: those of the problem. With a material `E`, `ρ`, `S` stress is `E v_x`, force `−E S v_x`, and impulse and
 /// energy are `ρS` times what the history answers; where no `S` is given all three are those of a unit of it, and their
@@ -130,7 +130,7 @@ pub struct Units {
     system: UnitSystem,
 }
 
-/// Those of a problem without a material.
+/// The units of a problem without a material.
 impl Default for Units {
     fn default() -> Self {
         Units { material: Material::WaveSpeed(1.into()), system: UnitSystem::default() }
@@ -175,7 +175,7 @@ impl Units {
         known
     }
 
-    /// What to multiply with to get `measure`: a strain `v_x` for stress and force, the value per `ρS` for impulse and
+    /// Returns the factor of `measure`: a strain `v_x` for stress and force, the value per `ρS` for impulse and
     /// energy, the value itself for all others. `None` for stress and force without a material.
     ///
     /// **Accuracy**: *exact* in fractions; one rounding for each number given and one for the product otherwise.

@@ -5,7 +5,7 @@
 pub struct Builtin {
     /// The name that it is asked for by.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// A summary, in one line.
     pub summary: &'static str,
     /// The scene file, with comments on its origin and on what to expect.
     pub source: &'static str,

@@ -1,4 +1,4 @@
-//! Which effects a scene calls for, which it does not, and what is therefore not computed.
+//! The effects that a scene calls for, and those that are therefore not computed.
 
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ pub enum Effect {
     /// The ground pushes and never pulls: in every scene.
     #[strum(serialize = "unilateral_contact")]
     UnilateralContact,
-    /// More than one contact.
+    /// Several contacts.
     #[strum(serialize = "repeated_impacts")]
     RepeatedImpacts,
     /// The top does not move.
@@ -69,7 +69,7 @@ impl Effect {
     ];
 }
 
-/// What a scene has to do with one effect.
+/// The use that a scene makes of one effect.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct EffectUse {
     /// The effect.
@@ -102,6 +102,7 @@ impl Scene {
         self.effects().into_iter().filter(|e| e.called).map(|e| e.effect).collect()
     }
 
+    /// Returns whether the scene calls for `effect`, and the line that does.
     pub fn effect(&self, effect: Effect) -> EffectUse {
         let Problem { rod, start, gravity, run } = &self.problem;
         let shown = |key: &str, number: &Number| format!("{key} = {}", short(&number.to_string()));

@@ -1,4 +1,4 @@
-//! What is wrong with a scene, and where.
+//! Errors of a scene, with their place.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::problem::ProblemErrorKind;
 
-/// What is wrong with a scene: what was found, where, and what was expected.
+/// Error of a scene: what was found, where, and what was expected.
 ///
 /// ```
 /// use dalembert::Scene;
@@ -21,11 +21,11 @@ use crate::problem::ProblemErrorKind;
 #[error("line {line}, column {column}: found {found}, expected {expected}")]
 #[non_exhaustive]
 pub struct SceneError {
-    /// Which rule the scene breaks.
+    /// The rule that the scene breaks.
     pub kind: ProblemErrorKind,
-    /// What was found, the offending value included.
+    /// Description of the value that was found.
     pub found: String,
-    /// What was expected in its place.
+    /// Description of a value that is accepted.
     pub expected: String,
     /// The offending bytes of the source.
     pub span: Range<usize>,

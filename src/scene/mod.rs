@@ -5,6 +5,7 @@ mod effects;
 mod error;
 mod read;
 mod reader;
+mod serde;
 mod suggest;
 mod target;
 

@@ -1,4 +1,4 @@
-//! From the text of a scene to a problem: TOML types and keys, and the place of whatever is wrong.
+//! The reader of scenes: TOML types and keys, and the place of each error.
 
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ fn keys(table: &str) -> Vec<&'static str> {
 const MAX_BYTES: usize = 16 << 20;
 const ACCURACY: (f64, f64) = (1e-300, 0.1);
 
-/// What a person wrote, checked: a problem in exact numbers, and the line that each value stands on.
+/// A scene file, checked: a problem in exact numbers, and the line that each value stands on.
 ///
 /// **Accuracy**: *exact*; a number is the rational that its text spells.
 ///
@@ -113,7 +113,7 @@ pub struct Scene {
     pub title: Option<String>,
     /// `units`: what the numbers are in; SI where nothing is said. It names what is printed and changes no number.
     pub units: UnitSystem,
-    /// What is to be solved.
+    /// The problem to solve.
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
     pub accuracy: Option<f64>,
@@ -156,7 +156,7 @@ impl Scene {
     }
 }
 
-/// What the TOML reader says, with its place; a number with a unit and a bare fraction are recognised.
+/// Returns the error of the TOML reader, with its place; a number with a unit and a bare fraction are recognised.
 fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let value = value_around(source, span.start);
@@ -171,7 +171,7 @@ fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     SceneError::new(source, span, Kind::Syntax, format!("text that is not TOML ({found})"), expected)
 }
 
-/// From the last `=`, `,` or `[` of the line before `at` to the end of that value.
+/// Returns the value around `at`: from the last `=`, `,` or `[` of the line before it.
 fn value_around(source: &str, at: usize) -> Range<usize> {
     let start = source.get(..at).and_then(|before| before.rfind(['=', ',', '[', '\n'])).map_or(0, |found| found + 1);
     let value = &source[start..];

@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::SceneError;
+use super::suggest;
 use crate::names::{did_you_mean, nearest};
 use crate::number::Number;
 use crate::problem::given::Given;
@@ -73,7 +74,10 @@ impl<'a> Reader<'a> {
         let unknown = table.keys().filter(|key| !known.contains(&key.get_ref().as_ref()));
         let Some(key) = unknown.min_by_key(|key| key.span().start) else { return Ok(()) };
         let found = format!("the unknown key `{}` in {shown}", short(key.get_ref()));
-        let expected = format!("one of {}{}", known.join(", "), did_you_mean(meant(key.get_ref())));
+        let expected = match suggest::refused(key.get_ref()) {
+            Some(expected) => expected.to_string(),
+            None => format!("one of {}{}", known.join(", "), did_you_mean(meant(key.get_ref()))),
+        };
         Err(self.error(key.span(), Kind::UnknownKey, found, expected))
     }
 

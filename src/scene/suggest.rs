@@ -1,4 +1,4 @@
-//! What a person may have meant by a word that no scene has.
+//! Suggestions for words that no scene has.
 
 use crate::names::nearest;
 use crate::problem::Parameter;
@@ -12,6 +12,18 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("run", &["simulation", "solver"]),
     ("run.accuracy", &["tolerance", "tol", "precision"]),
 ];
+
+/// Keys for damping of the material, which is not solved.
+const MATERIAL_DAMPING: &[&str] =
+    &["viscosity", "rayleigh_beta", "kelvin_voigt", "beta", "material_damping", "loss_factor", "eta"];
+
+/// Returns what a message expects in place of a key that is refused by name.
+pub(super) fn refused(key: &str) -> Option<&'static str> {
+    MATERIAL_DAMPING.contains(&&*key.to_lowercase().replace('-', "_")).then_some(
+        "damping, the drag 2r v_t on the whole rod (Rayleigh α = 2r); damping of the material (Kelvin–Voigt, Rayleigh \
+         β) has no characteristics and is not solved",
+    )
+}
 
 const FIXED: &[&str] = &["clamped", "held", "built-in", "built in", "rigid", "pinned", "dirichlet"];
 const FREE: &[&str] = &["open", "loose", "unclamped", "neumann"];

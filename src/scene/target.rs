@@ -15,26 +15,26 @@ use crate::quantity::{Measure, Needs, Quantity};
 /// **Units**: those of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
-    /// What was published.
+    /// The quantity that was published.
     pub quantity: Quantity,
     /// `t`, for what has a value at every time.
     pub time: Option<Number>,
-    /// Which limit, where there are two.
+    /// The limit, where there are two.
     pub side: Side,
-    /// Which contact, from 1, for what belongs to a contact.
+    /// The number of the contact, from 1, for a quantity of a contact.
     pub contact: usize,
     /// Whether a displacement is counted from where the rod starts, and not from where it is undeformed on the ground.
     pub from_start: bool,
     /// The published value, with the digits that were published.
     pub published: Number,
-    /// How far the published value may be off; without it, half a unit of its last digit, or nothing for a fraction.
+    /// Tolerance of the published value; without it, half a unit of its last digit, or nothing for a fraction.
     pub within: Option<Number>,
-    /// Where it was published.
+    /// The publication.
     pub source: String,
 }
 
 impl Target {
-    /// What was published, in words: `u_top from the start`, `release 2`.
+    /// Returns the quantity in words: `u_top from the start`, `release 2`.
     pub fn label(&self) -> String {
         let mut label = self.quantity.name().to_string();
         if self.contact > 1 {
@@ -49,7 +49,7 @@ impl Target {
         label
     }
 
-    /// How far the published value may be off: what is said, or half a unit of its last digit; zero for a fraction.
+    /// Returns the tolerance of the published value: the one that is given, or half a unit of its last digit; zero for a fraction.
     ///
     /// ```
     /// use dalembert::Scene;

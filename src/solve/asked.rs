@@ -1,8 +1,8 @@
-//! Times that are asked for next to an event or a ray: each stands for exactly what it spells.
+//! Queries at times next to an event or a ray: each time represents exactly the number that it spells.
 //!
-//! A time that is not told from that of an event or of a displaced ray within both bounds lies before it, on it or
-//! after it. It is asked of longer runs, which are made for such times alone and kept; where none of them tells, the
-//! answer covers both sides. All other times are answered as if there were none of this.
+//! A time that is indistinguishable from that of an event or of a displaced ray within both bounds may lie before it,
+//! on it or after it. Such a query goes to longer runs, which are made for these times only and kept. If none of them
+//! decides, the answer covers both sides. All other times are answered directly.
 
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -17,15 +17,15 @@ use crate::problem::{Material, Problem, Start};
 use crate::reason::Warning;
 use crate::threads::locked;
 
-/// Where a motion has rays: those of the start, and those of events that are off in time.
+/// The rays of a motion: those of the start, and those of events whose times carry errors.
 pub(super) struct Windows<N> {
     start: RayRegister<N>,
     displaced: RayRegister<N>,
 }
 
-/// A ray that is off by no more roundings than these is where it is meant to be.
+/// Maximum time error, in roundings, of a ray that counts as exactly placed.
 const ROUNDED: f64 = 64.0;
-/// A time that was computed meets an event or a ray that no more roundings than these set apart.
+/// Maximum distance, in roundings, at which a computed time counts as that of an event or a ray.
 const COMPUTED: f64 = 8.0;
 
 impl<N: Scalar> Windows<N> {
@@ -34,12 +34,12 @@ impl<N: Scalar> Windows<N> {
         Windows { start, displaced }
     }
 
-    /// When displaced rays are at `point` that `time` is not told from.
+    /// Returns the times of displaced rays at `point` that are indistinguishable from `time`.
     pub(super) fn displaced(&self, point: &N, time: &N) -> Vec<N> {
         self.displaced.near(point, time)
     }
 
-    /// The same of all rays.
+    /// Returns the times of all rays at `point` that are indistinguishable from `time`.
     pub(super) fn all(&self, point: &N, time: &N) -> Vec<N> {
         let mut near = self.displaced(point, time);
         near.extend(self.start.near(point, time));
@@ -47,11 +47,11 @@ impl<N: Scalar> Windows<N> {
     }
 }
 
-/// Where rays of the start are, in fractions.
+/// The rays of the start, in fractions.
 struct StartRays {
-    /// `2L`.
+    /// The path of a round trip, `2L`.
     trip: Rational,
-    /// `None` where it is none: then no fraction is the time of such a ray.
+    /// The wave speed; `None` if it is irrational: then no fraction is the time of such a ray.
     wave_speed: Option<Rational>,
     corners: Vec<Rational>,
 }
@@ -70,7 +70,7 @@ impl StartRays {
         StartRays { trip: length.clone() + length, wave_speed, corners }
     }
 
-    /// Whether a ray of the start is at a point at the very time that `time` spells.
+    /// Returns whether a ray of the start passes a point exactly at the time that `time` spells.
     fn meet<S: Rounded>(&self, point: &Estimate<S>, time: &Estimate<S>) -> bool {
         let exactly = |x: &Estimate<S>| Some(spelled_as(x.as_double()?, x.spelled_as())?.to_rational());
         let (Some(point), Some(time), Some(wave_speed)) = (exactly(point), exactly(time), &self.wave_speed) else {
@@ -90,32 +90,32 @@ impl StartRays {
 
 const NOT_TOLD: &str = "on which side of an event or a ray a time lies";
 
-/// What such a question ends with where a longer run is to be asked.
+/// Builds the error that tells the caller to query a longer run.
 pub(super) fn not_told(bits: Option<u32>) -> Error {
     Error::not_decided(NOT_TOLD, bits)
 }
 
-/// The longer runs that such times are asked of, one after the other, and how they are made.
+/// The longer runs for such times, in order, and the function that makes them.
 pub(super) struct Longer<S: Answer> {
     pub(super) rungs: Vec<Rung>,
-    /// Through how many contacts fractions are tried.
+    /// Maximum number of contacts for which fractions are tried.
     pub(super) exact_contacts: u32,
     pub(super) run: Box<dyn Fn(Rung) -> Result<Engined<S>, Error> + Send + Sync>,
 }
 
-/// What is done with a time that an engine does not tell.
+/// Treatment of a time on which an engine is undecided.
 pub(super) enum Open<S: Answer> {
-    /// Longer runs are asked, and if none tells it, the answer covers both sides.
+    /// Longer runs are queried; if none decides, the answer covers both sides.
     Ask(Longer<S>),
-    /// The same of an engine that says by itself where it does not tell a time: one in another number system.
+    /// The same, for an engine in another number system, which reports undecided times itself.
     #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Says(Longer<S>),
-    /// This is the answer to one that was spelled; computed ones stand for the event or the ray.
+    /// Spelled times yield this error; computed times stand for the event or the ray.
     #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Refuse(Error),
 }
 
-/// An engine with what is done with times that it does not tell.
+/// An engine with the treatment of times on which it is undecided.
 pub(super) struct Telling<S: Rounded> {
     engine: Engined<S>,
     windows: OnceLock<Windows<Estimate<S>>>,
@@ -135,13 +135,13 @@ impl<S: Rounded> Telling<S> {
         self.windows.get_or_init(|| Windows::of(&*self.engine))
     }
 
-    /// The times at `point` that `time` is not told from.
+    /// Returns the times at `point` that are indistinguishable from `time`.
     fn near(&self, point: &Estimate<S>, time: &Estimate<S>) -> Vec<Estimate<S>> {
         let (windows, refuses) = (self.windows(), matches!(self.open, Open::Refuse(_)));
         match time.spelled_as() {
             None if refuses => return Vec::new(),
             None => {}
-            // Long numbers have no shortest decimal.
+            // Long numbers do not record a shortest decimal.
             Some(_) if refuses => return windows.displaced(point, time),
             Some(spelling) => {
                 let near = windows.all(point, time);
@@ -158,7 +158,7 @@ impl<S: Rounded> Telling<S> {
         near
     }
 
-    /// A longer run, which is made when it is asked for first.
+    /// Returns a longer run, which is made at its first use.
     fn made(&self, longer: &Longer<S>, rung: Rung) -> Option<Engined<S>> {
         let mut made = locked(&self.made);
         if let Some((_, run)) = made.iter().find(|(known, _)| *known == rung) {
@@ -169,8 +169,8 @@ impl<S: Rounded> Telling<S> {
         run
     }
 
-    /// What `ask` says at a time, of a longer run where this one does not tell it; otherwise all that may be meant, put
-    /// together by `cover`.
+    /// Returns the answer of `ask` at a time, from a longer run if this one is undecided; otherwise all possible
+    /// answers, combined by `cover`.
     fn answer<T>(
         &self,
         point: &Estimate<S>,
@@ -189,7 +189,7 @@ impl<S: Rounded> Telling<S> {
             Open::Refuse(error) => return Err(error.clone()),
         };
         for rung in &longer.rungs {
-            // Fractions take a double for the number that it spells.
+            // Fractions interpret a double as the number that it spells.
             let many = || self.engine.digits_lost().is_some_and(|(contacts, _)| contacts > longer.exact_contacts);
             if *rung == Rung::Fractions && (time.spelled_as() == Some(Spelling::Near) || many()) {
                 continue;
@@ -217,7 +217,7 @@ impl<S: Rounded> Telling<S> {
                             None => other,
                         });
                     }
-                    // Beyond the end there is nothing to be covered.
+                    // Times beyond the end need no cover.
                     Err(Error::TimeOutside { .. } | Error::NotDecided { .. }) => {}
                     Err(error) => return Err(error),
                 }
@@ -227,7 +227,7 @@ impl<S: Rounded> Telling<S> {
     }
 }
 
-/// The number that covers both, within their bounds.
+/// Returns a number whose bound covers both numbers with their bounds.
 fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     let apart = b.value().clone() - a.value();
     let far = apart.in_roundoffs() + apart.to_f64().abs();
@@ -238,7 +238,7 @@ fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     }
     let step = apart.double((low + high) / 2.0) * &apart.roundoff();
     let middle = a.value().clone() + &step;
-    // The step and the sum are rounded, and so is half of what lies between both ends.
+    // The margin covers the rounding of the step, the sum and half of the width.
     let rounding = 4.0 * (middle.to_f64().abs() + step.to_f64().abs());
     Estimate::new(middle, (high - low) / 2.0 + rounding)
 }
@@ -258,7 +258,7 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
 
     fn in_contact(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         let cover = |found: Estimate<S>, other: &Estimate<S>| {
-            // On the ground or off it: a number between both is neither.
+            // The value stays 0 or 1: a number between them has no meaning.
             let apart = (other.value().clone() - found.value()).in_roundoffs();
             Estimate::new(found.value().clone(), found.error().max(apart))
         };

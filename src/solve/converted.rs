@@ -1,4 +1,4 @@
-//! A history in one number system, read in another.
+//! A history in one number system, converted to another.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -16,23 +16,23 @@ use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
 use crate::problem::Parameters;
 use crate::problem::Problem;
 
-/// The history of an engine in numbers `N`, read in numbers `M`.
+/// The history of an engine in numbers `N`, converted to numbers `M`.
 pub(super) struct Converted<N: Scalar, M> {
     engine: Arc<dyn Motion<N>>,
     precision: N::Precision,
     rays: RayRegister<N>,
-    /// Where times that are spelled are not told from events or rays; exact numbers and enclosures know.
+    /// Rays that spelled times may coincide with; `None` for exact numbers and enclosures, which decide this.
     windows: Option<Windows<N>>,
     course: Course<M>,
     scales: Scales<M>,
 }
 
-/// How a time in doubles was spelled. A longer number does not say what it was rounded from.
+/// Returns the spelling of a time in doubles; a longer number does not record the number that it was rounded from.
 fn spelled<M: Scalar>(time: &M) -> Option<Spelling> {
     time.as_double().and_then(|_| time.spelled_as())
 }
 
-/// Whether a time is an enclosure of more than roundings.
+/// Returns whether a time is an enclosure wider than roundings.
 fn is_wide<N: Scalar, M: Scalar>(time: &M, given: &N) -> bool {
     let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
     spelled(time).is_none() && given.log2_error() > roundings.log2()
@@ -42,7 +42,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     pub(super) fn new(engine: Arc<dyn Motion<N>>) -> Self {
         let mut course = engine.course().clone().map(M::read);
         for event in &mut course.events {
-            // The time has been rounded once more.
+            // The conversion has rounded the time once more.
             event.t_error = event.t_error.max(event.t.log2_error().exp2());
         }
         let precision = engine.end().precision();
@@ -52,7 +52,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Converted { precision, rays: RayRegister::of(&*engine), windows, course, scales, engine }
     }
 
-    /// The same with what is known of the rod itself in numbers `M`.
+    /// Replaces the scales of the rod by those of `rod` in numbers `M`.
     #[cfg(feature = "mp")]
     pub(super) fn of_rod(self, rod: &Parameters<M>) -> Self {
         let Parameters { length, wave_speed, gravity, .. } = rod.clone();
@@ -60,14 +60,14 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         Converted { scales, ..self }
     }
 
-    /// A time of this history. One that an event, or the end, was rounded to is that event's own.
+    /// Converts a time to this history. A time to which an event or the end was rounded becomes the time of that event.
     fn time(&self, time: &M) -> Result<N, Error> {
         self.finite(time)?;
         if let Some(known) = self.known(time) {
             return Ok(known);
         }
         let given = self.given(time);
-        // What the ground does to the whole rod may change in a wide enclosure.
+        // The ground affects the whole rod, so its events may change the answer within a wide enclosure.
         let open = |windows: &Windows<N>| !windows.all(&given.zero(), &given).is_empty();
         match &self.windows {
             Some(windows) if is_wide(time, &given) && open(windows) => Err(not_told(given.bits())),
@@ -75,10 +75,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         }
     }
 
-    /// A point or a time that is none of the engine's own.
+    /// Converts a point or a time that is not one of the engine's own.
     fn given(&self, time: &M) -> N {
         let given = time.give(&self.precision);
-        // Exact numbers and enclosures are asked around it.
+        // Exact numbers and enclosures are queried around it instead.
         if spelled(time) != Some(Spelling::Near) || self.windows.is_none() {
             return given;
         }
@@ -86,8 +86,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         given.widened(&roundings)
     }
 
-    /// How far the point or the time that was spelled may lie from the number `x` that it was rounded to, by twice that
-    /// rounding; `None` where it was not rounded, and where [`Converted::given`] is widened by the rounding.
+    /// Returns twice the rounding of `x`, the possible distance of a spelled point or time from `x`; `None` if `x` was
+    /// not rounded, or if [`Converted::given`] is widened by the rounding.
     fn late(&self, x: &M) -> Option<N> {
         let rounded = match x.as_double() {
             Some(_) => x.spelled_as() == Some(Spelling::Near),
@@ -97,13 +97,13 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         (rounded && self.windows.is_none()).then(late)
     }
 
-    /// [`Converted::late`] of a time that is none of the engine's own.
+    /// Returns [`Converted::late`] of a time that is not one of the engine's own.
     fn late_time(&self, time: &M) -> Option<N> {
         self.late(time).filter(|_| self.known(time).is_none())
     }
 
-    /// [`Converted::late`] of a time at which a point is asked about; `None` where a long number is taken for the time
-    /// of a ray at the point, which is known.
+    /// Returns [`Converted::late`] of a time for a query at a point; `None` if a long number counts as the time of a
+    /// ray at the point, which is known.
     fn late_at(&self, point: &N, time: &M, given: &N) -> Option<N> {
         let late = self.late_time(time)?;
         let ray = time.as_double().is_none() && {
@@ -113,11 +113,11 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         (!ray).then_some(late)
     }
 
-    /// The numbers that `ask` has at `time`, widened by what they change where the time is off by up to `late`.
+    /// Returns the numbers of `ask` at `time`, widened by their change if the time is off by up to `late`.
     ///
-    /// **Source**: between events and rays all is a polynomial in t of degree four at most. One of that degree is
-    /// `f(t) + Σ ℓₖ(s) (f(t + sₖ late) − f(t))` for `sₖ` = −1, −½, ½, 1, with `|ℓₖ| < 2` on all of −1 … 1. Of what jumps
-    /// within `late`, both values are among these.
+    /// **Source**: between events and rays all numbers are polynomials in t of degree at most four. Such a polynomial
+    /// is `f(t) + Σ ℓₖ(s) (f(t + sₖ late) − f(t))` for `sₖ` = −1, −½, ½, 1, with `|ℓₖ| < 2` on all of −1 … 1. If a
+    /// number jumps within `late`, the values on both sides are among these.
     fn around<X: Scalar>(
         &self,
         time: &N,
@@ -129,7 +129,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         covering(ask(time)?, read, nodes.map(|time| ask(&time)))
     }
 
-    /// What is no number has none in another system that stands for it.
+    /// Rejects NaN and infinities, which have no counterpart in the other system.
     fn finite(&self, time: &M) -> Result<(), Error> {
         let outside = || Error::TimeOutside { found: time.text(), end: self.engine.end().text() };
         if time.is_finite() { Ok(()) } else { Err(outside()) }
@@ -137,12 +137,12 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
 
     fn known(&self, time: &M) -> Option<N> {
         let end = self.engine.end();
-        // What is spelled stands for itself; the end is where a run that was asked for so long ends.
+        // A spelled number represents itself, except for the end, at which a run to that time stops.
         if spelled(time).is_some() {
             return M::read(end.clone()).alike(time).then_some(end);
         }
         let mut known = self.engine.events().iter().map(|event| &event.t).chain([&end]);
-        // Both are rounded, each to its own bits.
+        // Both numbers are rounded, each to its own bits.
         let same = |known: &&N| {
             let known = M::read((*known).clone());
             let rounding = time.magnitude() * (known.roundoff() + time.roundoff());
@@ -152,49 +152,49 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         known.clone().find(exactly).or_else(|| known.find(same)).cloned()
     }
 
-    /// A point of this rod. The one that its length was rounded to is its top.
+    /// Converts a point of this rod. A point to which the length was rounded becomes the top.
     fn point(&self, point: &M) -> Result<N, Error> {
         let length = self.engine.scales().length;
         if !point.is_finite() {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
-        // The length in other bits, or an enclosure of it, is the length too.
+        // The length in other bits, or an enclosure of it, also counts as the length.
         let rounding = 8.0 * point.log2_roundoff().exp2() * point.to_f64();
         let rounded =
             point.log2_error() <= rounding.log2() && (self.scales.length.clone() - point).vanishes() != Ok(false);
         if rounded || self.scales.length.alike(point) {
             return Ok(length);
         }
-        // Widened like a time.
+        // Other points are widened like times.
         Ok(self.given(point))
     }
 
-    /// [`Converted::late`] of a point. The top is where it is.
+    /// Returns [`Converted::late`] of a point; `None` for the top, which is exact.
     fn late_point(&self, point: &M, given: &N) -> Option<N> {
         if self.engine.scales().length.alike(given) { None } else { self.late(point) }
     }
 
-    /// A time at which `point` is asked about: that of a ray there, where the roundings of `M` alone set a computed one
-    /// apart.
+    /// Returns the time for a query at `point`: the time of a ray there if only roundings of `M` separate a computed
+    /// time from it.
     ///
-    /// **Errors**: where it is not told from another event or ray.
+    /// **Errors**: the time is indistinguishable from another event or ray.
     fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
         self.time_at_point(point, false, time)
     }
 
-    /// The same where the point may have more digits than a double, and is `near` what was spelled.
+    /// Returns the same time for a point that, with more digits than a double, is only `near` the spelled point.
     fn time_at_point(&self, point: &N, near: bool, time: &M) -> Result<N, Error> {
         self.finite(time)?;
         if let Some(known) = self.known(time) {
             return Ok(known);
         }
         let mut given = self.given(time);
-        // No ray comes before the start.
+        // No ray precedes the start.
         if given.vanishes() == Ok(true) && given.log2_error() == f64::NEG_INFINITY {
             return Ok(given);
         }
         let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
-        // A wide enclosure stands for no ray.
+        // A wide enclosure does not count as the time of a ray.
         let wide = is_wide(time, &given);
         if spelled(time).is_none() && !wide {
             let met = self.rays.meant(point, given.clone(), roundings);
@@ -205,7 +205,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         }
         let Some(windows) = &self.windows else { return Ok(given) };
         let near = match spelled(time) {
-            // What more digits than a double has were rounded from is known no better.
+            // A number with more digits than a double is known only within its rounding.
             Some(Spelling::Near) => windows.all(point, &given),
             Some(_) if near => windows.all(point, &given),
             None if wide => windows.all(point, &given),
@@ -218,7 +218,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         self.time_at(&self.engine.end().zero(), time)
     }
 
-    /// What `ask` has of the ground at a time, which is that of an event or a ray there where roundings alone set it off.
+    /// Returns the numbers of `ask` for the ground at a time, or at that of an event or ray within roundings of it.
     fn at_ground<const K: usize>(&self, time: &M, ask: impl Fn(&N) -> Result<[N; K], Error>) -> Result<[M; K], Error> {
         let (ground, given) = (self.engine.end().zero(), self.time_at_ground(time)?);
         let late = self.late_at(&ground, time, &given);
@@ -226,8 +226,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 }
 
-/// `found`, each number widened by twice the sum of what the same number of each of `others` is away from it. Those of
-/// `others` that are outside of the run or of the rod count nothing.
+/// Widens each number of `found` by twice the sum of the distances of the same number in `others`. Members of `others`
+/// outside the run or the rod are skipped.
 fn covering<X: Scalar, M: Scalar>(
     found: Vec<X>,
     read: fn(X) -> M,
@@ -252,7 +252,7 @@ fn covering<X: Scalar, M: Scalar>(
     Ok(found.into_iter().zip(off).map(widened).collect())
 }
 
-/// The numbers of a list that was made of so many.
+/// Converts a list of exactly `K` numbers to an array.
 fn array<S, const K: usize>(list: Vec<S>) -> [S; K] {
     list.try_into().unwrap_or_else(|_| unreachable!("as many numbers as were put in"))
 }
@@ -279,8 +279,9 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.around(&given, late, M::read, &|time| ask(time).map(Vec::from)).map(array)
     }
 
-    /// On the rectangle of what may be meant v is a quadratic function: with the values at its corners and in the
-    /// middle of its sides, that in its own middle is interpolated by coefficients of at most 1.
+    /// Computes the field, widened over the rectangle of possible points and times. There v is a quadratic function,
+    /// which the values at the corners, the midpoints of the sides and the centre interpolate with coefficients of at
+    /// most 1.
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
         let given = self.point(point)?;
         let near = point.spelled_as() == Some(Spelling::Near);
@@ -290,7 +291,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
             Ok(vec![displacement, velocity, strain])
         };
         let late = self.late_at(&given, time, &at);
-        // What is on a ray is there as a whole.
+        // The point and the time of a ray count as exact together.
         let on_ray = late.is_none() && time.as_double().is_none();
         let aside = if on_ray { None } else { self.late_point(point, &given) };
         let around = |x: &N, late: &Option<N>| match late {
@@ -308,7 +309,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         self.at_ground(time, |time| Ok([self.engine.in_contact(time, side)?])).map(|[contact]| contact)
     }
 
-    /// In one march, where no time is that of an event or of a ray at a point of its own.
+    /// Computes all rates in one march, with times that are not matched to events or rays at each point.
     fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
         let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<_>, _>>()?;
         let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<_>, _>>()?;
@@ -321,7 +322,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 
     fn may_jump(&self, time: &M) -> Result<bool, Error> {
         let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, time)?];
-        // What enclosures leave open is asked on both sides.
+        // If an enclosure leaves this undecided, both sides are queried.
         Ok([ground, top].iter().any(|time| self.engine.may_jump(time).unwrap_or(true)))
     }
 
@@ -378,8 +379,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 }
 
-/// Doubles, which answer faster than exact numbers, and within their bounds where all that they took for equal is
-/// equal; otherwise the exact ones.
+/// Returns the history in doubles, which answers faster than exact numbers, if all its coincidences are exact: then its
+/// answers are within their bounds. Otherwise returns the exact history.
 pub(super) fn confirmed<N: Bounded>(
     problem: &Problem,
     plan: &Plan,

@@ -1,4 +1,4 @@
-//! Derivatives of what a history lists by a value of the problem, from both sides.
+//! Derivatives of the numbers of a history with respect to a value of the problem, from both sides.
 
 use super::plan::{Plan, Rung};
 use super::question::{Observer, Want};
@@ -8,7 +8,7 @@ use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Parameter, Problem};
 use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 
-/// The derivative of a number of a history by a value of the problem.
+/// The derivative of a number of a history with respect to a value of the problem.
 ///
 /// ```
 /// use dalembert::{Parameter, Problem, Quantity};
@@ -20,45 +20,45 @@ use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Derivative<S> {
-    /// The same from both sides, or from the only one: a damping that is zero can only grow.
+    /// Equal derivatives from both sides, or the only one: a damping of zero can only grow.
     One(S),
-    /// Not the same from both sides: an event meets a ray, and comes before it on one side and after it on the other.
+    /// Different derivatives: an event meets a ray, and precedes it on one side and follows it on the other.
     Sides {
-        /// As the value grows towards that of the problem.
+        /// Derivative as the value grows towards that of the problem.
         left: Result<S, NoDerivative>,
-        /// As it grows beyond.
+        /// Derivative as the value grows beyond that of the problem.
         right: Result<S, NoDerivative>,
     },
 }
 
-/// Why there is no derivative from a side.
+/// Reason for the absence of a derivative on a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
 pub enum NoDerivative {
-    /// Difference quotients grow without bound as steps get smaller, slower than their inverse: as next to a touch.
+    /// Difference quotients grow without bound as steps shrink, but slower than the inverse step: next to a touch.
     #[strum(serialize = "infinite")]
     Infinite,
-    /// The number jumps, or is one of another event.
+    /// The number jumps, or belongs to another event.
     #[strum(serialize = "jumps")]
     Jumps,
-    /// The numbers that were tried do not settle it; in fractions, first order does not.
+    /// The tried numbers do not determine the derivative; in fractions, first order does not.
     #[strum(serialize = "not settled")]
     Unsettled,
 }
 
 impl NoDerivative {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// Derivatives by row and column; `None` where there is no number.
+/// Derivatives by row and column; `None` for a missing number.
 pub type Derivatives<S> = Vec<Vec<Option<Derivative<S>>>>;
 
-/// What there is by row and column.
+/// Numbers by row and column; `None` for a missing number.
 pub(super) type Rows<S> = Vec<Vec<Option<S>>>;
 
-/// `f` of each number that there is, with its row and column.
+/// Applies `f` to each existing number with its row and column.
 pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S) -> T) -> Rows<T> {
     rows.iter()
         .enumerate()
@@ -68,35 +68,35 @@ pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S
         .collect()
 }
 
-/// What there is in that row and column.
+/// Returns the number in the given row and column.
 pub(super) fn at<S>(rows: &Rows<S>, (row, column): (usize, usize)) -> Option<&S> {
     rows.get(row)?.get(column)?.as_ref()
 }
 
-/// A derivative in doubles may be off by so much of its size or of the natural one.
+/// Maximum error of a derivative in doubles, relative to its size plus its natural size.
 const WANTED: f64 = 1e-5;
 
-/// Whether a derivative in doubles whose `natural` size is known has a bound that is small enough.
+/// Returns whether the bound of a derivative in doubles is small enough, given its `natural` size.
 pub(super) fn is_settled(found: &Estimate<f64>, natural: f64) -> bool {
     found.bound() <= WANTED * (found.value().abs() + natural)
 }
 
-/// What derivatives are asked for.
+/// A request for derivatives.
 pub struct Asked<'a> {
     pub(super) problem: &'a Problem,
     pub(super) plan: &'a Plan,
-    /// The numbers that have settled the run whose numbers they are of.
+    /// The rung that settled the run of these numbers.
     pub(super) rung: Rung,
-    /// What a run with another value is to answer.
+    /// The question for a run with another value.
     pub(super) want: Want,
     pub(super) observe: &'a Observer,
     pub(super) by: Parameter,
     pub(super) quantities: &'a [Quantity],
-    /// Where they are values at times, and not those of a list.
+    /// Times and points of the values; `None` for values of a list.
     pub(super) at: Option<At<'a>>,
 }
 
-/// Times, points of the rod for quantities that have one, and which limit.
+/// Times, points of the rod for quantities that have one, and the side of the limit.
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
     pub(super) times: &'a [Number],
@@ -105,8 +105,8 @@ pub(super) struct At<'a> {
 }
 
 impl Asked<'_> {
-    /// The numbers that derivatives are taken of, in units of `problem`: a row for each of the list, or for each time
-    /// and there for each point.
+    /// Returns the numbers to be differentiated, in units of `problem`: a row for each entry of the list, or for each
+    /// time and, within it, each point.
     pub(super) fn values<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {
         let units = Units::of(problem, UnitSystem::default());
         let Some(At { times, points, side }) = self.at else {
@@ -123,7 +123,7 @@ impl Asked<'_> {
             Ok((0..times.len()).map(|row| table.iter().map(|column| Some(column[row].clone())).collect()).collect())
         };
         match rows(&times) {
-            // With another value it may end before.
+            // The run may end earlier with another value.
             Err(Error::TimeOutside { .. }) => {
                 let none = || vec![self.quantities.iter().map(|_| None).collect()];
                 let row = |time: &S| match rows(std::slice::from_ref(time)) {
@@ -136,7 +136,7 @@ impl Asked<'_> {
         }
     }
 
-    /// The natural scale of each column, in units of `problem`; ratios are about 1.
+    /// Returns the natural scale of each column, in units of `problem`; ratios have a scale of about 1.
     pub(super) fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
         let units = Units::of(problem, UnitSystem::default());
         let time = motion.scales().time.to_f64();
@@ -149,14 +149,14 @@ impl Asked<'_> {
             .collect()
     }
 
-    /// Whether a number is absent where the rod is too short for it: then there is but one side.
+    /// Returns whether a number is missing if the rod is too short for its point: then only one side exists.
     pub(super) fn is_stretched(&self) -> bool {
         self.by == Parameter::Length && self.at.is_some_and(|at| !at.points.is_empty())
     }
 }
 
 impl<S> Derivative<S> {
-    /// The derivative, where it is the same from both sides.
+    /// Returns the derivative if it is the same from both sides.
     pub fn value(&self) -> Option<&S> {
         match self {
             Derivative::One(value) => Some(value),
@@ -164,7 +164,7 @@ impl<S> Derivative<S> {
         }
     }
 
-    /// From the left and from the right.
+    /// Returns the derivatives from the left and from the right.
     pub fn sides(&self) -> [Result<&S, NoDerivative>; 2] {
         match self {
             Derivative::One(value) => [Ok(value), Ok(value)],
@@ -172,7 +172,7 @@ impl<S> Derivative<S> {
         }
     }
 
-    /// The same derivative in other numbers.
+    /// Converts the derivative to other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Derivative<T> {
         match self {
             Derivative::One(value) => Derivative::One(f(value)),

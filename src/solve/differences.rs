@@ -1,11 +1,11 @@
 //! Derivatives as difference quotients of runs in long numbers.
 //!
-//! With a step `h` of the value, relative to it, and numbers of twice as many digits, `(f(1 + h) − f(1))/h` has half of
-//! them. It is off by `h f″/2`, and the quotient to the left, whose step is twice as long, by `−h f″`: what they differ
-//! by bounds the error of `(2 right + left)/3`, where `f″` cancels, as long as `f″` does not change by its own size
-//! within the steps. The steps are not the same, so that no root or jump that is odd about the value looks smooth.
-//! Where the quotients differ by more than a step of the size asked for lets a smooth function differ, the step is
-//! squared: the error of a one-sided quotient shrinks with it, and what does not is a kink, a root or a jump.
+//! With a relative step `h` of the value and numbers of twice as many digits, `(f(1 + h) − f(1))/h` has half of these
+//! digits. Its error is `h f″/2`, and that of the quotient to the left, with a step twice as long, is `−h f″`. Their
+//! difference bounds the error of `(2 right + left)/3`, in which `f″` cancels, as long as `f″` does not change by its
+//! own size within the steps. The two steps differ so that no root or jump that is odd about the value looks smooth. If
+//! the quotients differ by more than a smooth function allows for a step of the requested size, the step is squared:
+//! the error of a one-sided quotient shrinks with the step; otherwise the function has a kink, a root or a jump.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
 use super::plan::Plan;
@@ -20,19 +20,19 @@ use crate::threads::Threads;
 type Long = Estimate<Float>;
 type OneSide = Result<Long, NoDerivative>;
 
-/// Beyond these steps have more digits than numbers are written in.
+/// Maximum requested digits; steps beyond them would have more digits than numbers can be written with.
 const MOST_DIGITS: u32 = 60;
-/// Steps are squared so often.
+/// Number of levels; each squares the step.
 const LEVELS: u32 = 3;
 /// Bits of a quotient beyond the digits of the numbers.
 const SPARE_BITS: u32 = 32;
-/// Decimal exponent of the first step of a gravity that is zero: one so weak, squared, still brings the rod down.
+/// Decimal exponent of the first step of a gravity of zero: a gravity this weak, squared, still brings the rod down.
 const WEAKEST: u32 = 6;
-/// Digits of a step beyond those wanted: what second derivatives take of a quotient that is settled at once. A greater
-/// one costs another run.
+/// Digits of a step beyond the requested ones: the loss by second derivatives in a quotient that one level settles. A
+/// greater loss costs another run.
 const CURVATURE: u32 = 4;
 
-/// The derivatives that are `asked` for, to about so many digits of their natural size.
+/// Computes the derivatives that are `asked` for, to about this many digits of their natural size.
 pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Error> {
     if digits > MOST_DIGITS {
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });
@@ -53,28 +53,28 @@ pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Er
     Ok(Vec::new())
 }
 
-/// `10^−exponent`.
+/// Returns `10^−exponent`.
 fn part(exponent: u32) -> f64 {
     10f64.powf(-f64::from(exponent))
 }
 
-/// Runs that are a step apart.
+/// Runs with values one step apart.
 struct Level {
     base: Rows<Long>,
     /// The natural scale of each column.
     scales: Vec<f64>,
-    /// Two steps to the left and one to the right; `None` where no problem has such a value.
+    /// Two steps to the left and one to the right; `None` if no problem has that value.
     moved: [Option<Rows<Long>>; 2],
-    /// The step, in the units of the value.
+    /// The step, in units of the value.
     step: Long,
-    /// The same as a part of the value.
+    /// The step relative to the value.
     part: f64,
-    /// Whether a number that is absent says that there is no such value.
+    /// Whether a missing number means that the value does not exist on that side.
     one_sided: bool,
 }
 
 impl Level {
-    /// Runs with the step `10^−exponent`.
+    /// Makes the runs with the step `10^−exponent`.
     fn of(asked: &Asked<'_>, exponent: u32, zero: bool) -> Result<Self, Error> {
         let by: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
         let step = by.to_rational();
@@ -96,7 +96,7 @@ impl Level {
         Ok(Level { base, scales, moved, step, part: part(exponent), one_sided: asked.is_stretched() })
     }
 
-    /// The quotients to both sides of a number that there is; `None` where no problem is on that side.
+    /// Returns the quotients on both sides of an existing number; `None` on a side without a problem.
     fn quotients(&self, place: (usize, usize)) -> Option<[Option<OneSide>; 2]> {
         let here = at(&self.base, place)?;
         let [left, right] = self.moved.each_ref().map(|moved| {
@@ -107,7 +107,7 @@ impl Level {
         Some([left.map(|left| left.map(|rise| -rise.halved())), right])
     }
 
-    /// The derivatives by these runs, those with a greater step at hand; and whether all are settled.
+    /// Computes the derivatives from these runs and those with a greater step; also returns whether all are settled.
     fn derivatives(&self, before: Option<&Level>, wanted: f64) -> (Derivatives<Long>, bool) {
         let mut settled = true;
         let found = of_each(&self.base, |place, number| {
@@ -123,13 +123,13 @@ impl Level {
     }
 }
 
-/// What settles a derivative.
+/// Criteria that settle a derivative.
 struct Judge {
-    /// So much of its size, or of the natural one, it may be off.
+    /// Maximum error, relative to the size plus the natural size.
     wanted: f64,
-    /// The number itself, or its natural scale where that is greater, divided by the value.
+    /// The number itself, or its natural scale if that is greater, divided by the value.
     natural: f64,
-    /// The step as a part of the value; that before was its root.
+    /// The step relative to the value; the previous step was its square root.
     step: f64,
 }
 
@@ -138,14 +138,14 @@ impl Judge {
         off <= self.wanted * (size + self.natural)
     }
 
-    /// The mean of both sides within what they differ by, and within what a second derivative of natural size makes of
-    /// the step: where it is not the same on both sides, both may be off alike.
+    /// Widens the mean of both sides by their difference, and by the effect of a second derivative of natural size: if
+    /// it differs between the sides, both may have the same error.
     fn within(&self, mean: Long, apart: &Long) -> Long {
         let bend = mean.double(self.natural * self.step);
         mean.widened(apart).widened(&bend)
     }
 
-    /// From the quotients to both sides, and those of the step before; `None` where a smaller step is needed.
+    /// Computes the derivative from the quotients of this step and the previous one; `None` if the step is too large.
     fn derivative(&self, now: [Option<OneSide>; 2], before: Option<[Option<OneSide>; 2]>) -> Option<Derivative<Long>> {
         if let [Some(Ok(left)), Some(Ok(right))] = &now {
             let (mean, apart) = mean(left, right);
@@ -169,8 +169,9 @@ impl Judge {
         }
     }
 
-    /// From two quotients to one side, which differ by the error of the last at least: be it greater as that of the
-    /// first, whose step is, or because the last step is short enough to see that the threshold is not met.
+    /// Computes a one-sided derivative from two quotients, whose difference is at least the error of the last one:
+    /// either the error of the first is greater, as its step is, or the last step is short enough to show that the
+    /// threshold is not met.
     fn side(&self, before: OneSide, now: OneSide) -> Option<OneSide> {
         let (before, now) = match (before, now) {
             (Ok(before), Ok(now)) => (before, now),
@@ -183,7 +184,7 @@ impl Judge {
             let found = now.widened(&change);
             return self.is_fine(bound(&found), is).then_some(Ok(found));
         }
-        // A jump makes quotients grow as steps shrink, a root as their roots do.
+        // Quotients of a jump grow as the inverse step, those of a root as its square root.
         let growth = (is / was).ln() / -self.step.sqrt().ln();
         let unbounded = if growth > 0.75 { NoDerivative::Jumps } else { NoDerivative::Infinite };
         (growth > 0.25).then_some(Err(unbounded))
@@ -194,7 +195,7 @@ fn sides(left: OneSide, right: OneSide) -> Derivative<Long> {
     Derivative::Sides { left, right }
 }
 
-/// That from the only side.
+/// Builds the derivative from the only side.
 fn only(side: OneSide) -> Derivative<Long> {
     match side {
         Ok(value) => Derivative::One(value),
@@ -202,7 +203,7 @@ fn only(side: OneSide) -> Derivative<Long> {
     }
 }
 
-/// The mean of quotients to the left and to the right by their steps, and what they differ by.
+/// Returns the mean of the left and the right quotient, weighted by their steps, and their difference.
 fn mean(left: &Long, right: &Long) -> (Long, Long) {
     ((right.clone().doubled() + left) / left.int(3), right.clone() - left)
 }
@@ -215,12 +216,12 @@ fn bound(x: &Long) -> f64 {
     x.log2_error().exp2()
 }
 
-/// How far from zero the number may be.
+/// Returns an upper bound of the magnitude.
 fn reach(x: &Long) -> f64 {
     size(x) + bound(x)
 }
 
-/// The numbers of a run, in numbers of so many bits, and the scale of each column.
+/// Returns the numbers of a run, in numbers of this many bits, and the scale of each column.
 fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows<Long>, Vec<f64>), Error> {
     let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
     let plan = Plan::of(problem, &question)?;
@@ -230,7 +231,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {
         let error = (number.log2_error() + f64::from(bits)).exp2();
-        // The left operand has the precision.
+        // The left operand determines the precision.
         *number = Estimate::new(zero.value().clone() + number.value(), error + size(number));
     }
     Ok((rows, scales))

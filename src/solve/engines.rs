@@ -1,4 +1,4 @@
-//! The planned engine, run in doubles and in fractions.
+//! Runs of the planned engine in doubles and in fractions.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::problem::Problem;
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
-        // What exact numbers confirm is in doubles.
+        // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
         let longer = longer(problem, plan, if exact { Rung::Double } else { rung }, observe);
         match rung {
@@ -40,8 +40,8 @@ impl Target for f64 {
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 
-    /// From doubles, where no more is asked for than they have and nothing jumps or bends; where they do not settle it,
-    /// one digit more than the run is asked for.
+    /// Computes derivatives from doubles if the request does not exceed their accuracy and nothing jumps or bends;
+    /// otherwise from difference quotients to the digits of the run, rounded up.
     fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
         if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10() {
             for way in [rates::in_doubles, rates::by_fractions, interpolated::of] {
@@ -69,8 +69,8 @@ impl Target for Rational {
     }
 }
 
-/// The runs that tell a time from an event or a ray where one in `rung` does not: fractions for a rod without damping
-/// that has not bounced too often for them, and more and more bits.
+/// Returns the runs that distinguish a time from an event or a ray if a run in `rung` does not: fractions for an
+/// undamped rod with few enough bounces, and runs with more and more bits.
 fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
     let (rungs, exact_contacts) = (plan.telling(rung), plan.climb.exact_contacts.unwrap_or(0));
     let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());

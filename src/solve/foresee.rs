@@ -1,21 +1,21 @@
-//! How many bits a run is going to lose, foreseen in doubles.
+//! Estimates, in doubles, of the bits that a run is going to lose.
 
 use crate::lattice::{Limits, Undamped};
 use crate::motion::unobserved;
 use crate::number::{Estimate, Number};
 use crate::problem::{Parameters, Problem, Run};
 
-/// What the proof of a damped march costs in bits: through the first flight; with each impact, foreseen through so
-/// many; and with each impact for each time that flights double.
+/// Estimated cost in bits of the proof of a damped march: through the first flight, per impact, per impact and doubling
+/// of the flights; and the maximum number of impacts in the estimate.
 const FIRST_PROOF: f64 = 28.0;
 const IMPACT: f64 = 2.2;
 const LONGER: f64 = 0.45;
 const MOST_FORESEEN: f64 = 60.0;
 
-/// How many bits the proof of a damped march costs; `contacts` is about how many there are, by the round trip.
+/// Estimates the bits that the proof of a damped march costs; `contacts` estimates the contacts by the round trip.
 ///
-/// **Accuracy**: *estimate*, from what runs have lost: unit rods 46 to 73 bits with ten impacts, a rod of steel 128
-/// with twenty. What is foreseen too little takes a second run.
+/// **Accuracy**: *estimate*, from the losses of runs: unit rods lost 46 to 73 bits in ten impacts, a steel rod 128 in
+/// twenty. An estimate that is too low costs a second run.
 pub(super) fn proof_bits(problem: &Problem, contacts: impl FnOnce(f64) -> f64) -> u32 {
     let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return 0 };
     let trip = rod.round_trip();
@@ -25,14 +25,14 @@ pub(super) fn proof_bits(problem: &Problem, contacts: impl FnOnce(f64) -> f64) -
     (FIRST_PROOF + impact * contacts(trip).min(MOST_FORESEEN)) as u32
 }
 
-/// How many bits the history of an undamped rod loses to rounding until `end`: `log₂` of the factor by which its error
-/// bound grows.
+/// Estimates the bits that the history of an undamped rod loses to rounding until `end`: `log₂` of the growth factor of
+/// its error bound.
 ///
-/// **Source**: marches in double precision, each twice as long as the one before, as far as doubles determine the
-/// history; where they do not determine its end, the loss goes on at the same rate per round trip. In a chaotic history
-/// the impacts multiply, and the loss of each becomes smaller, but that of a round trip does not.
+/// **Source**: marches in double precision, each twice as long as the previous one, as far as doubles determine the
+/// history. If they do not determine its end, the loss is extrapolated at the same rate per round trip. In a chaotic
+/// history the impacts multiply and the loss per impact decreases, but the loss per round trip does not.
 ///
-/// **Accuracy**: *estimate*. A plan that foresees too little takes more bits later.
+/// **Accuracy**: *estimate*. A plan with too low an estimate adds bits later.
 pub(super) fn bits_lost(problem: &Problem, end: f64) -> f64 {
     let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return 0.0 };
     if end <= 0.0 {

@@ -1,4 +1,4 @@
-//! The answer in `Value`s, whatever its number system.
+//! The answer in `Value`s, for every number system.
 #![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
@@ -21,14 +21,14 @@ use crate::reason::Warning;
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, as [`Value`]s.
 ///
 /// All times are absolute and in the units of the problem. A time or a point is a number as it is written: `2`,
-/// `"1/3"`, `0.1` (which is 1/10). A time outside of `0 … end()` is [`Error::TimeOutside`], or [`Error::BeyondEnd`] and
-/// [`Error::BeyondExactness`] where the history ends for a reason of its own; a point outside of the rod is
+/// `"1/3"`, `0.1` (which is 1/10). A time outside `0 … end()` is [`Error::TimeOutside`], or [`Error::BeyondEnd`] and
+/// [`Error::BeyondExactness`] if the history ends for a reason of its own; a point outside the rod is
 /// [`Error::PointOutside`].
 ///
-/// [`History::typed`] has the same answers in one number system, for those who compute with them.
+/// [`History::typed`] returns the same answers in one number system, for further computations.
 ///
-/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
-/// that were asked for.
+/// **Accuracy**: that of the [`Plan`]. An answer is computed again with more bits if the current ones do not leave the
+/// requested digits.
 ///
 /// ```
 /// use dalembert::{Problem, Value};
@@ -46,7 +46,7 @@ pub struct History {
     units: Units,
 }
 
-/// Evaluates `$body` for the typed history inside `$history`, whatever its numbers.
+/// Evaluates `$body` for the typed history inside `$history`, in any number system.
 macro_rules! typed {
     ($history:expr, $typed:ident => $body:expr) => {
         match &$history.solution {
@@ -58,7 +58,7 @@ macro_rules! typed {
     };
 }
 
-/// Values of quantities by row; in place of a value that there is not, the reason.
+/// Values of quantities by row; a missing value is replaced by the reason.
 pub type Rows = Vec<Vec<Result<Value, Undefined>>>;
 
 /// All lists of a history, settled together.
@@ -72,9 +72,9 @@ pub struct Listing {
     pub contacts: Rows,
     /// A row for each flight, of [`Table::Flights`].
     pub flights: Rows,
-    /// The stress at the ground; empty where it was not asked for.
+    /// The stress at the ground; empty if it was not requested.
     pub stress: Vec<StressPiece<Value>>,
-    /// A row for each piece of it, of [`Table::Stress`].
+    /// A row for each piece of the stress, of [`Table::Stress`].
     pub pieces: Rows,
     /// Whether a piece of the stress was curved, before it was replaced by straight ones.
     pub is_curved: bool,
@@ -83,7 +83,7 @@ pub struct Listing {
 /// Form of the stress at the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StressForm {
-    /// Straight pieces, off by at most this part of the greatest stress.
+    /// Linear pieces with an error of at most this fraction of the greatest stress.
     Straight(f64),
     /// Pieces with the coefficients of their Chebyshev series.
     Series,
@@ -94,7 +94,7 @@ impl History {
         History { solution, units }
     }
 
-    /// The same history, with its values in the units of `system`.
+    /// Converts the values of the history to the units of `system`.
     pub fn in_units(self, system: UnitSystem) -> Self {
         let units = Units::of(self.problem(), system);
         History { units, ..self }
@@ -120,17 +120,17 @@ impl History {
         self.solution.digits()
     }
 
-    /// Returns the event or parameter that fractions cannot hold, where digits of the whole run stand in for them.
+    /// Returns the event or parameter that fractions cannot hold, if digits of the whole run replace the fractions.
     pub fn exactness_end(&self) -> Option<&ExactnessEnd> {
         self.solution.exactness_end()
     }
 
-    /// Returns the last time that is known: before an event at no fraction, a fraction just below its time.
+    /// Returns the last known time: before an event at an irrational time, a fraction just below it.
     pub fn end(&self) -> Value {
         typed!(self, history => self.value(history.carried_end(), Some(Measure::Time)))
     }
 
-    /// Returns the reason for which the history ends there.
+    /// Returns the reason of the end.
     pub fn ending(&self) -> &Ending {
         typed!(self, history => history.ending())
     }
@@ -140,19 +140,19 @@ impl History {
         typed!(self, history => history.warnings())
     }
 
-    /// Returns the number of impacts, and `log₁₀` of the factor by which rounding may have grown over them; `None`
-    /// where that is not followed.
+    /// Returns the number of impacts, and `log₁₀` of the factor by which rounding errors may have grown over them;
+    /// `None` if the engine does not track this.
     pub fn digits_lost(&self) -> Option<(u32, f64)> {
         typed!(self, history => history.digits_lost())
     }
 
-    /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero
-    /// where all is exact.
+    /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero if
+    /// all is exact.
     pub fn error_estimate(&self) -> f64 {
         typed!(self, history => history.error_estimate())
     }
 
-    /// Returns `error` with the reason for which the history ends before the time that was asked for.
+    /// Returns `error` with the reason why the history ends before the requested time.
     pub fn explained(&self, error: Error) -> Error {
         typed!(self, history => history.explained(error))
     }
@@ -172,8 +172,7 @@ impl History {
         self.solution.visit(visitor)
     }
 
-    /// Returns all impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the
-    /// ground.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     pub fn events(&self) -> Result<Vec<Event<Value>>, Error> {
         typed!(self, history => {
             let events = history.ask(|motion| Ok(motion.events().to_vec()), |events| {
@@ -190,7 +189,7 @@ impl History {
         })
     }
 
-    /// Returns all times on the ground, in order; the impulse is that of the units of the history.
+    /// Returns all contacts, in order; the impulse is in the units of the history.
     pub fn contacts(&self) -> Result<Vec<Contact<Value>>, Error> {
         typed!(self, history => {
             let contacts = history.ask(|motion| Ok(motion.contacts().to_vec()), |contacts| {
@@ -206,7 +205,7 @@ impl History {
         })
     }
 
-    /// Returns the flights between the contacts, and how high they go.
+    /// Returns the flights between the contacts, and their highest points.
     pub fn flights(&self) -> Result<Vec<Flight<Value>>, Error> {
         typed!(self, history => {
             let found = history.ask(flights, |flights| Flight::numbers(flights))?;
@@ -216,7 +215,7 @@ impl History {
 
     /// Returns `e_P` and `e_E²` of a contact, counted from 0.
     ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    /// **Errors**: [`Error::NoContact`] if the history has fewer contacts.
     pub fn restitution(&self, contact: usize) -> Result<Restitution<Value>, Error> {
         typed!(self, history => Ok(history.carried_restitution(contact)?.map(|x| self.value(x, None))))
     }
@@ -226,7 +225,7 @@ impl History {
         self.at_time(Quantity::Strain, time, side)
     }
 
-    /// Returns a quantity over time at one time.
+    /// Returns a time-dependent quantity at one time.
     pub fn at_time(&self, quantity: Quantity, time: impl Into<Written>, side: Side) -> Result<Value, Error> {
         let time = [written("time", time)?];
         let list = crate::number::List::Numbers(time.to_vec());
@@ -234,7 +233,7 @@ impl History {
         Ok(columns.remove(0).remove(0))
     }
 
-    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, point: impl Into<Written>, time: impl Into<Written>) -> Result<Field<Value>, Error> {
         let (point, time) = (written("point", point)?, written("time", time)?);
         typed!(self, history => {
@@ -266,12 +265,12 @@ impl History {
         })
     }
 
-    /// Returns the values of `quantities` over time, column by column. Where `side` is `None` and the two limits of any
-    /// of them differ, a time has two rows, the limit from earlier times first.
+    /// Returns the values of `quantities` over time, column by column. If `side` is `None`, a time at which the two
+    /// limits of any quantity differ has two rows, the limit from earlier times first.
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     ///
-    /// **Errors**: [`Error::NotOverTime`]; those of a time outside of the history.
+    /// **Errors**: [`Error::NotOverTime`]; the errors of a time outside the history.
     pub fn sample(
         &self,
         quantities: &[Quantity],
@@ -324,7 +323,7 @@ impl History {
         })
     }
 
-    /// Returns `u`, `v`, `strain` at each point at the time beside it, column by column.
+    /// Returns `u`, `v`, `strain` at pairs of a point and a time, column by column.
     pub fn sample_pairs(&self, points: &Places<'_>, times: &Places<'_>, side: Side) -> Result<[Vec<Value>; 3], Error> {
         typed!(self, history => {
             let fields = history.ask(
@@ -354,9 +353,9 @@ impl History {
         })
     }
 
-    /// Returns all lists, settled together: the accuracy of each number is relative to the greatest among all of them.
-    /// `ratios` says whether numbers without a unit are settled too, and `stress` in which form the stress at the
-    /// ground is listed, as it can cost more than all the rest.
+    /// Returns all lists, settled together: the accuracy of each number is relative to the greatest of all. `ratios`
+    /// states whether numbers without a unit are settled too. `stress` states the form of the stress at the ground,
+    /// which can cost more than all other lists.
     pub fn listing(&self, stress: Option<StressForm>, ratios: bool) -> Result<Listing, Error> {
         typed!(self, history => {
             let lists = [Table::Events, Table::Contacts, Table::Flights].map(Table::quantities);
@@ -404,7 +403,7 @@ impl History {
         })
     }
 
-    /// Returns one number, or the reason why there is none.
+    /// Returns one number, or the reason of its absence.
     pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
         typed!(self, history => {
             let run = &self.problem().run;
@@ -440,7 +439,7 @@ impl History {
         number.into().printed_in(self.digits(), unit)
     }
 
-    /// The value of a quantity whose number is `number` without a unit.
+    /// Returns the value of a quantity from its `number` without a unit.
     fn quantity<S: IntoValue>(&self, quantity: Quantity, number: S, scales: &Scales<S>) -> Value {
         let number = quantity.in_unit(number, scales, &self.units);
         number.into().printed_in(self.digits(), quantity.unit(&self.units))
@@ -467,7 +466,7 @@ impl History {
     }
 }
 
-/// The number that `text` spells.
+/// Parses the number that `text` spells.
 fn written(quantity: &'static str, text: impl Into<Written>) -> Result<Number, Error> {
     let text = text.into();
     text.number().cloned().map_err(|error| Error::Spelling { quantity, error: error.clone() })

@@ -11,16 +11,16 @@ use crate::reason::Warning;
 
 type Long = Estimate<Float>;
 
-/// A motion in numbers of `N` limbs, read in [`Float`]s of as many bits.
+/// A motion in numbers of `N` limbs, converted to [`Float`]s of as many bits.
 ///
-/// **Accuracy**: *exact* in both directions for times and points of as many bits, their bounds with them. So each
-/// answer is that of the motion itself.
+/// **Accuracy**: *exact* in both directions for times and points of as many bits, bounds included. Each answer is
+/// therefore that of the motion itself.
 struct InFloats<const N: usize> {
     engine: Engined<Wide<N>>,
     course: OnceLock<Course<Long>>,
 }
 
-/// The same motion, with times, points and answers as [`Float`]s.
+/// Wraps the motion with times, points and answers as [`Float`]s.
 pub(super) fn in_floats<const N: usize>(engine: Engined<Wide<N>>) -> Engined<Float> {
     std::sync::Arc::new(InFloats { engine, course: OnceLock::new() })
 }

@@ -1,12 +1,13 @@
-//! Derivatives as those of the cubic through four runs in doubles: of damped rods, and where rates that a run carries
-//! do not settle them.
+//! Derivatives of the cubic through four runs in doubles: for damped rods, and where rates carried through a run do not
+//! settle the derivatives.
 //!
-//! With a step `h` of the value, relative to it, that of the cubic is off by about `h³ f⁗/4` and what doubles are known
-//! to, `n`, divided by h; the quadratic through three of the runs by `h² f‴/6` or `/3`. What the two differ by is taken
-//! for the error, and `h³` of the natural size besides. Both errors are of one size where `h³ = n`.
+//! With a relative step `h` of the value, the error of the derivative of the cubic is about `h³ f⁗/4` plus the error
+//! `n` of doubles divided by h; that of the quadratic through three of the runs is `h² f‴/6` or `/3`. The difference of
+//! the two serves as the error, plus `h³` of the natural size. The error of the quadratic and `n/h` are of one size
+//! for `h³ = n`.
 //!
-//! Next to a kink the third difference is as great as the change of the slope, but for one half a step away, which
-//! makes the second difference as great: where either is, runs in long numbers settle it.
+//! Next to a kink the third difference is as great as the change of the slope, except for a kink half a step away,
+//! where the second difference is as great. If either is large, runs in long numbers settle the derivative.
 
 use super::derivative::{Asked, Derivative, Derivatives, Rows, at, is_settled, of_each};
 use super::ladder::{Engined, Ladder};
@@ -20,14 +21,14 @@ use crate::threads::Threads;
 
 type Double = Estimate<f64>;
 
-/// Steps are between these parts of a value.
+/// Minimum and maximum step, relative to the value.
 const STEPS: [f64; 2] = [1e-5, 1e-3];
-/// Where a step does not settle it, one shorter by this does.
+/// Factor by which the second step is shorter, if the first does not settle the derivatives.
 const FINER: f64 = 10.0;
-/// A second derivative may be so many times its natural size.
+/// Maximum second derivative, relative to its natural size.
 const BEND: f64 = 100.0;
 
-/// The derivatives that are `asked` for by three runs beside this `run`; `None` where some are not settled.
+/// Computes the derivatives that are `asked` for from this `run` and three more; `None` if some are not settled.
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
     let (base, scales) = rows(asked, asked.problem, &**run)?;
@@ -38,7 +39,7 @@ pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivat
     let known = base.iter().flat_map(|row| row.iter().zip(&scales).filter_map(size)).fold(0.0, f64::max);
     let part = known.cbrt().clamp(STEPS[0], STEPS[1]);
     for part in [part, part / FINER] {
-        // A short decimal.
+        // The step is a short decimal.
         let step = format!("{part:.0e}").parse().unwrap_or_else(|_| 1.into());
         if let Some(found) = with_step(asked, (&base, &scales), value, &step)? {
             return Ok(Some(found));
@@ -47,7 +48,7 @@ pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivat
     Ok(None)
 }
 
-/// Those by runs so far apart, as a part of the value, of which the one with the value itself has the numbers `base`.
+/// Computes the derivatives from runs with this relative step beside the run with the numbers `base`.
 fn with_step(
     asked: &Asked<'_>,
     (base, scales): (&Rows<Double>, &[f64]),
@@ -67,7 +68,7 @@ fn with_step(
         )?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
-    // On the lattice a run takes less time than a thread to begin.
+    // A run on the lattice takes less time than starting a thread.
     let runs = match asked.plan.engine {
         Engine::Lattice => (0..3).map(run).collect::<Result<Vec<_>, _>>()?,
         _ => Threads::default().all(3, run)?,
@@ -84,23 +85,23 @@ fn with_step(
     Ok(settled.then_some(found))
 }
 
-/// The numbers of a run, and the natural scale of each column.
+/// Returns the numbers of a run, and the natural scale of each column.
 fn rows(asked: &Asked<'_>, problem: &Problem, motion: &dyn Motion<Double>) -> Result<(Rows<Double>, Vec<f64>), Error> {
     Ok((asked.values(problem, motion)?, asked.scales(problem, motion)))
 }
 
-/// Where the runs are.
+/// The positions of the runs.
 struct Cubic {
-    /// The step as a part of the value.
+    /// The step relative to the value.
     part: f64,
-    /// The value, by which the problem has what is moved.
+    /// The value, divided by the power with which it enters the problem.
     value: f64,
-    /// Whether all runs are to the right of the first one.
+    /// Whether all other runs are to the right of the first one.
     one_sided: bool,
 }
 
 impl Cubic {
-    /// The derivative of a number that has these values `there`; `None` where it is not settled.
+    /// Computes the derivative of a number with the values `there` in the other runs; `None` if it is not settled.
     fn slope(&self, here: &Double, there: &[&Double], scale: f64) -> Option<Double> {
         let sum = |weights: [i64; 4], divisor: f64| {
             let numbers = std::iter::once(here).chain(there.iter().copied()).zip(weights);
@@ -108,7 +109,7 @@ impl Cubic {
             sum / here.double(divisor)
         };
         let step = self.part * self.value;
-        // The places are 0, 1, 2 and 3, or 0, −1, 1 and 2.
+        // The positions are 0, 1, 2 and 3, or 0, −1, 1 and 2.
         let (quadratic, bend, third) = match self.one_sided {
             true => (sum([-3, 4, -1, 0], 2.0 * step), sum([1, -2, 1, 0], step), sum([-1, 3, -3, 1], 3.0 * step)),
             false => (sum([0, -1, 1, 0], 2.0 * step), sum([-2, 1, 1, 0], step), sum([-3, 1, 3, -1], 6.0 * step)),

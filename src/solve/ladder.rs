@@ -1,5 +1,4 @@
-//! The precision ladder: an answer is computed in doubles, in longer numbers or in enclosures until its own bound
-//! settles it.
+//! The precision ladder: doubles, longer numbers or enclosures, until the bound of the answer is small enough.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,14 +13,14 @@ use crate::problem::Problem;
 use crate::reason::{Reason, Warning};
 
 impl Plan {
-    /// The answer to one `query` of `problem`, in numbers that carry their bound, and nothing that it does not ask for:
-    /// no list of events is settled before it. `numbers` are those of the answer that are settled to the digits of the
-    /// plan.
+    /// Returns the answer to one `query` of `problem`, in numbers that carry their bound. Nothing else is computed: no
+    /// list of events is settled before it. `numbers` returns the numbers of the answer that must have the digits of
+    /// the plan.
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
     ///
-    /// **Errors**: those of the run and of the query; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are
-    /// worth trying settle it.
+    /// **Errors**: the errors of the run and of the query; [`Error::Unsettled`], [`Error::Undecided`] if no affordable
+    /// number of bits settles the answer.
     ///
     /// ```
     /// use dalembert::engine::Motion;
@@ -47,28 +46,27 @@ impl Plan {
 /// An engine that has run.
 pub(crate) type Engined<S> = Arc<dyn Motion<<S as Answer>::Carried>>;
 
-/// A number system of answers, and how an attempt in the numbers of a rung is read in it; one that is not built in has
-/// [`Error::NoMultiprecision`] for both.
+/// A number system of answers, with the conversion of a run in the numbers of a rung. A system that is not built in
+/// returns [`Error::NoMultiprecision`] from both methods.
 pub trait Target: Answer<Carried: IntoValue> {
     /// Runs the planned engine in the numbers of `rung`.
     ///
-    /// **Errors**: those of the engine; [`Error::NotDecided`] where these numbers do not settle a comparison.
+    /// **Errors**: the errors of the engine; [`Error::NotDecided`] if these numbers do not decide a comparison.
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error> {
         let _ = (problem, plan, rung, observe);
         Err(Error::NoMultiprecision)
     }
 
-    /// The derivatives of what is asked of a history whose engine is `run`, by the numbers that this system has them
-    /// from.
+    /// Computes the requested derivatives of a history with the engine `run`, by the method of this number system.
     ///
-    /// **Errors**: those of runs with other values; [`Error::Derivative`].
+    /// **Errors**: the errors of runs with other values; [`Error::Derivative`].
     fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error> {
         let _ = (asked, run);
         Err(Error::NoMultiprecision)
     }
 }
 
-/// A problem and its plan, of which attempts are made.
+/// A problem and its plan, for a sequence of attempts.
 #[derive(Clone, Copy)]
 pub(crate) struct Ladder<'a> {
     pub(crate) problem: &'a Problem,
@@ -76,20 +74,20 @@ pub(crate) struct Ladder<'a> {
     pub(crate) observe: &'a Observer,
 }
 
-/// An attempt: its numbers, and the engine that has run in them.
+/// An attempt: its rung, and the engine that has run in those numbers.
 #[derive(Clone)]
 pub(crate) struct Attempt<S: Answer> {
     pub(crate) rung: Rung,
     pub(crate) engine: Engined<S>,
-    /// Whether exact numbers have been tried where events coincide within their bounds, and did not decide either.
+    /// Whether exact numbers were tried on events that coincide within their bounds, and did not decide either.
     tried: bool,
-    /// Whether longer numbers break off before it ends.
+    /// Whether longer numbers break off before the end of this run.
     farthest: bool,
 }
 
-/// A number of an answer, as far as it matters whether it is settled.
+/// Magnitude and error of a number of an answer, which determine whether it is settled.
 pub(crate) struct Size {
-    /// `log₂` of its magnitude.
+    /// Magnitude as `log₂`.
     log2: f64,
     log2_error: f64,
 }
@@ -98,12 +96,12 @@ fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
     numbers.into_iter().map(|x| Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() }).collect()
 }
 
-/// What the ladder asks of each attempt: which answer it is, counted from 0, and the numbers of it. So the ladder is
-/// compiled once for all kinds of answers.
+/// The query that the ladder puts to each attempt. It returns the index of the answer, counted from 0, and the sizes of
+/// its numbers, so that the ladder is compiled once for all kinds of answers.
 pub(crate) type Query<'a, S> =
     &'a mut dyn FnMut(&dyn Motion<<S as Answer>::Carried>) -> Result<(usize, Vec<Size>), Error>;
 
-/// The answer to `query` that `settle` chooses among those to its attempts, with what it says beside.
+/// Returns the answer to `query` that `settle` selects among those of its attempts, and its other result.
 pub(crate) fn settled<S: Target, T, A>(
     query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
     numbers: impl Fn(&T) -> Vec<&S::Carried>,
@@ -118,12 +116,11 @@ pub(crate) fn settled<S: Target, T, A>(
     Ok((beside, answers.swap_remove(chosen)))
 }
 
-/// As often an attempt may end at the same doubt, or leave events open, with more bits each time, before that is the
-/// answer.
+/// Number of attempts, each with more bits, that may leave the same doubt before the doubt becomes the answer.
 const SAME_DOUBT: usize = 3;
 
 impl Ladder<'_> {
-    /// The answer to `query`, as [`Ladder::settle`], and the attempt that has it.
+    /// Returns the answer to `query`, settled by [`Ladder::settle`], and its attempt.
     pub(crate) fn ask<S: Target, T>(
         &self,
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
@@ -132,11 +129,12 @@ impl Ladder<'_> {
         settled::<S, T, _>(query, numbers, |query| self.settle::<S>(Vec::new(), query))
     }
 
-    /// The answer to `query`, settled: asked of the attempts that are `known`, and then of others in more and more
-    /// bits, until every comparison on the way is decided and all numbers of the answer have the digits of the plan.
+    /// Settles the answer to `query`. The `known` attempts answer first, then attempts with more and more bits, until
+    /// every comparison is decided and all numbers of the answer have the digits of the plan.
     ///
-    /// **Accuracy**: each number is known to the digits of the plan, or to so many below the greatest number of the
-    /// answer as the plan says. In doubles the best that could be reached; its own bounds say what that is.
+    /// **Accuracy**: each number has the digits of the plan, or an error that many digits, plus the spare ones of the
+    /// plan, below the greatest number of the answer. In doubles it is the best reachable accuracy, as its own bounds
+    /// state.
     pub(crate) fn settle<S: Target>(
         &self,
         known: Vec<Attempt<S>>,
@@ -157,17 +155,17 @@ impl Ladder<'_> {
             }
             .and_then(|engine| {
                 let (answer, sizes) = query(&*engine)?;
-                // What covers both sides of an event says so; the rest is held to what it would be held to by itself.
+                // An answer that covers both sides of an event reports this; its accuracy is judged without the cover.
                 let sizes = match engine.covered() {
                     Some((_, plain)) => query(plain).map_or(Vec::new(), |(_, sizes)| sizes),
                     None => sizes,
                 };
                 Ok((engine, (answer, sizes)))
             });
-            // Errors on the way to an open comparison mean nothing, except where no bits can help.
+            // Errors on the way to an open comparison are meaningless, unless no bits can help.
             let lacks = match answer {
                 Ok((engine, (answer, sizes))) => {
-                    // With more bits such a run breaks off sooner.
+                    // Such a run breaks off earlier with more bits.
                     let last = breaks_off(self.plan, rung, &*engine);
                     let longer = |(kept, _, settled): &mut (Attempt<S>, usize, bool)| {
                         (*settled || last) && ends_before(&*engine, &*kept.engine)
@@ -206,7 +204,7 @@ impl Ladder<'_> {
                 Err(Error::NotDecided { .. } | Error::Open(_)) => Lacks::Bits(f64::INFINITY),
                 Err(error) => return Err(error),
             };
-            // Where exact roots do not decide, the numbers that are known say what they take for one.
+            // If exact roots do not decide, the known numbers report what they take as equal.
             let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
             if let Some(next) = next {
@@ -234,7 +232,7 @@ impl Ladder<'_> {
         }
     }
 
-    /// About how many bits more would settle the answer; zero or less where it is settled.
+    /// Estimates the additional bits that would settle the answer; zero or less if it is settled.
     fn missing<S: Scalar>(&self, engine: &dyn Motion<S>, numbers: &[Size], doubts: &mut Vec<f64>) -> f64 {
         if self.plan.engine == Engine::Lattice && matches!(engine.ending(), Ending::Undecided(_)) {
             let end = engine.end().to_f64();
@@ -250,11 +248,11 @@ impl Ladder<'_> {
         let mut most = f64::NEG_INFINITY;
         for Size { log2: size, log2_error: error } in numbers {
             let mut missing = error - (size - bits(digits)).max(floor);
-            // Nothing is known of it, whatever its size.
+            // The number is unknown, whatever its size.
             if error.is_nan() || *error == f64::INFINITY {
                 return f64::INFINITY;
             }
-            // What is not told from zero has no digits that bits could settle: its natural scale says when it is small.
+            // The natural scale decides when a number that is indistinguishable from zero is small enough.
             if missing > 0.0 && size <= error {
                 missing = missing.min(error - least_scale(engine) + bits(digits + faint));
             }
@@ -264,7 +262,7 @@ impl Ladder<'_> {
     }
 }
 
-/// Whether events are taken for one that are so only within their bounds, where exact numbers are to decide.
+/// Returns whether events count as one only because they agree within their bounds, and exact numbers are to decide.
 fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
     let contacts = engine.digits_lost().map_or(0, |(contacts, _)| contacts);
     let taken_for_one = || engine.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
@@ -272,30 +270,30 @@ fn coincides<S: Scalar>(plan: &Plan, engine: &dyn Motion<S>) -> bool {
         && (taken_for_one() || plan.engine == Engine::Lattice && ends_at_event(engine))
 }
 
-/// Whether the last event is not told from the end of the run, which it may come after.
+/// Returns whether the last event is indistinguishable from the end of the run, so that it may come after the end.
 fn ends_at_event<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     let Some(event) = engine.events().last().filter(|_| *engine.ending() == Ending::Time) else { return false };
     let left = engine.end() - &event.t;
     left.log2_error() > f64::NEG_INFINITY && left.vanishes() != Ok(false)
 }
 
-/// Whether a damped run says that its bounds leave events open.
+/// Returns whether a damped run warns that its bounds leave events open.
 pub(super) fn needs_bits<S: Scalar>(engine: &dyn Motion<S>) -> bool {
     engine.warnings().iter().any(Warning::needs_bits)
 }
 
-/// Whether an answer in doubles is from a run in long numbers that has computed as much as it may.
+/// Returns whether an answer in doubles comes from a run in long numbers that has reached its limit of effort.
 fn breaks_off<S: Scalar>(plan: &Plan, rung: Rung, engine: &dyn Motion<S>) -> bool {
     let limited = matches!((plan.numbers, rung), (Numbers::Double(_), Rung::Bits(_)));
     limited && matches!(engine.ending(), Ending::Undecided(Reason::Effort { .. }))
 }
 
-/// Whether a run breaks off before another ends.
+/// Returns whether a run breaks off before another ends.
 fn ends_before<S: Scalar>(engine: &dyn Motion<S>, other: &dyn Motion<S>) -> bool {
     engine.ending().is_open() && engine.end().to_f64() < other.end().to_f64() * (1.0 - 1e-6)
 }
 
-/// `log₂` of the least of the natural scales of displacement, velocity, strain and energy.
+/// Returns `log₂` of the least of the natural scales of displacement, velocity, strain and energy.
 fn least_scale<S: Scalar>(engine: &dyn Motion<S>) -> f64 {
     let Scales { time, velocity, length, wave_speed, .. } = engine.scales().map(|scale| scale.to_f64().log2());
     velocity + time.min(0.0).min(-wave_speed).min(velocity + length)

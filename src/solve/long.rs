@@ -1,4 +1,4 @@
-//! The planned engine, run in long numbers and enclosures.
+//! Runs of the planned engine in long numbers and enclosures.
 
 use std::sync::Arc;
 
@@ -20,8 +20,8 @@ use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar,
 use crate::problem::{Parameters, Problem};
 use crate::special::RoundedSpecial;
 
-/// Evaluates an expression in the numbers for so many bits: those on the stack, which are several times as fast, up to
-/// 384 bits, and MPFR's beyond. In the expression the first name is their type, the second their precision.
+/// Evaluates an expression in the numbers for this many bits: up to 384 bits in numbers on the stack, which are several
+/// times as fast, beyond in MPFR's. In the expression the first name is their type, the second their precision.
 macro_rules! in_numbers {
     ($bits:expr, |$s:ident, $precision:ident| $body:expr) => {
         in_numbers!($bits, |$s, $precision| $body, $body)
@@ -53,7 +53,7 @@ impl Target for Float {
                     |S, precision| in_floats(estimates::<S>(problem, plan, (bits, precision), observe)?),
                     estimates::<S>(problem, plan, (bits, precision), observe)?
                 );
-                // Of an undamped rod an event may be at the very time.
+                // An event of an undamped rod may be exactly at the queried time.
                 if plan.engine == Engine::Lattice {
                     return Ok(run);
                 }
@@ -70,7 +70,7 @@ impl Target for Float {
     }
 }
 
-/// So many times as many bits as the first ones are tried to tell a time from that of an event or a ray.
+/// Maximum factor on the first number of bits, for runs that distinguish a time from that of an event or a ray.
 const MOST_TIMES: u32 = 4;
 
 impl Target for Interval {
@@ -83,7 +83,7 @@ impl Target for Interval {
     }
 }
 
-/// An attempt in more bits than doubles have, read in doubles; `longer` are the runs for times that it does not tell.
+/// Makes an attempt in more bits than doubles have, converted to doubles; `longer` answers undecided times.
 pub(super) fn in_doubles(
     problem: &Problem,
     plan: &Plan,
@@ -97,7 +97,7 @@ pub(super) fn in_doubles(
     })
 }
 
-/// An attempt in so many bits, read in doubles, which says where it does not tell a time from an event or a ray.
+/// Makes an attempt in this many bits, converted to doubles; it reports times that it does not decide.
 pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
     let bits = rung.bits();
     Ok(in_numbers!(bits, |S, precision| {
@@ -116,8 +116,8 @@ fn estimates<S: RoundedSpecial>(
     planned::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, bits, march))
 }
 
-/// A damped run: with what is proved of it, where that reaches its end, as `march` finds it else. In digits the proof
-/// comes first; for an answer in doubles it is made where the bounds of `march` leave events open.
+/// Makes a damped run: the proved one if the proof reaches its end, otherwise the run of `march`. For digits the proof
+/// comes first; for an answer in doubles it is tried only if the bounds of `march` leave events open.
 fn marched<S: RoundedSpecial>(
     plan: &Plan,
     task: &Task<'_, S>,
@@ -140,8 +140,7 @@ fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Resul
     Damped::march(&Task { effort, ..*task }, 1, true)
 }
 
-/// `h′` at the bounce that doubles have found, in numbers of so many bits: the first flight, and all that follows,
-/// hangs on it.
+/// Computes `h′` at the bounce that doubles have found, in this many bits: all that follows depends on it.
 pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
     let Bounce::At { time, trips, .. } = bounce else { return None };
     in_numbers!(bits, |S, precision| {
@@ -156,7 +155,7 @@ pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits
     })
 }
 
-/// Enclosures with exact roots inside, of an undamped rod.
+/// Computes enclosures with exact roots inside, for an undamped rod.
 fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
     plan.lattice(problem, &IntervalPrecision::with_exact(bits), observe)
 }
@@ -167,7 +166,7 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
         Engine::Cells => Ok(proved(problem, plan, bits, observe)?),
         Engine::ClosedForm => contact(problem, bits),
-        // Of more digits than a march is proved to, the first contact has all.
+        // For more digits than a march can prove, the first contact provides all of them.
         Engine::ClosedFormThenCells if bits <= MOST_PROVED && bounces(problem, bits)? => {
             match proved(problem, plan, bits, observe) {
                 Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
@@ -197,7 +196,7 @@ fn last_proof(plan: &Plan, bits: u32) -> bool {
     plan.next(Rung::Enclosures(bits), Lacks::Bits(f64::INFINITY)).is_none()
 }
 
-/// A damped run with what is proved of it. Where more bits may prove more, they are asked for first.
+/// Makes a proved damped run; returns an error first if more bits may prove more.
 fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     if bits > MOST_PROVED {
         return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
@@ -211,3 +210,8 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
         Ok(Arc::new(Converted::new(Arc::new(run) as Engined<S>).of_rod(&rod)))
     })
 }
+
+#[cfg(test)]
+#[path = "tests/long.rs"]
+#[allow(clippy::unwrap_used)]
+mod tests;

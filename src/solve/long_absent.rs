@@ -1,4 +1,4 @@
-//! Long numbers and enclosures in a build without the feature `mp`: an error that names it.
+//! Placeholder for long numbers and enclosures in a build without the feature `mp`: the error that names it.
 
 use super::asked::Longer;
 use super::ladder::{Engined, Target};
@@ -20,7 +20,7 @@ pub(super) fn read(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engin
     Err(Error::NoMultiprecision)
 }
 
-/// Doubles know `h′` at the bounce as well as there is need.
+/// Returns `None`: without the feature `mp`, the value of `h′` in doubles is used.
 pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>, _: u32) -> Option<Estimate<f64>> {
     None
 }

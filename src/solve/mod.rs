@@ -1,4 +1,4 @@
-//! From a question to an answer: the plan, the engines in the planned numbers, and the ladder of precisions.
+//! Answers to questions: the plan, the engines in the planned numbers, and the ladder of precisions.
 
 mod asked;
 mod converted;

@@ -1,4 +1,4 @@
-//! Times and points that a history is asked at.
+//! Times and points of the queries to a history.
 
 use std::ops::Range;
 
@@ -9,13 +9,13 @@ use crate::number::{List, Number, Scalar};
 /// Times or points of a question, in the units of the problem.
 #[derive(Clone, Debug)]
 pub enum Places<'a> {
-    /// A part of a list of numbers as a person writes them: each stands for exactly what it spells.
+    /// A range of a list of numbers as a person writes them; each represents exactly the number that it spells.
     Part(&'a List, Range<usize>),
-    /// Doubles as a program computes them: one within some roundings of an event or a ray stands for that event.
+    /// Doubles as a program computes them; one within some roundings of an event or a ray represents that event or ray.
     Doubles(&'a [f64]),
-    /// Numbers as a history prints them: the digits of an event stand for that event.
+    /// Numbers as a history prints them; the digits of an event represent that event.
     Printed(&'a [Number]),
-    /// The start, the events and the end, each once. For times.
+    /// The start, the events and the end, each once; for times.
     Events,
 }
 

@@ -1,4 +1,4 @@
-//! Everything that is decided before running: engine, numbers, bits, how far.
+//! All decisions before a run: engine, number system, bits, reach.
 
 use std::borrow::Cow;
 
@@ -13,10 +13,10 @@ use crate::number::{Bounded, Number, Scalar, bits_for_digits};
 use crate::problem::{Parameters, Problem, Run, Start, profile};
 use crate::reason::Warning;
 
-/// How a question is going to be answered. No engine and no caller decides any of it again.
+/// The decisions about how to answer a question. No engine and no caller repeats any of them.
 ///
-/// **Source**: the cheapest route that answers the question: a first contact alone needs no flight, values between two
-/// times nothing beyond the later one.
+/// **Source**: the cheapest route to the answer: a first contact alone needs no flight, and values between two times
+/// need nothing beyond the later one.
 ///
 /// ```
 /// use dalembert::{Engine, Numbers, Plan, Problem, Question};
@@ -30,79 +30,77 @@ use crate::reason::Warning;
 pub struct Plan {
     /// The engine.
     pub engine: Engine,
-    /// The numbers of the answer.
+    /// The number system of the answer.
     pub numbers: Numbers,
-    /// How far the motion is followed.
+    /// End of the motion that is computed.
     pub reach: Reach,
-    /// What lies before this time may be forgotten on the way.
+    /// Time before which the run may drop its data.
     pub keep_from: Option<f64>,
-    /// Whether all events and contacts are settled before anything else is asked; otherwise only what is asked for is
-    /// worked out.
+    /// Whether all events and contacts are settled before any query; otherwise only queried numbers are computed.
     pub settles_events: bool,
-    /// The numbers of the first attempt; `explain` prints it, and longer numbers follow where they do not settle the
-    /// answer.
+    /// The rung of the first attempt; `explain` prints it. Longer numbers follow if it does not settle the answer.
     pub rung: Rung,
-    /// Decimal digits that rounding is foreseen to take in a chaotic run; the first rung has as many more.
+    /// Estimated decimal digits that rounding takes in a chaotic run; the first rung has as many more.
     pub foreseen_loss: f64,
-    /// How far an answer has to be known.
+    /// Required accuracy of an answer.
     pub goal: Goal,
-    /// The numbers after those of the first attempt.
+    /// The rungs after the first attempt.
     pub climb: Climb,
-    /// What cells compute at most; `None` where there are none.
+    /// Limits of cells; `None` without cells.
     pub cells: Option<CellLimits>,
-    /// Bits of `h′` at the first bounce, on which the flight and all that follows hangs; `None` for those of the run.
+    /// Bits of `h′` at the first bounce, on which all that follows depends; `None` for the bits of the run.
     pub rate_bits: Option<u32>,
-    /// Bits that the proof of a damped march is foreseen to cost.
+    /// Estimated cost in bits of the proof of a damped march.
     #[serde(skip)]
     proof_bits: u32,
-    /// Bits that the series of a damped march need in the first numbers that follow doubles, where these say it;
-    /// otherwise series go as far as the numbers.
+    /// Bits that the series of a damped march need in the first numbers after doubles, if the run in doubles determines
+    /// them; otherwise series are as accurate as the numbers.
     #[serde(skip)]
     series_bits: Option<f64>,
 }
 
-/// How far an answer has to be known.
+/// Required accuracy of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Goal {
     /// Decimal digits of each number.
     pub digits: f64,
-    /// So many digits below the greatest number of the answer one may lie and still have all of its digits.
+    /// Number of digits by which a number may lie below the greatest of the answer and still need all of its digits.
     pub spare: f64,
-    /// So many digits more below its natural scale a number is settled that is not told from zero.
+    /// Additional digits below its natural scale at which a number that is indistinguishable from zero is settled.
     pub faint: f64,
 }
 
-/// Which numbers follow where those of an attempt do not settle an answer.
+/// Number systems that follow if those of an attempt do not settle an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Climb {
-    /// Bits of the first attempt after doubles or fractions; `None` where there are no longer numbers.
+    /// Bits of the first attempt after doubles or fractions; `None` if longer numbers are not built in.
     pub bits: Option<u32>,
-    /// The most bits of numbers with an error bound.
+    /// Maximum bits of numbers with an error bound.
     pub most_bits: u32,
-    /// The most bits that tell two events apart that may be one.
+    /// Maximum bits that are tried to distinguish two events that may coincide.
     pub near_miss: u32,
-    /// Beyond so many bits enclosures are tried in their place, which carry exact roots.
+    /// Number of bits beyond which enclosures, which carry exact roots, replace numbers with a bound.
     pub exact_roots: Option<u32>,
-    /// Bits of an enclosure beyond which a comparison is called undecided.
+    /// Bits of an enclosure beyond which a comparison is reported as undecided.
     pub most_enclosed: u32,
-    /// Through so many contacts exact numbers decide where events coincide within their bounds.
+    /// Maximum number of contacts for which exact numbers decide events that coincide within their bounds.
     pub exact_contacts: Option<u32>,
 }
 
-/// What cells compute at most.
+/// Limits of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CellLimits {
     /// Decimal digits in doubles.
     pub double_digits: f64,
-    /// Cells in doubles.
+    /// Maximum number of cells in doubles.
     pub double_cells: u64,
-    /// Cells in numbers of 128 bits, and fewer by the square of the bits in longer ones; `None` where digits are asked
-    /// for, however many cells they take.
+    /// Maximum number of cells in numbers of 128 bits, lower by the square of the bits in longer ones; `None`, no
+    /// limit, if digits are requested.
     pub long_cells: Option<u64>,
-    /// Decimal digits beyond which nothing is marched.
+    /// Decimal digits beyond which no march is made.
     pub most_digits: f64,
-    /// A first contact of up to so many round trips is marched over; up to the second of them, it is if that is known
-    /// better than the closed form.
+    /// Round trips of the first contact: up to the first number it is marched, up to the second it is marched if the
+    /// march is more accurate than the closed form.
     pub marched_trips: [f64; 2],
 }
 
@@ -125,84 +123,83 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
 }
 
-/// How far the motion is followed.
+/// End of the motion that is computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reach {
-    /// Through this many contacts, each with the flight after it.
+    /// This many contacts, each with the flight after it.
     Contacts(u32),
-    /// To the end of the first contact.
+    /// The end of the first contact.
     FirstContact,
-    /// Up to this time, included.
+    /// This time, included.
     Time(Number),
 }
 
-/// The numbers that one attempt is computed in, in the order in which they cost more.
+/// The numbers of one attempt, in the order of their cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rung {
     /// Doubles with their error bound.
     Double,
-    /// Numbers of so many bits with their error bound.
+    /// Numbers of this many bits with their error bound.
     Bits(u32),
     /// Fractions.
     Fractions,
-    /// Doubles, where enclosures of so many bits have the same events.
+    /// Doubles, confirmed by enclosures of this many bits with the same events.
     Confirmed(u32),
-    /// Enclosures of so many bits, with exact roots inside where the rod is undamped.
+    /// Enclosures of this many bits, with exact roots inside if the rod is undamped.
     Enclosures(u32),
 }
 
-/// What an attempt lacks.
+/// Deficit of an attempt.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lacks {
-    /// About so many bits.
+    /// Approximate number of missing bits.
     Bits(f64),
-    /// Numbers that are equal, and not only within their bounds.
+    /// Numbers that are equal, not merely within their bounds.
     Exactness,
 }
 
-/// More digits than this are refused: a slip of the hand, not a question.
+/// Maximum requested digits; a larger number is a slip, not a question.
 pub const MAX_DIGITS: u32 = 100_000;
-/// Digits that are proved where none are asked for.
+/// Number of proved digits if none is requested.
 pub const CERTIFIED_DIGITS: u32 = 15;
-/// The accuracy that doubles are held to where none is asked for, relative to the greatest number of an answer: what it
-/// does not leave is not printed.
+/// Default accuracy of doubles, relative to the greatest number of an answer; digits beyond the bound are not printed.
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
-/// No double is known better than this.
+/// Maximum accuracy of a double in digits.
 const MOST_DOUBLE_DIGITS: f64 = 15.0;
-/// Digits below those asked for, and below its natural scale, from which on a number that is not told from zero is
-/// settled.
+/// Digits below the requested ones, and below its natural scale, at which a number that is indistinguishable from zero
+/// is settled.
 const FAINT_DIGITS: f64 = 30.0;
-/// Bits beyond those of the digits asked for, on the first attempt with error bounds.
+/// Bits beyond those of the requested digits, on the first attempt with error bounds.
 const GUARD_BITS: u32 = 64;
-/// The same of a damped march that is to be proved, besides what that is foreseen to cost.
+/// Bits beyond those of the requested digits and the estimated cost of the proof, for a damped march that is proved.
 const PROOF_GUARD_BITS: u32 = 24;
-/// So many bits more tell events apart that miss each other by a rounding of a double, or by its square.
+/// Additional bits that distinguish events whose distance is a rounding of a double, or its square.
 const NEAR_MISS: u32 = 256;
-/// Beyond so many contacts exact roots take minutes.
+/// Maximum contacts for exact roots; beyond, these take minutes.
 const MOST_EXACT: u32 = 1000;
-/// At so many times the bits asked for, enclosures are tried in place of more bits: a root that is met exactly takes
-/// any number of bits, and enclosures carry exact roots.
+/// Factor on the requested bits at which enclosures replace more bits: a root that is met exactly would take any number
+/// of bits, and enclosures carry exact roots.
 const EXACT_ROOT: u32 = 4;
-/// The fewest bits of a number with an error bound that follows doubles.
+/// Minimum bits of a number with an error bound that follows doubles.
 const FEWEST_BITS: u32 = 128;
-/// Bits of the numbers that are computed on the stack.
+/// Bits of the numbers on the stack.
 const SIZES: [u32; 4] = [128, 192, 256, 384];
 /// Bits by which such numbers may be shorter than planned; guard bits are several times as many.
 const SHORTER: u32 = 8;
-/// Bits of the series of a damped march beyond those that its answer is foreseen to need.
+/// Bits of the series of a damped march beyond the estimated need of its answer.
 const SERIES_GUARD_BITS: f64 = 6.0;
-/// Bits beyond those of its digits that [`Effort::digits`] carries.
+/// Bits that [`Effort::digits`] carries beyond those of its digits.
 const EFFORT_BITS: f64 = 20.0;
-/// Cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits. The cost of more
-/// digits grows with their cube.
+/// Default limits of cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits.
+/// The cost of more digits grows with their cube.
 const CELLS: CellLimits = CellLimits {
     double_digits: 13.0,
     double_cells: 20_000_000,
@@ -210,22 +207,22 @@ const CELLS: CellLimits = CellLimits {
     most_digits: MOST_DIGITS,
     marched_trips: MARCHED_TRIPS,
 };
-/// The most bits of a number with an error bound.
+/// Maximum bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
-/// Bits of an enclosure beyond which a comparison is called undecided, where the digits asked for do not need more.
+/// Bits of an enclosure beyond which a comparison is reported as undecided, unless the requested digits need more.
 const MOST_ENCLOSED: u32 = 1 << 13;
-/// The same of a damped march that is proved: its account is kept in doubles, which end at 2⁻¹⁰²².
+/// Maximum bits of a damped march that is proved: its error account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
-/// The bits of the shortest numbers on the stack that have so many, or so many where there are none.
+/// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.
 fn size(bits: u32) -> u32 {
     SIZES.into_iter().find(|size| bits <= size + SHORTER).unwrap_or(bits)
 }
 
 impl Plan {
-    /// The plan for `question` of `problem`.
+    /// Chooses the plan for `question` of `problem`.
     ///
-    /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for none or absurdly many;
+    /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for no digits or absurdly many;
     /// [`Error::NoMultiprecision`] for digits in a build without the feature `mp`.
     pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
         let numbers = question.numbers;
@@ -245,7 +242,7 @@ impl Plan {
         };
         let single = question.want == Want::Bounce;
         let engine = match (&problem.rod.damping, problem.has_closed_form()) {
-            // Corollary 1 asks for no exact numbers, and its terms for no events.
+            // Corollary 1 needs no exact numbers, and its terms need no events.
             (None, true) if single && matches!(numbers, Numbers::Double(_)) => Engine::ClosedForm,
             (None, _) => Engine::Lattice,
             (Some(_), false) => Engine::Cells,
@@ -256,7 +253,7 @@ impl Plan {
         Ok(Self::with(problem, numbers, engine, reach, (keep_from, settles_events)))
     }
 
-    /// The plan with what follows from engine, numbers and reach.
+    /// Completes the plan with the fields that follow from engine, numbers and reach.
     fn with(
         problem: &Problem,
         numbers: Numbers,
@@ -295,7 +292,7 @@ impl Plan {
                     _ => 0.0,
                 };
                 let lost = lost.min(f64::from(MOST_BITS));
-                // A tenth more than foreseen is cheaper than a second run.
+                // A tenth more than estimated is cheaper than a second run.
                 let bits = bits_for_digits(digits + SPARE_DIGITS) + GUARD_BITS.max((1.1 * lost) as u32 + 8);
                 (Rung::Bits(size(bits)), lost * std::f64::consts::LOG10_2)
             }
@@ -335,19 +332,19 @@ impl Plan {
         Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
     }
 
-    /// What it answers: events and contacts.
+    /// Returns the question that the plan answers: events and contacts.
     pub(super) fn want(&self) -> Want {
         if self.reach == Reach::FirstContact { Want::FirstContact } else { Want::Run }
     }
 
-    /// The rung after `rung`, by what the answer `lacks`; `None` where no more are worth trying.
+    /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         let Some(after) = bits else {
             return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
         };
         let Lacks::Bits(missing) = lacks else {
-            // Fractions are fast, and end soon where they do not serve; more bits tell a near miss from a meeting.
+            // Fractions are fast, and end early if they do not apply; more bits distinguish a near miss from a meeting.
             return match rung {
                 Rung::Double => Some(Rung::Fractions),
                 Rung::Bits(bits) if bits < near_miss => Some(Rung::Bits(bits + NEAR_MISS)),
@@ -360,7 +357,7 @@ impl Plan {
             Rung::Fractions if matches!(self.numbers, Numbers::Exact | Numbers::ExactThenDigits(_)) => None,
             Rung::Fractions | Rung::Double => Some(Rung::Bits(after)),
             Rung::Bits(bits) => {
-                // A double root needs two bits for each that is missing.
+                // A double root needs two bits for each missing one.
                 let more = if missing.is_finite() { (2.0 * missing).ceil() + 8.0 } else { f64::from(bits) };
                 let next = f64::from(bits) + more.max(f64::from(bits / 4));
                 if exact_roots.is_some_and(|most| next > f64::from(most)) {
@@ -378,8 +375,7 @@ impl Plan {
         }
     }
 
-    /// The numbers that are asked, one after the other, where those of `rung` do not tell a time from an event or a
-    /// ray.
+    /// Returns the rungs to query, in order, if those of `rung` cannot distinguish a time from an event or a ray.
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let longer = self.climb.bits.into_iter().flat_map(|bits| [bits, 2 * bits, 4 * bits]);
@@ -387,7 +383,7 @@ impl Plan {
         exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
     }
 
-    /// Why this engine and these numbers, a sentence each.
+    /// Returns the reasons for this engine and these numbers, one sentence each.
     pub fn reasons(&self) -> Vec<String> {
         let engine = match self.engine {
             Engine::Lattice => "without damping the solution travels unchanged along its characteristics",
@@ -444,7 +440,7 @@ impl Plan {
         reasons
     }
 
-    /// How far everything goes, a sentence each.
+    /// Returns the limits of the plan, one sentence each.
     pub fn limits(&self) -> Vec<String> {
         let mut limits = Vec::new();
         let Goal { digits, spare, .. } = self.goal;
@@ -474,7 +470,7 @@ impl Plan {
         limits
     }
 
-    /// The problem with the run that is followed.
+    /// Returns the problem with the run that is computed.
     pub(super) fn reaching<'a>(&self, problem: &'a Problem) -> Cow<'a, Problem> {
         let run = match &self.reach {
             Reach::Contacts(contacts) => Run::Impacts(*contacts),
@@ -484,8 +480,8 @@ impl Plan {
         if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
     }
 
-    /// How much a damped march computes at most in the numbers of `rung`. A run that has lost its events is worth
-    /// nothing where longer numbers follow.
+    /// Returns the limits of a damped march in the numbers of `rung`. A run that has lost its events is useless if
+    /// longer numbers follow.
     fn effort(&self, rung: Rung) -> Effort {
         let CellLimits { double_digits, double_cells, long_cells, .. } = self.cells.unwrap_or(CELLS);
         let (digits, cells) = match rung {
@@ -501,17 +497,18 @@ impl Plan {
         Effort { digits, cells, until_lost: self.climb.bits.is_some() }
     }
 
-    /// The plan after a run in doubles that lacks so many bits.
+    /// Returns the plan after a run in doubles that lacks this many bits.
     ///
-    /// The bound of a march is about proportional to what its series leave out and to the roundings of its numbers: in
-    /// doubles to the roundings. Where it is not, the numbers after the next have all terms.
+    /// The bound of a march is roughly proportional to the truncation of its series and the roundings of its numbers;
+    /// in doubles the roundings dominate. If this proportion fails, the rung after the next uses all terms.
     pub(crate) fn lacking(&self, missing: f64) -> Self {
         let bits = f64::from(f64::MANTISSA_DIGITS) + missing.max(0.0);
         Plan { series_bits: Some(bits), ..self.clone() }
     }
 
-    /// The digits of the series of a proof in so many bits: in the first longer numbers those that the answer needs and
-    /// the proof is foreseen to cost, and all in later ones.
+    /// Returns the digits of the series of a proof in this many bits. The first longer numbers use the digits that the
+    /// answer needs plus the estimated cost of the proof; later ones use all.
+    #[cfg(feature = "mp")]
     pub(super) fn proved_digits(&self, bits: u32) -> f64 {
         let all = f64::from(bits) * std::f64::consts::LOG10_2;
         let first = if self.rung == Rung::Double { self.climb.bits } else { Some(self.rung.bits()) };
@@ -521,7 +518,7 @@ impl Plan {
         if Some(bits) == first { all.min(series_digits(needed)) } else { all }
     }
 
-    /// A damped march in the numbers of `rung`.
+    /// Returns the task of a damped march in the numbers of `rung`.
     pub(super) fn task<'a, S: Scalar>(
         &self,
         problem: &'a Problem,
@@ -532,7 +529,7 @@ impl Plan {
         Task { problem, precision, effort: self.effort(rung), observe: &**observe }
     }
 
-    /// What is said of digits of a damped march in so many bits that it is not proved.
+    /// Returns the warning that digits of a damped march in this many bits are not proved.
     pub(super) fn not_proved(&self, rung: Rung) -> Option<Warning> {
         let digits = self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_));
         (digits && rung.bits() > MOST_PROVED).then_some(Warning::NotProved { most: MOST_PROVED })
@@ -547,13 +544,13 @@ impl Plan {
         Undamped::solve_within(&self.reaching(problem), precision, self.lattice_limits(problem), &**observe)
     }
 
-    /// What an undamped march may store and forget.
+    /// Returns the limits of an undamped march.
     pub(super) fn lattice_limits(&self, problem: &Problem) -> Limits {
         self.keep_from.map_or_else(Limits::default, |time| Limits::keeping_from(problem, time))
     }
 }
 
-/// The digits for series that leave out less than `2^−bits`.
+/// Returns the digits for series with a truncation below `2^−bits`.
 fn series_digits(bits: f64) -> f64 {
     (bits + SERIES_GUARD_BITS - EFFORT_BITS) * std::f64::consts::LOG10_2
 }
@@ -574,17 +571,17 @@ impl Goal {
     }
 }
 
-/// A quarter of a round trip after `to`: where a ray arrives at the end of a damped march, the limit from later times
-/// is that of the strip after it.
+/// Returns a time a quarter of a round trip after `to`: if a ray arrives at the end of a damped march, the limit from
+/// later times needs the strip after it.
 fn beyond(problem: &Problem, to: &Number) -> Number {
     let quarter = Parameters::<f64>::of(problem, &()).map_or(0.0, |rod| rod.round_trip() / 4.0);
     format!("{:e}", to.to_f64() + quarter).parse().unwrap_or_else(|_| to.clone())
 }
 
-/// Digits that must be left beyond those printed, so that a quantity small against its scale still has all of them.
+/// Digits that must remain beyond the printed ones, so that a quantity small against its scale still has all of them.
 const SPARE_DIGITS: u32 = 8;
-/// A proved number that is this many digits below the greatest of the answer, beyond those asked for, may stay with
-/// fewer digits: where it is zero in truth, no bits would ever give it any.
+/// Digits below the greatest number of the answer, beyond the requested ones, at which a proved number may keep fewer
+/// digits: if it is truly zero, no number of bits would give it any.
 const FLOOR_DIGITS: u32 = 30;
 
 fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
@@ -611,7 +608,7 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
 }
 
 impl Rung {
-    /// Bits of the significand; those of a double where it is one that fractions confirm.
+    /// Returns the bits of the significand; those of a double for fractions.
     pub(super) fn bits(self) -> u32 {
         match self {
             Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,

@@ -12,11 +12,11 @@ use crate::number::Estimate;
 use crate::problem::Parameters;
 use crate::special::RoundedSpecial;
 
-/// A damped run.
+/// A function that makes a damped run.
 pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
 
-/// The planned engine, in numbers with their error bound; `rate` is `h′` at the bounce, where it is known better than a
-/// march has it, and `marched` what is made of a march.
+/// Runs the planned engine in numbers with their error bound. `rate` returns `h′` at the bounce if it is known better
+/// than from the march, and `marched` turns a march into the run.
 pub(super) fn estimates<S: RoundedSpecial>(
     plan: &Plan,
     task: &Task<'_, S>,

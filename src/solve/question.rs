@@ -1,4 +1,4 @@
-//! What is asked of a problem, in which numbers, and who is told how far a run is.
+//! Questions about a problem, their number systems, and observers of the progress of a run.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, LazyLock};
@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::number::Number;
 use crate::quantity::{Needs, Quantity};
 
-/// What is asked of a problem, and in which numbers: all that a [`Plan`](super::Plan) is made from besides the problem.
+/// A question about a problem and its number system: with the problem, all that a [`Plan`](super::Plan) depends on.
 ///
 /// ```
 /// use dalembert::{Numbers, Question};
@@ -17,68 +17,68 @@ use crate::quantity::{Needs, Quantity};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// What.
+    /// The requested results.
     pub want: Want,
-    /// In which numbers.
+    /// The requested number system.
     pub numbers: Numbers,
 }
 
-/// What is asked of a problem.
+/// The results requested of a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Want {
     /// Every event and contact up to the end of the problem's own run.
     Run,
-    /// The first contact, up to the bounce: its events, its impulse and its peak. No flight is followed.
+    /// The first contact, up to the bounce: its events, its impulse and its peak. No flight is computed.
     FirstContact,
-    /// Single numbers of the first contact, such as `t_b`, `e_P`, `e_E²`, its impulse, the energies at the bounce: each
-    /// is worked out when it is asked for, and nothing else.
+    /// Single numbers of the first contact, such as `t_b`, `e_P`, `e_E²`, its impulse, the energies at the bounce. Each
+    /// is computed when it is queried, and nothing else.
     Bounce,
-    /// Values between two times, both included. What lies before the first need not be kept.
+    /// Values between two times, both included. The run may drop all data before the first.
     Between(Number, Number),
 }
 
-/// The numbers of an answer.
+/// The number system of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Numbers {
     /// Doubles, to this accuracy relative to the greatest number of an answer; `None` for
-    /// [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). Where doubles alone do not reach it, longer numbers are computed
-    /// with and rounded to doubles at the end.
+    /// [`DEFAULT_ACCURACY`](super::DEFAULT_ACCURACY). If doubles alone do not reach it, the computation uses longer
+    /// numbers, rounded to doubles at the end.
     Double(Option<f64>),
     /// This many decimal digits, rounded once.
     Digits(u32),
-    /// Fractions, without any error, as far as they reach.
+    /// Fractions, without any error, up to the first irrational time.
     Exact,
-    /// Fractions as far as they reach, and this many decimal digits of the whole run where they end before it does.
+    /// Fractions, replaced by this many decimal digits of the whole run if they do not reach its end.
     ExactThenDigits(u32),
-    /// This many decimal digits, proved by enclosures.
+    /// Decimal digits, this many, proved by enclosures.
     Certified(u32),
 }
 
 impl Question {
-    /// The whole run.
+    /// Returns the question for the whole run.
     pub fn run(numbers: Numbers) -> Self {
         Question { want: Want::Run, numbers }
     }
 
-    /// The first contact alone.
+    /// Returns the question for the first contact alone.
     pub fn first_contact(numbers: Numbers) -> Self {
         Question { want: Want::FirstContact, numbers }
     }
 
-    /// Single numbers of the first contact.
+    /// Returns the question for single numbers of the first contact.
     pub fn bounce(numbers: Numbers) -> Self {
         Question { want: Want::Bounce, numbers }
     }
 
-    /// What answers `quantity`: at `time` where it has one, otherwise of the first contact or at its end.
+    /// Returns the question that yields `quantity`: at `time` if given, otherwise for the first contact or at its end.
     pub fn of(quantity: Quantity, time: Option<&Number>, numbers: Numbers) -> Self {
         match (quantity.needs(), time) {
             (Needs::Event | Needs::Flight | Needs::Piece | Needs::Run, _) | (Needs::Contact, Some(_)) => {
                 Question::run(numbers)
             }
             (Needs::Contact, None) if !quantity.is_of_ends() => Question::first_contact(numbers),
-            // What has happened before is part of these.
+            // These quantities depend on all that happened before.
             (_, None) if quantity.is_of_past() => Question::first_contact(numbers),
             (_, Some(time)) if quantity.is_of_past() => Question::between(0.into(), time.clone(), numbers),
             (_, None) => Question::bounce(numbers),
@@ -86,7 +86,7 @@ impl Question {
         }
     }
 
-    /// Values between two times.
+    /// Returns the question for values between two times.
     pub fn between(from: Number, to: Number, numbers: Numbers) -> Self {
         Question { want: Want::Between(from, to), numbers }
     }
@@ -111,8 +111,8 @@ impl std::fmt::Display for Numbers {
     }
 }
 
-/// Receives from time to time how far a run is, in round trips, or in contacts where so many are asked for, and how
-/// many pieces it has; may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
+/// A function that receives the progress of a run from time to time: round trips, or contacts if these limit the run,
+/// and the number of pieces. It may end the run with [`Error::Interrupted`](crate::Error::Interrupted).
 pub type Observer = Arc<dyn Fn(usize, usize) -> ControlFlow<()> + Send + Sync>;
 
 pub(super) static UNOBSERVED: LazyLock<Observer> = LazyLock::new(|| Arc::new(crate::motion::unobserved));

@@ -1,5 +1,5 @@
-//! Derivatives of undamped rods by their histories in numbers `a + b ε`: in fractions for a value that grows and for
-//! one that shrinks; in doubles, where no threshold may be met, for one that grows.
+//! Derivatives of undamped rods from their histories in numbers `a + b ε`: in fractions for a growing and a shrinking
+//! value; in doubles, if no threshold is met, for a growing one.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
 use super::differences;
@@ -15,7 +15,7 @@ use crate::reason::Warning;
 
 type OneSide = Result<Rational, NoDerivative>;
 
-/// The derivatives in fractions that are `asked` for; none for damping and for a gravity that is zero.
+/// Computes the derivatives in fractions that are `asked` for; fails for damping and for a gravity or length of zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
     let quotients = || match differences::of(asked, DOUBLE_DIGITS) {
@@ -39,7 +39,7 @@ fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
     }
 }
 
-/// The rates from the left and from the right, and whether first order settles them all.
+/// Returns the rates from the left and from the right, and whether first order settles them all.
 fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
     let zero = value.vanishes() == Ok(true);
@@ -58,7 +58,7 @@ fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error>
             Some(left)
         }
     };
-    // A time that is asked for may be that of a ray in first order only.
+    // A queried time may be that of a ray in first order only.
     settled &= asked.at.is_none();
     let rates = of_each(&base, |place, number| {
         let right = side(&right, number, place);
@@ -71,9 +71,9 @@ fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error>
     Ok((rates, settled))
 }
 
-/// The rates on both sides, as far as difference quotients confirm them.
+/// Returns the rates on both sides that difference quotients confirm.
 ///
-/// Beside a threshold events may be apart by `ε²`, which decides what comes first as well as `ε` does.
+/// Next to a threshold, events may be `ε²` apart, which decides their order as well as `ε` does.
 fn confirmed(rates: [OneSide; 2], quotient: Option<&Derivative<Estimate<Float>>>) -> [OneSide; 2] {
     let unsettled = NoDerivative::Unsettled;
     let Some(quotient) = quotient.map(Derivative::sides) else { return [Err(unsettled), Err(unsettled)] };
@@ -85,20 +85,20 @@ fn confirmed(rates: [OneSide; 2], quotient: Option<&Derivative<Estimate<Float>>>
     })
 }
 
-/// Whether a quotient is a rate within its bound.
+/// Returns whether a quotient equals a rate within its bound.
 fn meets(rate: &Rational, quotient: &Estimate<Float>) -> bool {
     let number = Number::of_rational(rate);
     number.is_some_and(|number| Estimate::from_number(&number, &quotient.precision()).same(quotient))
 }
 
-/// The rate of a number on a side, where the same number is there: otherwise events do not move in first order only.
+/// Returns the rate of a number on a side with the same number; otherwise events change beyond first order.
 fn side(rows: &Rows<Dual<Rational>>, number: &Rational, place: (usize, usize)) -> OneSide {
     let there = at(rows, place).filter(|there| there.value() == number);
     there.and_then(Dual::rate).cloned().ok_or(NoDerivative::Unsettled)
 }
 
-/// The derivatives in doubles that are `asked` for, of the numbers of this `run`; `None` where it is not one of the
-/// lattice, where a threshold is met and where bounds are too wide.
+/// Computes the derivatives in doubles that are `asked` for, of the numbers of this `run`; `None` if the run is not one
+/// of the lattice, if a threshold is met, or if bounds are too wide.
 pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
     let value = asked.by.value_in::<Estimate<f64>>(asked.problem, &())?;
     if asked.plan.engine != Engine::Lattice || asked.by == Parameter::Damping || value.vanishes() == Ok(true) {
@@ -118,8 +118,8 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     Ok(settled.then_some(found))
 }
 
-/// The derivatives in doubles that are `asked` for, by fractions, where these have told what comes first in this `run`;
-/// `None` where first order does not settle them.
+/// Computes the derivatives in doubles that are `asked` for, by fractions, if fractions have decided the order of
+/// events in this `run`; `None` if first order does not settle them.
 pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
     if asked.rung != Rung::Fractions {
         return Ok(None);
@@ -132,8 +132,8 @@ pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Opti
     Ok(settled.then(|| of_each(&rates, |_, sides| derivative(sides.clone()).map(Estimate::read))))
 }
 
-/// The numbers of the problem with a value that grows, or shrinks, with their rates, as far as comparisons are settled;
-/// and whether no two events were taken for one on the way.
+/// Returns the numbers of the problem with a growing or a shrinking value, with their rates, as far as comparisons are
+/// settled; and whether no two events were taken as one on the way.
 fn with_rates<S: Bounded>(
     asked: &Asked<'_>,
     problem: &Problem,
@@ -147,7 +147,7 @@ fn with_rates<S: Bounded>(
         let rate = if asked.by == by { sign.clone() } else { sign.zero() };
         Dual::new(number, rate)
     };
-    // √(E/ρ) has the rate c/2E, or −c/2ρ.
+    // The rate of √(E/ρ) is c/2E, or −c/2ρ.
     let share = |c: &S| (c.clone() / value).halved() * &sign;
     let wave_speed = match asked.by {
         Parameter::Modulus => Dual::new(given.wave_speed.clone(), share(&given.wave_speed)),
@@ -187,14 +187,14 @@ fn with_rates<S: Bounded>(
             }
         }
     }
-    // What is listed comes before a coincidence in the trip that begins then.
+    // All listed events precede the coincidence, which is in the trip that begins at `from`.
     let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.t.to_f64() < from);
     let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
     Ok((rows, history.warnings().iter().all(settled)))
 }
 
-/// The power of the value in the unit of `quantity`: stress and force have `E`, which is `c² ρ` at the same density,
-/// impulse and energy `ρ`.
+/// Returns the power of the value in the unit of `quantity`: stress and force contain `E`, which is `c² ρ` at the same
+/// density; impulse and energy contain `ρ`.
 fn unit_power(by: Parameter, quantity: Quantity, material: &Material) -> i64 {
     match (by, quantity.measure(), material) {
         (_, _, Material::WaveSpeed(_)) => 0,

@@ -1,31 +1,30 @@
-//! What a change of one value of a problem makes of the times of its events.
+//! Sensitivity of the times of events to one value of a problem.
 
 use crate::number::Scalar;
 use crate::problem::{Parameter, Problem, Run};
 use crate::quantity::Quantity;
 
-/// How a relative change of one value of a problem grows from event to event.
+/// Growth, from event to event, of a relative change of one value of a problem.
 ///
 /// **Source**: the derivatives of the times of events.
 ///
-/// **Accuracy**: *estimate*: the greatest of both sides, and the mean growth from the first event to the last.
+/// **Accuracy**: *estimate*: the greater of both sides, and the mean growth from the first event to the last.
 #[derive(Debug, serde::Serialize)]
 pub struct Sensitivity {
     by: &'static str,
-    /// How many events after t = 0 it was measured over.
+    /// Number of events after t = 0 in the measurement.
     events: usize,
-    /// `|p ∂t/∂p|/t` of the last one.
+    /// `|p ∂t/∂p|/t` of the last event.
     last: f64,
-    /// Its growth, in decimal digits for each event; zero where it does not grow.
+    /// Growth, in decimal digits for each event; zero if there is none.
     digits_per_event: f64,
 }
 
-/// Contacts that it is measured over at most.
+/// Maximum number of contacts in the measurement.
 const MEASURED: u32 = 10;
 
 impl Sensitivity {
-    /// By the first of speed, gravity and length that it has; `None` where fewer than two events have
-    /// derivatives.
+    /// Uses the first nonzero value of speed, gravity and length; `None` if fewer than two events have derivatives.
     pub fn of(problem: &Problem) -> Option<Self> {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::ImpactSpeed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;

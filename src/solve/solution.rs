@@ -1,4 +1,4 @@
-//! The answer in the numbers that were asked for.
+//! The answer in the requested numbers.
 
 use super::history::History;
 use super::ladder::Target;
@@ -11,33 +11,33 @@ use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
 use crate::quantity::{UnitSystem, Units};
 
-/// A history in the numbers of its plan. All variants exist in every build; without the feature `mp` there are only
-/// doubles and fractions.
+/// A history in the numbers of its plan. All variants exist in every build; a build without the feature `mp` yields
+/// only doubles and fractions.
 #[derive(Debug)]
 pub enum Solution {
     /// Doubles.
     Double(TypedHistory<f64>),
-    /// Decimal digits: this many are to be printed.
+    /// Decimal digits, this many of which are printed.
     Digits(TypedHistory<Float>, u32),
     /// Fractions.
     Exact(TypedHistory<Rational>),
-    /// Digits of the whole run, this many of which are to be printed, and what fractions could not hold.
+    /// Digits of the whole run, this many of which are printed, and the event or parameter that is irrational.
     DigitsAfter(TypedHistory<Float>, u32, ExactnessEnd),
-    /// Enclosures: this many digits are proved.
+    /// Enclosures, with this many proved digits.
     Certified(TypedHistory<Interval>, u32),
 }
 
-/// What is done with a history, whatever its numbers.
+/// An operation on a history in any number system.
 pub trait Visitor {
-    /// What comes of it.
+    /// Result of the operation.
     type Output;
 
-    /// Does it.
+    /// Performs the operation on `history`.
     fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output;
 }
 
 impl Solution {
-    /// What `visitor` makes of the history.
+    /// Returns the result of `visitor` for the history.
     pub fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
         match self {
             Solution::Double(history) => visitor.visit(history),
@@ -47,7 +47,7 @@ impl Solution {
         }
     }
 
-    /// How many digits are to be printed; 0 for doubles and fractions.
+    /// Returns the number of printed digits; 0 for doubles and fractions.
     pub fn digits(&self) -> u32 {
         match self {
             Solution::Double(_) | Solution::Exact(_) => 0,
@@ -57,7 +57,7 @@ impl Solution {
         }
     }
 
-    /// What fractions could not hold, where digits of the whole run stand in for them.
+    /// Returns the event or parameter that fractions cannot hold, if digits of the whole run replace the fractions.
     pub fn exactness_end(&self) -> Option<&ExactnessEnd> {
         match self {
             Solution::DigitsAfter(_, _, end) => Some(end),
@@ -66,14 +66,14 @@ impl Solution {
     }
 }
 
-/// What fractions cannot hold.
+/// An event or a parameter that fractions cannot hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExactnessEnd {
     /// A parameter of the problem.
     Parameter {
         /// Its name.
         quantity: &'static str,
-        /// What stands under its root.
+        /// The radicand of its root.
         square: String,
     },
     /// An event, as [`Ending::ExactnessEnds`].
@@ -99,8 +99,8 @@ impl Plan {
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
     ///
-    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] where a parameter is no fraction and no digits are
-    /// asked for; [`Error::Unsettled`], [`Error::Undecided`] where no bits that are worth trying settle the answer;
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] if a parameter is irrational and no digits are
+    /// requested; [`Error::Unsettled`], [`Error::Undecided`] if no affordable number of bits settles the answer;
     /// [`Error::Interrupted`] by `observe`.
     ///
     /// ```

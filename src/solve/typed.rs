@@ -1,4 +1,4 @@
-//! The answer: what happened, and everything that can be asked of it.
+//! The answer in one number system: events, and the queries of a history.
 
 use std::sync::{Mutex, OnceLock};
 
@@ -17,17 +17,17 @@ use crate::threads::locked;
 
 /// The motion of a rod: its impacts and releases, and the values of every quantity at any time, in numbers `S`.
 ///
-/// All times are absolute and in the units of the problem. A question about a time outside of `0 … end()` is
-/// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] where the history ends for a reason
-/// of its own; about a point outside of the rod [`Error::PointOutside`].
+/// All times are absolute and in the units of the problem. A query at a time outside `0 … end()` is
+/// [`Error::TimeOutside`], or [`Error::BeyondEnd`] and [`Error::BeyondExactness`] if the history ends for a reason of
+/// its own; a query at a point outside the rod is [`Error::PointOutside`].
 ///
-/// A time stands for exactly what it spells where it is a [`Scalar::spelling`], as those of the command are: longer
-/// runs and fractions tell on which side of an event or a ray it lies, or the bound covers both sides and
-/// [`TypedHistory::warnings`] names it. A time that was computed stands for the event or the ray that some roundings set
-/// apart; that of an event, as the history gives it, for the event.
+/// A time that is a [`Scalar::spelling`], as those of the command are, represents exactly the number that it spells.
+/// Longer runs and fractions decide on which side of an event or a ray it lies; otherwise the bound covers both sides
+/// and [`TypedHistory::warnings`] names the time. A computed time represents the event or the ray within some roundings
+/// of it; the time of an event, as the history returns it, represents the event.
 ///
-/// **Accuracy**: that of the [`Plan`]. Each answer is computed in more bits where those at hand do not leave the digits
-/// that were asked for.
+/// **Accuracy**: that of the [`Plan`]. An answer is computed again with more bits if the current ones do not leave the
+/// requested digits.
 ///
 /// ```
 /// use dalembert::Problem;
@@ -43,15 +43,15 @@ pub struct TypedHistory<S: Target> {
     problem: Problem,
     plan: Plan,
     pub(super) observe: Observer,
-    /// The attempt that has settled what happens, of which every query is asked first.
+    /// The attempt that settled the events; every query goes to it first.
     pub(super) first: Attempt<S>,
-    /// The last one, in longer numbers where a query needed them.
+    /// The last attempt, in longer numbers if a query needed them.
     last: Mutex<Attempt<S>>,
     events: OnceLock<Vec<Event<S>>>,
     contacts: OnceLock<Vec<Contact<S>>>,
     ending: Ending,
     end: S,
-    /// Times that earlier attempts have not told from those of events or rays.
+    /// Times that earlier attempts could not distinguish from those of events or rays.
     covered: Mutex<Vec<f64>>,
 }
 
@@ -89,12 +89,12 @@ impl<S: Target> TypedHistory<S> {
         Ok(motion)
     }
 
-    /// The end, with its bound.
+    /// Returns the end with its bound.
     pub(super) fn carried_end(&self) -> S::Carried {
         self.current().engine.end()
     }
 
-    /// The natural scales, with their bounds.
+    /// Returns the natural scales with their bounds.
     pub(super) fn carried_scales(&self) -> Scales<S::Carried> {
         self.current().engine.scales()
     }
@@ -103,12 +103,12 @@ impl<S: Target> TypedHistory<S> {
         locked(&self.last).clone()
     }
 
-    /// The answer to any `query`, in numbers that carry their bound; `numbers` are those of the answer that are settled
-    /// to the digits of the plan.
+    /// Returns the answer to any `query`, in numbers that carry their bound; `numbers` returns the numbers of the
+    /// answer that must have the digits of the plan.
     ///
-    /// **Accuracy**: that of the [`Plan`]. The query is repeated in more bits where those at hand do not settle it.
+    /// **Accuracy**: that of the [`Plan`]. The query is repeated with more bits if the current ones do not settle it.
     ///
-    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] where too many bits do not settle it.
+    /// **Errors**: those of the query; [`Error::Unsettled`], [`Error::Undecided`] if too many bits do not settle it.
     ///
     /// ```
     /// use dalembert::{Number, Problem, Side};
@@ -133,7 +133,7 @@ impl<S: Target> TypedHistory<S> {
         settled::<S, T, _>(query, numbers, |query| self.settle(query)).map(|((), answer)| answer)
     }
 
-    /// Settles a query by the first attempt, or else from the last one on, and keeps the one that has settled it.
+    /// Settles a query by the first attempt, or else from the last one on, and keeps the attempt that settled it.
     fn settle(&self, query: Query<'_, S>) -> Result<((), usize), Error> {
         let last = self.current();
         let rung = last.rung;
@@ -148,7 +148,7 @@ impl<S: Target> TypedHistory<S> {
         Ok(((), answer))
     }
 
-    /// An error of a question, with why the history ends before the time that was asked for.
+    /// Adds to an error of a query the reason why the history ends before the requested time.
     pub fn explained(&self, error: Error) -> Error {
         let Error::TimeOutside { found, end } = error else { return error };
         let (found, end) = told_apart(found, end);
@@ -162,20 +162,20 @@ impl<S: Target> TypedHistory<S> {
         }
     }
 
-    /// The last time that is known: before an event at no fraction, a fraction just below its time.
+    /// Returns the last known time: before an event at an irrational time, a fraction just below it.
     pub fn end(&self) -> &S {
         &self.end
     }
 
-    /// Why it is the last.
+    /// Returns the reason of the end.
     pub fn ending(&self) -> &Ending {
         &self.ending
     }
 
-    /// A number of an answer as text, with the digits that the [`Plan`] promises and no more: a `Float` and an
-    /// enclosure carry further ones.
+    /// Formats a number of an answer with exactly the digits that the [`Plan`] promises: a `Float` and an enclosure
+    /// carry more.
     ///
-    /// **Accuracy**: *correctly rounded* to the digits asked for; the shortest text of a double, and a fraction whole.
+    /// **Accuracy**: *correctly rounded* to the requested digits; the shortest text of a double; a fraction in full.
     ///
     /// ```
     /// # #[cfg(feature = "mp")] {
@@ -196,7 +196,7 @@ impl<S: Target> TypedHistory<S> {
         }
     }
 
-    /// What turns strains into stress and force, and values per `ρS` into impulse and energy.
+    /// Returns the factors that convert strains to stress and force, and values per `ρS` to impulse and energy.
     ///
     /// ```
     /// use dalembert::{Problem, quantity::Measure};
@@ -217,45 +217,45 @@ impl<S: Target> TypedHistory<S> {
         &self.problem
     }
 
-    /// How it was solved.
+    /// Returns the plan by which it was solved.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The numbers that the last answer was computed in.
+    /// Returns the rung of the last answer.
     pub fn rung(&self) -> Rung {
         self.current().rung
     }
 
-    /// All impacts and releases, in order. The start at `t = 0` is the first impact where the rod stands on the ground.
+    /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
     pub fn events(&self) -> &[Event<S>] {
         self.events
             .get_or_init(|| self.current().engine.events().iter().map(|event| event.clone().map(S::strip)).collect())
     }
 
-    /// All times on the ground, in order.
+    /// Returns all contacts, in order.
     pub fn contacts(&self) -> &[Contact<S>] {
         let strip = |contact: &Contact<S::Carried>| contact.clone().map(S::strip);
         self.contacts.get_or_init(|| self.current().engine.contacts().iter().map(strip).collect())
     }
 
-    /// The flights between the contacts, and how high they go.
+    /// Returns the flights between the contacts, and their highest points.
     pub fn flights(&self) -> Result<Vec<Flight<S>>, Error> {
         let found = self.ask(flights, |flights| Flight::numbers(flights))?;
         Ok(found.into_iter().map(|flight| flight.map(S::strip)).collect())
     }
 
-    /// `e_P` and `e_E²` of a contact, counted from 0.
+    /// Returns `e_P` and `e_E²` of a contact, counted from 0.
     ///
-    /// **Accuracy**: in doubles that of `h` and `h′` at both ends, of which these are ratios: where one of them is next
-    /// to nothing, no double is as accurate as its ratio would need. Otherwise their own.
+    /// **Accuracy**: in doubles the accuracy of `h` and `h′` at both ends, of which these are ratios: if one of them is
+    /// nearly zero, no double is accurate enough for its ratio. In other numbers their own.
     ///
-    /// **Errors**: [`Error::NoContact`] where the history has fewer contacts.
+    /// **Errors**: [`Error::NoContact`] if the history has fewer contacts.
     pub fn restitution(&self, contact: usize) -> Result<Restitution<S>, Error> {
         Ok(self.carried_restitution(contact)?.map(S::strip))
     }
 
-    /// [`TypedHistory::restitution`] in numbers that carry their bound.
+    /// Computes [`TypedHistory::restitution`] in numbers that carry their bound.
     pub(super) fn carried_restitution(&self, contact: usize) -> Result<Restitution<S::Carried>, Error> {
         let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         let query = |engine: &dyn Motion<S::Carried>| {
@@ -273,35 +273,35 @@ impl<S: Target> TypedHistory<S> {
         Ok(found)
     }
 
-    /// `v_x(0,·)` piece by piece: strains, as [`StressHistory`] says.
+    /// Returns `v_x(0,·)` piece by piece: strains, see [`StressHistory`].
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
         let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect::<Vec<_>>();
         Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
 
-    /// `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
+    /// Returns `v_x(0,t)`: the strain at the ground, which is the stress there divided by the modulus; zero in flight.
     pub fn strain(&self, time: S, side: Side) -> Result<S, Error> {
         let time = self.time(&time)?;
         Ok(S::strip(self.ask(|engine| engine.strain(&time, side), |value| vec![value])?))
     }
 
-    /// `v(0,t)` and `v_t(0,t)`: the end at the ground.
+    /// Returns `v(0,t)` and `v_t(0,t)`, for the end at the ground.
     pub fn ground_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
         self.pair(time, |engine, time| engine.ground_end(time, side))
     }
 
-    /// `v(L,t)` and `v_t(L,t)`: the upper end.
+    /// Returns `v(L,t)` and `v_t(L,t)`, for the upper end.
     pub fn top_end(&self, time: S, side: Side) -> Result<(S, S), Error> {
         self.pair(time, |engine, time| engine.top_end(time, side))
     }
 
-    /// `h(t)` and `h′(t)`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    /// Returns `h(t)` and `h′(t)`: the centre of mass, relative to its position in the undeformed rod on the ground.
     pub fn centre(&self, time: S) -> Result<(S, S), Error> {
         self.pair(time, |engine, time| engine.centre(time))
     }
 
-    /// A time as the engine is asked at it. **Errors**: [`Error::TimeOutside`] for what is no number.
+    /// Converts a time to the numbers of the engine. **Errors**: [`Error::TimeOutside`] for NaN and infinities.
     fn time(&self, time: &S) -> Result<S::Carried, Error> {
         let time = time.carry();
         quantity::finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
@@ -313,14 +313,14 @@ impl<S: Target> TypedHistory<S> {
         Ok((S::strip(a), S::strip(b)))
     }
 
-    /// `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
+    /// Returns `E(t)`, `E_h(t)`, `E_z(t)`: the energies, per linear density.
     pub fn energy(&self, time: S) -> Result<Energy<S>, Error> {
         let time = self.time(&time)?;
         Ok(self.ask(|engine| engine.energy(&time), |energy| energy.numbers().to_vec())?.map(S::strip))
     }
 
-    /// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of
-    /// any of them differ, a time has two rows, the limit from earlier times first.
+    /// Returns the values of `columns` at every time of `times`, column by column. If `side` is `None`, a time at which
+    /// the two limits of any quantity differ has two rows, the limit from earlier times first.
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
     pub fn columns(&self, columns: &[Quantity], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
@@ -329,7 +329,7 @@ impl<S: Target> TypedHistory<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect()).collect())
     }
 
-    /// [`TypedHistory::columns`] in numbers that carry their bound, at times that may be those of the engine itself, or
+    /// Returns [`TypedHistory::columns`] in numbers that carry their bound, at times of the engine itself, or at times
     /// lifted to the precision of each attempt.
     pub fn ask_columns(
         &self,
@@ -340,7 +340,7 @@ impl<S: Target> TypedHistory<S> {
         self.ask_columns_in(&self.units(), columns, side, times)
     }
 
-    /// [`TypedHistory::ask_columns`] in these units.
+    /// Returns [`TypedHistory::ask_columns`] in these units.
     pub(super) fn ask_columns_in(
         &self,
         units: &Units,
@@ -356,8 +356,8 @@ impl<S: Target> TypedHistory<S> {
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
-    /// `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column: values at
-    /// the points, means over the cells between them, or nodal values of a projection. Sides as in
+    /// Returns `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column:
+    /// values at the points, means over the cells between them, or nodal values of a projection. Sides are as in
     /// [`TypedHistory::columns`].
     ///
     /// **Accuracy**: that of the [`Plan`], each column by itself.
@@ -379,7 +379,7 @@ impl<S: Target> TypedHistory<S> {
         Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect::<Vec<_>>()).collect())
     }
 
-    /// [`TypedHistory::slices`] in numbers that carry their bound, at points and times in the numbers of the engine.
+    /// Returns [`TypedHistory::slices`] in numbers with their bound, at points and times in the numbers of the engine.
     pub fn ask_slices(
         &self,
         slice: Slice,
@@ -395,8 +395,8 @@ impl<S: Target> TypedHistory<S> {
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
-    /// The columns of a table, such as the `impact`, `release`, `impulse` and `peak_strain` of all contacts; with a
-    /// material in its units. What there is not, such as the release of a contact that lasts, is `None`.
+    /// Returns the columns of a table, such as the `impact`, `release`, `impulse` and `peak_strain` of all contacts;
+    /// with a material in its units. A missing value, such as the release of a contact that lasts, is `None`.
     ///
     /// **Accuracy**: that of the [`Plan`].
     ///
@@ -414,11 +414,11 @@ impl<S: Target> TypedHistory<S> {
         Ok(self.ask_table(table)?.into_iter().map(|(quantity, column)| (quantity, strip(column))).collect())
     }
 
-    /// [`TypedHistory::table`] in numbers that carry their bound.
+    /// Returns [`TypedHistory::table`] in numbers that carry their bound.
     #[doc(hidden)]
     pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
         let units = self.units();
-        // In doubles a ratio is as accurate as its parts.
+        // A ratio in doubles is as accurate as its parts.
         let doubles = matches!(self.plan().numbers, Numbers::Double(_));
         self.ask(
             |motion| quantity::table(motion, table, &units),
@@ -429,13 +429,13 @@ impl<S: Target> TypedHistory<S> {
         )
     }
 
-    /// `v`, `v_t`, `v_x` at `(x,t)`; where a ray passes, the limit from later times.
+    /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, point: S, time: S) -> Result<Field<S>, Error> {
         self.field(&[point], &[time], Side::Right).map(|mut values| values.remove(0))
     }
 
-    /// `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, all points of one time
-    /// together.
+    /// Returns `v`, `v_t`, `v_x` at every point of `points` for every time of `times`: time by time, with all points of
+    /// one time together.
     pub fn field(&self, points: &[S], times: &[S], side: Side) -> Result<Vec<Field<S>>, Error> {
         let points: Vec<_> = points.iter().map(Answer::carry).collect();
         let value = |(time, point): (&S, _)| {
@@ -446,7 +446,7 @@ impl<S: Target> TypedHistory<S> {
         times.iter().flat_map(|time| points.iter().map(move |point| (time, point))).map(value).collect()
     }
 
-    /// The rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
+    /// Returns the rays that leave the ground in round trip `trip`, counted from 0, with the jumps that they carry.
     ///
     /// **Errors**: [`Error::NoRays`] under damping.
     pub fn rays(&self, trip: usize) -> Result<Vec<Ray<S>>, Error> {
@@ -454,38 +454,42 @@ impl<S: Target> TypedHistory<S> {
         Ok(rays.into_iter().map(|ray| ray.map(S::strip)).collect())
     }
 
-    /// The whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    /// Returns the whole solution as two travelling waves: a piecewise quadratic function of one variable.
     ///
     /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
     pub fn waves(&self) -> Result<Waves<S>, Error> {
         Ok(self.ask(|engine| engine.waves(), |waves| waves.numbers())?.map(S::strip))
     }
 
-    /// The natural scales of the motion.
+    /// Returns the natural scales of the motion.
     pub fn scales(&self) -> Scales<S> {
         self.current().engine.scales().map(S::strip)
     }
 
-    /// A bound of the error of events and of values at ordinary times, relative to the natural scales; zero where all
-    /// is exact.
+    /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero if
+    /// all is exact.
     pub fn error_estimate(&self) -> f64 {
         self.current().engine.error_estimate().to_f64()
     }
 
-    /// How many impacts there were, and `log₁₀` of the factor by which rounding may have grown over them; `None` where
-    /// that is not followed.
+    /// Returns the number of impacts, and `log₁₀` of the factor by which rounding errors may have grown over them;
+    /// `None` if the engine does not track this.
     pub fn digits_lost(&self) -> Option<(u32, f64)> {
         self.current().engine.digits_lost()
     }
 
-    /// What a user should know of the answer.
+    /// Returns the warnings about the answer.
     pub fn warnings(&self) -> Vec<Warning> {
         let Attempt { engine, rung, .. } = self.current();
         let mut warnings = engine.warnings().to_vec();
         // The first contact is in closed form.
         let closed = engine.events().len() < 2 || matches!(engine.ending(), Ending::Undecided(Reason::MostDigits(_)));
         warnings.extend(self.plan.not_proved(rung).filter(|_| !closed));
-        warnings.extend(self.problem.neglected());
+        warnings.extend(self.problem.warnings());
+        if !warnings.iter().any(|warning| matches!(warning, Warning::StrainAboveOne { .. })) {
+            let peaks = engine.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
+            warnings.extend(self.problem.strain_warning(peaks.fold(0.0, f64::max)));
+        }
         let mut covered = locked(&self.covered).clone();
         for engine in [&self.first.engine, &engine] {
             covered.extend(engine.covered().into_iter().flat_map(|(times, _)| times));
@@ -510,9 +514,9 @@ impl<S: Target> std::fmt::Debug for TypedHistory<S> {
     }
 }
 
-/// Two times as doubles print them, where that is shorter and tells them apart.
+/// Shortens two times to the text of doubles where that is shorter and still distinguishes them.
 fn told_apart(found: String, end: String) -> (String, String) {
-    // NaN is no number of a scene.
+    // NaN is not a number of a scene.
     let double = |text: &String| text.parse().map(|number: Number| number.to_f64()).or(text.parse()).ok();
     let both = double(&found).zip(double(&end)).filter(|(found, end)| found != end);
     let shorter = |text: String, value: f64| if text.len() > 24 { value.to_string() } else { text };
@@ -523,35 +527,35 @@ fn told_apart(found: String, end: String) -> (String, String) {
 }
 
 impl Problem {
-    /// Solves the problem in doubles, which the answers are. **Accuracy**:
-    /// [`DEFAULT_ACCURACY`](crate::solve::DEFAULT_ACCURACY) of the natural scales.
+    /// Solves the problem in doubles. **Accuracy**: [`DEFAULT_ACCURACY`](crate::solve::DEFAULT_ACCURACY) of the natural
+    /// scales.
     pub fn doubles(&self) -> Result<TypedHistory<f64>, Error> {
         self.answer(&Question::run(Numbers::default()))
     }
 
-    /// The motion in fractions, as far as they reach. **Accuracy**: *exact*.
+    /// Solves the problem in fractions, up to the first irrational time. **Accuracy**: *exact*.
     ///
     /// **Errors**: [`Error::DampedExact`].
     pub fn exact(&self) -> Result<TypedHistory<crate::number::Rational>, Error> {
         self.answer(&Question::run(Numbers::Exact))
     }
 
-    /// The motion in decimal digits. **Accuracy**: so many digits of each number, rounded once, as [`TypedHistory::text`]
-    /// prints them; the `Float` itself carries more, which are not promised.
+    /// Solves the problem in decimal digits. **Accuracy**: this many digits of each number, rounded once, as
+    /// [`TypedHistory::text`] prints them; the `Float` itself carries more, without a guarantee.
     ///
     /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
     pub fn digits(&self, digits: u32) -> Result<TypedHistory<crate::number::Float>, Error> {
         self.answer(&Question::run(Numbers::Digits(digits)))
     }
 
-    /// The motion in proved decimal digits. **Accuracy**: *enclosure*.
+    /// Solves the problem in proved decimal digits. **Accuracy**: *enclosure*.
     ///
     /// **Errors**: [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
     pub fn certified(&self, digits: u32) -> Result<TypedHistory<crate::number::Interval>, Error> {
         self.answer(&Question::run(Numbers::Certified(digits)))
     }
 
-    /// The first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
+    /// Solves the first contact alone, in doubles: `t_b`, impulse, peak and restitution, without the flight after it.
     pub fn first_contact(&self) -> Result<TypedHistory<f64>, Error> {
         self.answer(&Question::first_contact(Numbers::default()))
     }

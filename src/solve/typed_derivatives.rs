@@ -1,4 +1,4 @@
-//! Derivatives of the numbers of a history by a value of its problem.
+//! Derivatives of the numbers of a history with respect to a value of its problem.
 
 use super::derivative::{Asked, At, Derivatives};
 use super::ladder::Target;
@@ -12,23 +12,24 @@ use crate::problem::Parameter;
 use crate::quantity::Quantity;
 
 impl<S: Target> TypedHistory<S> {
-    /// The derivatives of `quantities` of one kind by a value of the problem, for each event, contact or flight; with a
-    /// material in its units. All other values stay as they are: a derivative by the wave speed is one at the same
-    /// density, one by gravity at the same impact speed. What there is not, such as the end of a contact that lasts, is
-    /// `None`.
+    /// Computes the derivatives of `quantities` of one kind with respect to a value of the problem, for each event,
+    /// contact or flight; with a material in its units. All other values stay fixed: a derivative by the wave speed is
+    /// at the same density, one by gravity at the same impact speed. A missing value, such as the end of a contact that
+    /// lasts, is `None`.
     ///
-    /// **Accuracy**: *exact* in fractions; where first order does not tell which of two events comes first, difference
-    /// quotients have confirmed them. Otherwise each derivative is *within its own bound*. In doubles, as accurate as
-    /// they are by default, one of an undamped rod is carried through the run beside each number, with a bound of its
-    /// own, in fractions where these decide an order of events; one of a damped rod takes three runs, is within 1e-5 of
-    /// its natural size, mostly 1e-8, and is that of a cubic through four, with what a quadratic differs by for bound.
-    /// Where these do not settle it, where more is asked for and in digits it is a difference quotient of runs in long
-    /// numbers, with a step as small as the last of the digits, and the bound has what the quotients of both sides, or
-    /// of two steps, differ by. A threshold that is nearer than the step counts as met.
+    /// **Accuracy**: *exact* in fractions; where first order does not decide the order of two events, difference
+    /// quotients have confirmed the derivatives. Otherwise each derivative is *within its own bound*. In doubles with
+    /// the default accuracy, the derivative for an undamped rod is carried through the run beside each number, with a
+    /// bound of its own, in fractions if these decide an order of events. The derivative for a damped rod takes three
+    /// more runs and is that of a cubic through all four; the difference from a quadratic serves as its bound, within
+    /// 1e-5 of its natural size, mostly 1e-8. If these do not settle it, if more accuracy is requested, and in digits,
+    /// it is a difference quotient of runs in long numbers, with a step as small as the last of the digits, and the
+    /// bound contains the difference of the quotients on both sides, or of two steps. A threshold that is nearer than
+    /// the step counts as met.
     ///
-    /// **Errors**: [`Error::Derivative`] where the problem has no such value, in fractions for damping, and for
-    /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, but for
-    /// fractions; those of the runs.
+    /// **Errors**: [`Error::Derivative`] if the problem has no such value, in fractions for damping, and for
+    /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, except for
+    /// fractions; the errors of the runs.
     ///
     /// ```
     /// # #[cfg(feature = "mp")] {
@@ -46,10 +47,10 @@ impl<S: Target> TypedHistory<S> {
         S::derivatives(&self.asked(by, quantities), &self.first.engine)
     }
 
-    /// The derivatives of `quantities` at `times` by a value of the problem, a row for each time; with `points`, those
-    /// of quantities along the rod, a row for each time and there for each point. Time and point stay where they are: a
-    /// value that jumps where a ray passes has a derivative on that side of the ray only on which the ray leaves it,
-    /// and one at the upper end by the length on the side of longer rods.
+    /// Computes the derivatives of `quantities` at `times` with respect to a value of the problem, a row for each time;
+    /// with `points`, the derivatives of quantities along the rod, a row for each time and, within it, each point. Time
+    /// and point stay fixed: a value that jumps on a ray there has a derivative only on the side to which the ray moves
+    /// away, and a derivative by the length at the upper end exists only on the side of longer rods.
     ///
     /// **Accuracy**, **Errors**: those of [`TypedHistory::derivatives`] and [`TypedHistory::columns`].
     ///
@@ -83,7 +84,7 @@ impl<S: Target> TypedHistory<S> {
         if let Some(point) = points.iter().find(|point| point.to_f64() < 0.0 || point.compare(length).is_gt()) {
             return Err(Error::PointOutside { found: point.to_string(), length: length.to_string() });
         }
-        // A run that is followed to an event ends sooner or later with other values.
+        // A run to a given event would end earlier or later with other values.
         let from = if quantities.iter().any(|quantity| quantity.is_of_past()) { 0.into() } else { first.clone() };
         let Question { want, numbers } = Question::between(from, last.clone(), self.plan().numbers);
         let plan = Plan::of(self.problem(), &Question { want: want.clone(), numbers })?;

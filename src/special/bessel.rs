@@ -1,4 +1,4 @@
-//! The functions that a number system offers, and those of doubles.
+//! Special functions of the first contact as traits of number systems, and their implementation for doubles.
 
 use super::gauss::gauss_legendre;
 use super::ray::{Ray, RaySums, RoundedSums};
@@ -7,48 +7,48 @@ use crate::number::{Analytic, Rounded};
 
 /// A number system with the special functions of the first contact.
 ///
-/// **Accuracy**: in systems that round, the number of roundings that [`RoundedSpecial`] states; in estimates and
-/// enclosures, within the bound that the result carries.
+/// **Accuracy**: systems that round have the number of roundings that [`RoundedSpecial`] returns; results in estimates
+/// and enclosures are within the bound that they carry.
 pub trait Special: Analytic {
-    /// `e^{−z} I_n(z)` for `z ≥ 0`.
+    /// Computes `e^{−z} I_n(z)` for `z ≥ 0`.
     ///
-    /// **Source**: `I_n = I_0 Π r_k`, `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; for long
-    /// numbers and `z ≤ bits + 64` the series.
+    /// **Source**: `I_n = I_0 Π r_k` with `r_k = I_k/I_{k−1} = z/(2k + z r_{k+1})` downwards, all terms positive; the
+    /// series for long numbers with `z ≤ bits + 64`.
     ///
     /// **Accuracy**: within `≈ 8n + 2z ln n` roundings; for long numbers and `z ≤ bits + 64` within 1.1.
     fn in_scaled(&self, n: u32) -> Self;
 
-    /// `e^{−rt} ψ₀` of a ray.
+    /// Computes `e^{−rt} ψ₀` of a ray.
     fn ray_start(ray: &Ray<Self>) -> Self;
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in
-    /// one pass.
+    /// Computes `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own
+    /// `n₀ ≥ 1`, in one pass.
     fn ray_sums<const K: usize>(ray: &Ray<Self>, first: [i64; K], weight: impl Fn(i64) -> [i64; K])
     -> RaySums<Self, K>;
 
-    /// The nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
+    /// Returns the nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
     fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)>;
 
-    /// `φ₁(z) = (eᶻ − 1)/z`.
+    /// Computes `φ₁(z) = (eᶻ − 1)/z`.
     fn phi1(&self) -> Self {
         phi::phi1(self)
     }
 
-    /// `φ₂(z) = (eᶻ − 1 − z)/z²`.
+    /// Computes `φ₂(z) = (eᶻ − 1 − z)/z²`.
     fn phi2(&self) -> Self {
         phi::phi2(self)
     }
 }
 
-/// A number system that rounds, with the special functions of exact arguments and the roundings in their values.
+/// A number system that rounds, with the special functions of exact arguments and the roundings of their values.
 pub trait RoundedSpecial: Rounded {
-    /// `e^{−z} I_n(z)` for `z ≥ 0`, and its roundings.
+    /// Returns `e^{−z} I_n(z)` for `z ≥ 0`, and its roundings.
     fn in_scaled_rounded(&self, n: u32) -> (Self, f64);
 
-    /// `e^{−rt} ψ₀` of a ray, and its roundings.
+    /// Returns `e^{−rt} ψ₀` of a ray, and its roundings.
     fn ray_start_rounded(ray: &Ray<Self>) -> (Self, f64);
 
-    /// The sums of [`Special::ray_sums`], and their roundings.
+    /// Returns the sums of [`Special::ray_sums`], and their roundings.
     fn ray_sums_rounded<const K: usize>(
         ray: &Ray<Self>,
         first: [i64; K],
@@ -75,14 +75,14 @@ impl<S: RoundedSpecial> Special for S {
 }
 
 impl<S: Special> Ray<S> {
-    /// `e^{−rt} ψ₀`, without overflow. **Accuracy**: see [`Special`].
+    /// Computes `e^{−rt} ψ₀` without overflow. **Accuracy**: see [`Special`].
     #[inline]
     pub fn start(&self) -> S {
         S::ray_start(self)
     }
 
-    /// `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in one
-    /// pass.
+    /// Computes `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in
+    /// one pass.
     ///
     /// **Accuracy**: see [`Special`].
     #[inline]
@@ -91,7 +91,7 @@ impl<S: Special> Ray<S> {
     }
 }
 
-/// `e^{−z} I₀(z)` for `z ≥ 0`.
+/// Computes `e^{−z} I₀(z)` for `z ≥ 0`.
 ///
 /// **Source**: (2.16), the function of the *first* kind; the paper's text says second.
 ///
@@ -104,7 +104,7 @@ pub fn i0_scaled<S: Special>(z: &S) -> S {
     z.in_scaled(0)
 }
 
-/// `e^{−z} I₁(z)` for `z ≥ 0`.
+/// Computes `e^{−z} I₁(z)` for `z ≥ 0`.
 ///
 /// **Source**: after (2.22).
 ///
@@ -117,18 +117,18 @@ pub fn i1_scaled<S: Special>(z: &S) -> S {
     z.in_scaled(1)
 }
 
-/// `e^{−z} I_n(z)` from `e^{−z} I₀(z)` and the ratios of successive functions.
+/// Computes `e^{−z} I_n(z)` from `e^{−z} I₀(z)` and the ratios of successive functions.
 pub(super) fn by_ratios<S: Rounded>(z: &S, n: u32, (start, roundings): (S, f64)) -> (S, f64) {
     let ratios = Ray::at_source(z, &z.one()).ratios(i64::from(n));
     let m = f64::from(n);
     (ratios.into_iter().fold(start, |value, ratio| value * &ratio), roundings + 8.0 * m + 2.0 * z.to_f64() * m.ln_1p())
 }
 
-/// `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
+/// Computes `(2πz)^{−1/2} Σ_k (−1)ᵏ a_k(n)/zᵏ`, for n = 0, 1 and z > bits + 64; from k = 2 on all terms have one sign.
 ///
 /// The rest after ℓ terms is at most `4 χ(ℓ) |a_ℓ| z^{−ℓ} + e^{−2z}` with `χ(ℓ) = √π Γ(ℓ/2+1)/Γ(ℓ/2+1/2) < 2√ℓ + 2`
-/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). Terms fall until k ≈ 2z, where they are e^{−2z}, beyond the
-/// precision.
+/// (DLMF 10.40(ii), (iii), with `|n² − ¼| π/2z < 0.02`). The terms decrease until k ≈ 2z, where they are e^{−2z}, below
+/// the precision.
 pub(super) fn expansion<S: Rounded>(z: &S, n: i64) -> S {
     let mut term = z.one();
     let mut sum = z.one();
@@ -144,9 +144,9 @@ pub(super) fn expansion<S: Rounded>(z: &S, n: i64) -> S {
     sum / (z.pi() * z * &z.int(2)).sqrt()
 }
 
-/// `1/m²`, m = 1 … 13.
+/// Reciprocals `1/m²`, m = 1 … 13.
 const SQUARES: [f64; 13] = reciprocals(0);
-/// `1/(m(m+1))`, m = 1 … 13.
+/// Reciprocals `1/(m(m+1))`, m = 1 … 13.
 const PRODUCTS: [f64; 13] = reciprocals(1);
 
 const fn reciprocals(n: usize) -> [f64; 13] {
@@ -159,11 +159,11 @@ const fn reciprocals(n: usize) -> [f64; 13] {
     list
 }
 
-/// `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles, z ≤ 2, ten times as fast as a correctly rounded function.
+/// Computes `e^{−z} Σ_m yᵐ Π 1/(k(k+n))`, y = z²/4, in doubles for z ≤ 2, ten times as fast as correct rounding.
 ///
-/// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding and
-/// weighs 1, those before add three each times the terms that they stand in, `(I₀ − 1)/I₀ < 0.6`, and the exponential
-/// has two.
+/// With y ≤ 1 the rest after m = 13 is below `2/(14!)² < 2⁻⁷⁰`. In Horner's form the last step has one rounding with
+/// weight 1. Each earlier step adds three roundings, weighted by the terms that contain it, `(I₀ − 1)/I₀ < 0.6`. The
+/// exponential adds two.
 fn short(z: f64, steps: &[f64; 13]) -> f64 {
     let y = 0.25 * z * z;
     steps.iter().rev().fold(1.0, |tail, step| 1.0 + y * step * tail) * (-z).exp()
@@ -182,7 +182,7 @@ impl RoundedSpecial for f64 {
         }
     }
 
-    /// `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`.
+    /// Computes `e^{−r(t−u)} · e^{−ru} I₀(ru)` with `u = √(ξη)`, `t − u = a²/(t+u)`.
     #[inline]
     fn ray_start_rounded(ray: &Ray<f64>) -> (f64, f64) {
         let Ray { xi, eta, damping } = *ray;

@@ -1,5 +1,4 @@
-//! The special functions of enclosures: those of the middle, in long numbers with a proved bound, and that bound as a
-//! width.
+//! Special functions of enclosures: the function of the middle, with its proved bound as the width.
 
 use rug::Float;
 use rug::float::Round;
@@ -10,7 +9,7 @@ use super::gauss::{gauss_legendre, step};
 use super::ray::{Ray, RaySums};
 use crate::number::{Estimate, Interval, Scalar, down, up};
 
-/// The middle, with the radius as its bound.
+/// Returns the middle with the radius as its bound.
 fn estimate(x: &Interval) -> Estimate<Float> {
     x.estimate(x.lo().prec())
 }
@@ -51,26 +50,26 @@ impl BoundedSpecial for Interval {
     }
 
     fn coincides(&self, other: &Self) -> bool {
-        // Equal exact numbers may stand in enclosures of different width.
+        // Equal exact numbers may be held by enclosures of different widths.
         let copies = || self.lo() == other.lo() && self.hi() == other.hi();
         self.compare(other).map_or_else(|_| copies(), std::cmp::Ordering::is_eq)
     }
 }
 
-/// Bits that the recurrence may lose, rounded up.
+/// Returns the number of bits that the recurrence may lose, rounded up.
 fn grown(n: usize) -> u32 {
     (1.28 * n as f64) as u32 + 6
 }
 
-/// Each node by Newton's method, the last step of which is the proof: with `δ` a bound of the distance to the nearest
-/// root, `n |P/P′|` because `P′/P` is the sum of n fractions `1/(x − x_i)`, Taylor's formula gives
+/// Encloses each node by Newton's method, whose last step proves it. Let `δ` bound the distance to the nearest root by
+/// `n |P/P′|`, which holds because `P′/P` is the sum of n fractions `1/(x − x_i)`. Taylor's formula gives
 /// `x_i ∈ x − P/P′ ± δ² max|P″|/2|P′|` and `P′(x_i) ∈ P′ + P″(x)(x_i − x) ± δ² max|P‴|/2`. On [−1,1], `P″` is greatest
-/// at 1, `(n−1)n(n+1)(n+2)/8 < (n+1)⁴/8`, `P‴ < (n+1)⁶/48`; and `(1−x²)P″ = 2xP′ − n(n+1)P`. Nodes that are as many as
-/// `P_n` has roots and do not overlap are its roots, one each. The weight is `2/((1−x²) P′²)`. Where that cannot be
-/// shown, node and weight are everything, and so is every integral by this rule.
+/// at 1, `(n−1)n(n+1)(n+2)/8 < (n+1)⁴/8`, `P‴ < (n+1)⁶/48`; and `(1−x²)P″ = 2xP′ − n(n+1)P`. If there are as many
+/// disjoint nodes as `P_n` has roots, they enclose one root each. The weight is `2/((1−x²) P′²)`. If this proof fails,
+/// nodes and weights are the whole line, and so is every integral by this rule.
 fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
     let size = (n as f64 + 2.0).log2().ceil() as u32;
-    // Bits before the last step, and before those before it: one step loses `x/(1−x²) < n²` of the square of the error.
+    // Bits before the last step, then before each earlier step: a step leaves the squared error times `x/(1−x²) < n²`.
     let mut ladder = vec![bits / 2 + 3 * size + 8];
     while ladder[ladder.len() - 1] > 90 - 2 * size.min(20) {
         ladder.push(ladder[ladder.len() - 1] / 2 + size + 4);
@@ -98,11 +97,11 @@ fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
     if rule.windows(2).all(apart) { rule } else { vec![(Interval::everything(bits), Interval::everything(bits)); n] }
 }
 
-/// The root next to x, inside of (−1,1), and its weight.
+/// Encloses the root next to x, inside (−1,1), and its weight.
 ///
-/// The recurrence is followed in `q` bits. Each step adds less than `9·2^−q` to its value, `|P_k| ≤ 1`, and errors grow
-/// as `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than `1 + √2` with each step: all in all less than `2^{1.28n + 4 − q}`, which
-/// is the width.
+/// The recurrence runs in `q` bits. Each step adds less than `9·2^−q` to the error of its value, because `|P_k| ≤ 1`,
+/// and errors grow as `e_k ≤ 2e_{k−1} + e_{k−2}`, by less than the factor `1 + √2` per step. The total is less than
+/// `2^{1.28n + 4 − q}`, which becomes the width.
 fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {
     let (m, q) = (n as i64, bits + grown(n) + 5 * (n as u32 + 2).ilog2() + 24);
     let (value, before) = step(x, n, q);

@@ -1,5 +1,5 @@
-//! The special functions of numbers that carry a bound: those of the rounded numbers, with their roundings and with
-//! what the errors of the arguments add.
+//! Special functions of numbers with a bound: the function of the rounded number, with its roundings and the effect of
+//! the errors of the arguments.
 
 use super::bessel::{RoundedSpecial, Special};
 use super::gauss::gauss_legendre;
@@ -7,16 +7,15 @@ use super::phi;
 use super::ray::{Ray, RaySums};
 use crate::number::{Bounded, Estimate, Rounded, Scalar};
 
-/// A number with a bound of its error, an estimate or an enclosure, in which the first contact is computed.
+/// A number with an error bound, an estimate or an enclosure, in which the first contact is computed.
 pub trait BoundedSpecial: Special + Bounded {
-    /// An exact number near it.
+    /// Returns an exact number near it.
     fn middle(&self) -> Self;
 
-    /// A double near it, and how far from that the number meant may lie.
+    /// Returns a double near it, and the bound of its distance from the true number.
     fn near(&self) -> (f64, f64);
 
-    /// Whether both stand for the same number as far as can be said: equal within their bounds, or copies of one
-    /// enclosure.
+    /// Returns whether both represent the same number: equal within their bounds, or copies of one enclosure.
     fn coincides(&self, other: &Self) -> bool;
 }
 
@@ -36,17 +35,18 @@ impl<S: RoundedSpecial> BoundedSpecial for Estimate<S> {
     }
 }
 
-/// Where an argument's error is below this, slopes are taken at the argument and enlarged by a hundredth.
+/// Error of an argument up to which slopes are evaluated at the argument and enlarged by a hundredth.
 const SMALL: f64 = 1e-3;
-/// Relative errors of a sum up to this are followed to first order.
+/// Maximum relative error of a sum that is propagated to first order.
 const FIRST_ORDER: f64 = 1.0 / 128.0;
-/// What second order adds to them.
+/// Factor that covers the second order of these errors.
 const SECOND_ORDER: f64 = 1.03;
 
 impl<S: RoundedSpecial> Special for Estimate<S> {
-    /// The slope of `e^{−z} I₀` is `e^{−z}(I₀ − I₁) ≤ e^{−z} I₀ · 2/(1+z)`, by `I₁/I₀ ≥ z/(1+√(1+z²))` (Amos 1974);
-    /// that of `e^{−z} I_n`, the half difference of `e^{−z}(I_{n−1} − I_n)` and `e^{−z}(I_n − I_{n+1})`, is at most ½,
-    /// and for n = 1 at most `1/(1+z)`; it is also `e^{−z}(I_{n+1} + (n/z) I_n − I_n)`, at most `(1 + n/z) e^{−z} I_n`.
+    /// Computes the value and its error with these slopes. The slope of `e^{−z} I₀` is
+    /// `e^{−z}(I₀ − I₁) ≤ e^{−z} I₀ · 2/(1+z)`, by `I₁/I₀ ≥ z/(1+√(1+z²))` (Amos 1974). The slope of `e^{−z} I_n`, half
+    /// the difference of `e^{−z}(I_{n−1} − I_n)` and `e^{−z}(I_n − I_{n+1})`, is at most ½, and for n = 1 at most
+    /// `1/(1+z)`; it is also `e^{−z}(I_{n+1} + (n/z) I_n − I_n)`, at most `(1 + n/z) e^{−z} I_n`.
     #[inline]
     fn in_scaled(&self, n: u32) -> Self {
         let (value, roundings) = self.value().in_scaled_rounded(n);
@@ -98,19 +98,19 @@ impl<S: RoundedSpecial> Special for Estimate<S> {
         upper(ray, first, &weight)
     }
 
-    /// Nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own.
+    /// Returns nodes within eight roundings of 1, and weights within eight roundings of 1 plus n + 16 of their own.
     fn gauss_legendre(&self, n: usize) -> Vec<(Self, Self)> {
         let rule = gauss_legendre(self.value(), n).into_iter();
         let own = n as f64 + 16.0;
         rule.map(|(x, w)| (Estimate::new(x, 8.0), Estimate::new(w.clone(), 8.0 + own * w.to_f64()))).collect()
     }
 
-    /// `φ₁(z) = ∫₀¹ e^{zs} ds` has a smaller slope than value.
+    /// Computes `φ₁(z) = ∫₀¹ e^{zs} ds`, whose slope is smaller than its value.
     fn phi1(&self) -> Self {
         regular(self, phi::phi1(self.value()), 3.0)
     }
 
-    /// `φ₂(z) = ∫₀¹ (1−s) e^{zs} ds` has a smaller slope than value.
+    /// Computes `φ₂(z) = ∫₀¹ (1−s) e^{zs} ds`, whose slope is smaller than its value.
     fn phi2(&self) -> Self {
         regular(self, phi::phi2(self.value()), 16.0)
     }
@@ -121,27 +121,27 @@ fn regular<S: Rounded>(z: &Estimate<S>, value: S, roundings: f64) -> Estimate<S>
     Estimate::rounded(value, roundings + growth * z.error())
 }
 
-/// What the errors of ξ, η and r make of the sums of a ray, in roundings.
+/// Effects of the errors of ξ, η and r on the sums of a ray, in roundings.
 struct Errors {
-    /// Of `e^{−rt} ψ₀`.
+    /// Error of `e^{−rt} ψ₀`.
     start: f64,
-    /// For each term of the sums beyond the first, besides.
+    /// Additional error for each term of the sums beyond the first.
     power: f64,
-    /// `r(t − √(ξη))`, where it is so great that the ray does not count; otherwise zero.
+    /// `r(t − √(ξη))` if it is so great that the ray is negligible; otherwise zero.
     lag: f64,
 }
 
-/// What a ray carries is left out where it is this many bits below a rounding of 1.
+/// Number of bits below a rounding of 1 at which the contribution of a ray is dropped.
 const SPENT_BITS: f64 = 64.0;
 
 impl Errors {
-    /// `None` where they are too large to be followed to first order.
+    /// Computes the effects; `None` if they are too large for first order.
     ///
-    /// With `h = r/2` the terms are `e^{−h(ξ+η)} ξ^{n+m} η^m h^{n−n₀+2m}` times a constant, `m ≥ 0`; in the sum over m
-    /// of one n, a power series in `ξη`, the mean of m is `(z/2) I_{n+1}/I_n ≤ z/2 = h√(ξη)`, and at most `h²ξη`. So
-    /// the logarithm of `ψ₀` with its exponential has slopes of at most `max(h, min(h²η, h√(η/ξ)))` by ξ, h by η, since
-    /// `z/2 ≤ hη`, and `ξ + η` by h, since `z ≤ h(ξ+η)`; that of a sum over n has `n/ξ` by ξ and `n/h` by h more, and
-    /// what lies beyond the last term N adds less than one to the mean of n.
+    /// With `h = r/2` the terms are `e^{−h(ξ+η)} ξ^{n+m} η^m h^{n−n₀+2m}` times a constant, `m ≥ 0`. In the sum over m
+    /// for one n, a power series in `ξη`, the mean of m is `(z/2) I_{n+1}/I_n ≤ z/2 = h√(ξη)`, and at most `h²ξη`.
+    /// Therefore the logarithm of `ψ₀` with its exponential has slopes of at most `max(h, min(h²η, h√(η/ξ)))` by ξ; h
+    /// by η, since `z/2 ≤ hη`; and `ξ + η` by h, since `z ≤ h(ξ+η)`. The logarithm of a sum over n has additional
+    /// slopes `n/ξ` by ξ and `n/h` by h, and the terms beyond the last term N add less than one to the mean of n.
     #[inline]
     fn of<S: Rounded>(ray: &Ray<Estimate<S>>, exact: &Ray<S>) -> Option<Self> {
         let (x, y, r) = (exact.xi.to_f64(), exact.eta.to_f64(), exact.damping.to_f64());
@@ -168,9 +168,9 @@ impl Errors {
         Some(Errors { start, power: relative(dx, x) + relative(dr, r), lag })
     }
 
-    /// Zero for a ray that does not count, with a bound of what it carries from `ψ_first` on.
+    /// Returns zero for a negligible ray, with a bound of its contribution from `ψ_first` on.
     ///
-    /// `f_n = hⁿψ_n` obeys `n f_n ≤ hξ f_{n−1}`, so `Σ n³ f_n ≤ (x³ + 3x² + x) Σ f_n` with `x = hξ`, and
+    /// The terms `f_n = hⁿψ_n` obey `n f_n ≤ hξ f_{n−1}`, so `Σ n³ f_n ≤ (x³ + 3x² + x) Σ f_n` with `x = hξ`, and
     /// `Σ_{n≥0} f_n = Σ qⁿI_n ≤ e^z` for `q² = ξ/η ≤ 1`.
     #[cold]
     fn spent<S: Rounded>(&self, exact: &Ray<S>, first: i64) -> Estimate<S> {
@@ -186,8 +186,8 @@ impl Errors {
     }
 }
 
-/// Zeros, with the bounds that the greatest arguments give: without the exponential the sums rise with all of them. The
-/// start only where its own errors are too large to be followed.
+/// Returns zeros with the bounds that the greatest arguments give: without the exponential, the sums increase with each
+/// argument. The start is bounded this way only if its own errors are too large for first order.
 #[cold]
 fn upper<S: RoundedSpecial, const K: usize>(
     ray: &Ray<Estimate<S>>,
@@ -202,7 +202,7 @@ fn upper<S: RoundedSpecial, const K: usize>(
         value + off
     });
     let size = |ray: &Ray<S>| ray.half() * &(ray.xi.clone() + &ray.eta);
-    // The exponents of the greatest and of the least differ by at most twice that, because a product is convex.
+    // The exponents of the greatest and the least arguments differ by at most twice that, because a product is convex.
     let growth = 2.1 * (2.02 * (size(&most) - size(&exact)).to_f64().abs()).exp();
     let within = |most: S| {
         let bound = (most.clone() / most.roundoff()).to_f64() * growth;

@@ -3,13 +3,13 @@
 use super::bits;
 use crate::number::Analytic;
 
-/// The `n` nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
+/// Computes the `n` nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
 ///
 /// **Source**: Newton's method on `P_n`, from Tricomi's `cos(π(4i−1)/(4n+2))`, which lies in the basin of its root for
 /// every `n`; the weight is `2/((1−x²) P_n′(x)²)`.
 ///
-/// **Accuracy**: nodes within eight roundings of 1, weights within eight of 1 and n + 16 of their own, for numbers that
-/// round; [`Special::gauss_legendre`](super::Special::gauss_legendre) encloses them.
+/// **Accuracy**: for numbers that round, nodes within eight roundings of 1, weights within eight roundings of 1 plus
+/// n + 16 of their own; [`Special::gauss_legendre`](super::Special::gauss_legendre) encloses them.
 ///
 /// ```
 /// let rule = dalembert::special::gauss_legendre(&1.0_f64, 2);
@@ -18,7 +18,7 @@ use crate::number::Analytic;
 pub fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
     let one = like.one();
     let half = n.div_ceil(2);
-    // Each step doubles the digits; the first guess has four bits or more.
+    // Each step doubles the digits; the first guess has at least four bits.
     let steps = (bits(like) / 4.0).log2().ceil().max(1.0) as usize + 2;
     let mut upper = Vec::with_capacity(half);
     for i in 1..=half {
@@ -47,7 +47,7 @@ pub fn gauss_legendre<S: Analytic>(like: &S, n: usize) -> Vec<(S, S)> {
     rule
 }
 
-/// `P_n(x)` and `P_n′(x)`, n ≥ 1, by the three-term recurrence.
+/// Computes `P_n(x)` and `P_n′(x)`, n ≥ 1, by the three-term recurrence.
 fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
     let (mut before, mut value) = (x.one(), x.clone());
     for k in 2..=n as i64 {
@@ -58,7 +58,7 @@ fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
     (value, slope)
 }
 
-/// `P_n(x)` and `P_{n−1}(x)` in q bits, n ≥ 1: one long product for each step.
+/// Computes `P_n(x)` and `P_{n−1}(x)` in q bits, n ≥ 1, with one long product per step.
 #[cfg(feature = "mp")]
 pub(super) fn step(x: &rug::Float, n: usize, q: u32) -> (rug::Float, rug::Float) {
     use rug::Float;

@@ -1,4 +1,4 @@
-//! Bessel functions of long numbers: few long multiplications, the rest is work with machine words.
+//! Bessel functions of long numbers with few long multiplications; the rest is arithmetic with machine words.
 
 use rug::float::Round;
 use rug::ops::Pow;
@@ -6,17 +6,17 @@ use rug::{Float, Integer};
 
 use super::bessel::expansion;
 
-/// What is computed beyond the precision asked for.
+/// Bits of precision beyond the requested ones.
 const GUARD_BITS: u32 = 16;
 
-/// A number with 16 bits to spare, and the roundings that it has among these.
+/// A number with 16 spare bits, and its error in roundings of this longer precision.
 pub(super) struct Spare {
     pub(super) long: Float,
     small: f64,
 }
 
 impl Spare {
-    /// Rounded to p bits, with its roundings: one for that, and what came before in units of `2^{−p−16}`.
+    /// Rounds to p bits and returns the roundings: one for this step, plus the earlier error in units of `2^{−p−16}`.
     pub(super) fn rounded(&self, p: u32) -> (Float, f64) {
         if self.long.is_zero() {
             return (Float::new(p), 0.0);
@@ -25,23 +25,23 @@ impl Spare {
     }
 }
 
-/// Rounded to p bits, with its roundings; infinitely many where there is no value.
+/// Rounds to p bits and returns the roundings; infinitely many if there is no value.
 pub(super) fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
     value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
 }
 
-/// `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, p the precision
-/// of z.
+/// Computes `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, where p
+/// is the precision of z.
 ///
-/// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, where it reaches the precision.
+/// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, if it reaches the precision.
 ///
-/// **Accuracy**: within the second value, less than 1.1, which is infinite for `z ≥ 2²⁴` with n ≥ 2, z < 0, and what is
-/// not finite.
+/// **Accuracy**: within the second value, which is less than 1.1. It is infinite for `z ≥ 2²⁴` with n ≥ 2, for z < 0,
+/// and for z that is not finite.
 pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
     let p = z.prec();
     if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
-        // Term k has 4k roundings, all terms after the first are below 1/8 together, and the rest is below one: all in
-        // all less than 8p + 512, and 32 bits are enough for that.
+        // Term k has 4k roundings, all terms after the first sum to less than 1/8, and the rest is below one rounding:
+        // the total is less than 8p + 512, and 32 bits suffice for that.
         let long = expansion(&Float::with_val(p + 64, z), i64::from(n));
         return finish(Some(Spare { long, small: 0.25 }), p);
     }
@@ -50,8 +50,8 @@ pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
     finish(with_power(&half, &y, n, &Float::with_val(p, -z)), p)
 }
 
-/// `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` to 16 bits more than base has, and its roundings there: one each for the
-/// power, n!, the quotient, the exponential and two products.
+/// Computes `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` with 16 bits more than base, and its roundings there: one each for
+/// the power, n!, the quotient, the exponential and two products.
 fn with_power(base: &Float, y: &Float, n: u32, exponent: &Float) -> Option<Spare> {
     let bits = base.prec() + GUARD_BITS;
     let (mut value, error) = hypergeometric(y, n, bits)?;
@@ -62,12 +62,12 @@ fn with_power(base: &Float, y: &Float, n: u32, exponent: &Float) -> Option<Spare
     Some(Spare { long: value, small: error + 6.0 })
 }
 
-/// `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` for what is not finite.
+/// Computes `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` if a number is not finite.
 ///
-/// By the series, or, with `z = r√(ξη)` beyond the reach of that, as `e^{−λ} · e^{−z} I₀(z)` with
-/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`: each of the ten operations before the exponential adds a
-/// rounding of λ or of z, and both functions pass on at most λ and one of them; the expansion has fewer than 8p + 512.
-/// With `64 + log₂(1 + λ)` bits beyond p that is far less than one of `2^{−p−16}`.
+/// The series serves small `z = r√(ξη)`. Beyond its reach the result is `e^{−λ} · e^{−z} I₀(z)` with
+/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. Each of the ten operations before the exponential adds a
+/// rounding of λ or of z, and both functions amplify these by at most λ and one; the expansion has fewer than 8p + 512.
+/// With `64 + log₂(1 + λ)` bits beyond p the total is far less than one unit of `2^{−p−16}`.
 pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spare> {
     let p = xi.prec();
     let square = Float::with_val(2 * half.prec(), half.square_ref());
@@ -93,7 +93,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
         let value = expansion(&z, 0) * (-lag).exp();
         return Some(Spare { long: value, small: 1.0 });
     }
-    // As long as the two are of like size this is exact; elsewhere the rest is far below a rounding of the exponential.
+    // The sum is exact if both are of similar size; otherwise the error is far below a rounding of the exponential.
     let bits = p + GUARD_BITS + 64;
     let time = Float::with_val(bits, xi + eta);
     let damped = -Float::with_val(bits, half * &time);
@@ -104,7 +104,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
     with_power(&one, &y, 0, &damped).map(|value| Spare { small: value.small + 1.0, ..value })
 }
 
-/// `mantissa · 2^{−shift}`, a number y ≥ 0 rounded down; short numbers stay short.
+/// A number y ≥ 0 rounded down to `mantissa · 2^{−shift}`; short numbers stay short.
 #[derive(Clone)]
 struct Factor {
     mantissa: Integer,
@@ -112,7 +112,7 @@ struct Factor {
 }
 
 impl Factor {
-    /// y rounded down to a multiple of `2^{−scale}`; not for infinity or NaN.
+    /// Rounds y down to a multiple of `2^{−scale}`; `None` for infinity and NaN.
     fn of(y: &Float, scale: u32) -> Option<Self> {
         let (mut mantissa, exponent) = y.to_integer_exp()?;
         let zeros = mantissa.find_one(0).unwrap_or(0);
@@ -133,7 +133,7 @@ impl Factor {
         }
     }
 
-    /// The product, rounded down.
+    /// Returns the product, rounded down.
     fn times(&self, other: &Factor, scale: u32) -> Self {
         let mantissa = Integer::from(&self.mantissa * &other.mantissa);
         let mut result = Factor { mantissa, shift: self.shift + other.shift };
@@ -141,7 +141,7 @@ impl Factor {
         result
     }
 
-    /// `yᵏ`, k ≥ 1.
+    /// Computes `yᵏ`, k ≥ 1.
     fn power(&self, k: u32, scale: u32) -> Self {
         let mut result = self.clone();
         for bit in (0..k.ilog2()).rev() {
@@ -153,7 +153,7 @@ impl Factor {
         result
     }
 
-    /// `⌊t y⌋` within two units: of the mantissa only those bits are taken that matter.
+    /// Replaces t by `⌊t y⌋` within two units; only the bits of the mantissa that matter enter.
     fn apply(&self, t: &mut Integer) {
         let skip = self.shift.saturating_sub(t.significant_bits());
         if skip < 64 {
@@ -166,25 +166,26 @@ impl Factor {
     }
 }
 
-/// `V = ₀F₁(; n+1; y) = Σ_m y^m/(m!(n+1)_m)`, from below, and how far below, relative, in units of `2^{−bits}`: little
-/// more than 1 where the terms are as many as expected. `None` for y not finite, negative, or `2⁴⁸` and more.
+/// Computes `V = ₀F₁(; n+1; y) = Σ_m y^m/(m!(n+1)_m)` from below, and a bound of its relative error in units of
+/// `2^{−bits}`: little more than 1 if the number of terms is as expected. `None` for y not finite, negative, or at
+/// least `2⁴⁸`.
 ///
-/// **Source**: concurrent summation (Smith 1989): one sum for each residue of m modulo B, so that only every B-th step
-/// multiplies by a long number, `y^B`, and Horner's rule in y puts the sums together. Small divisors `m(m+n)` are taken
-/// as many at a time as a word holds.
+/// **Source**: concurrent summation (Smith 1989). It keeps one sum for each residue of m modulo B, so that only every
+/// B-th step multiplies by a long number, `y^B`, and Horner's rule in y combines the sums. Small divisors `m(m+n)` are
+/// grouped as far as a word holds their product.
 ///
-/// **Accuracy**: in integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the exact term
-/// but for the powers of y below B that are put in last. An error e in `T_m` passes on to the result as
-/// `e y^{m mod B} Σ_{k≥m} c_k y^k/(c_m y^m) ≤ e β^{B−1} V`, because the ratios of terms fall with m.
-/// - A division by the product D < 2⁶⁴ of a group is off by less than 1 for the last of its terms, by less than
-///   `D/(d₁ ⋯ d_i)` for the others, which are less than 2·2⁶⁴ together: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
-/// - Each product with `y^B` is off by two for its own roundings, and by what `y^B` is. An addition chain makes `y^B`
-///   off by less than `2B β^B`: for y ≥ 1 that is a part `2B·2^{−F}` of everything that follows; for y < 1, where T ≤
-///   1, it is 2B at most, times V.
-/// - Horner's rule: 1 for each step, times β^{B−1}, and y itself is off by 1: 2B β^{B−1} V together.
+/// **Accuracy**: the sums are integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the
+/// exact term without the powers of y below B that are applied last. An error e in `T_m` changes the result by
+/// `e y^{m mod B} Σ_{k≥m} c_k y^k/(c_m y^m) ≤ e β^{B−1} V`, because the ratios of terms decrease with m.
+/// - A division by the product D < 2⁶⁴ of a group has an error below 1 in the last of its terms and below
+///   `D/(d₁ ⋯ d_i)` in the others, which sum to less than 2·2⁶⁴: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
+/// - Each product with `y^B` has an error of two from its own roundings, plus the error of `y^B`. An addition chain
+///   computes `y^B` with an error below `2B β^B`: for y ≥ 1 that is the fraction `2B·2^{−F}` of all that follows; for
+///   y < 1, where T ≤ 1, it is at most 2B, times V.
+/// - Horner's rule errs by 1 in each step, times β^{B−1}, and y itself by 1: together 2B β^{B−1} V.
 ///
-/// A term that has become zero stays zero, so nothing is cut off beyond these roundings. For N terms all that is at
-/// most `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
+/// A term that has become zero stays zero, so the truncation adds nothing beyond these roundings. For N terms the total
+/// is at most `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
 fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
     if !y.is_finite() || y.is_sign_negative() || *y >= 281_474_976_710_656_u64 {
         return None;
@@ -233,13 +234,13 @@ fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
         value >>= first.shift;
         value += sum;
     }
-    // Of the value as it is before it is rounded to the bits that are handed back.
+    // The error before the value is rounded to the bits that are returned.
     let error = 67.0 + (m as f64 + 1.0).log2() + f64::from(block - 1) * size - f64::from(scale);
     let (value, _) = Float::with_val_round(bits + 8, &value, Round::Down);
     Some((value >> scale, (error + f64::from(bits)).exp2() + 2f64.powi(-7)))
 }
 
-/// Where the terms of `₀F₁` fall below `2^{−bits}`, about.
+/// Estimates the number of terms of `₀F₁` above `2^{−bits}`.
 fn expected_terms(y: &Float, n: u32, bits: u32) -> f64 {
     let (y, n) = (y.to_f64(), f64::from(n));
     let (mut m, mut log) = (0.0, 0.0);

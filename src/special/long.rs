@@ -1,4 +1,4 @@
-//! The special functions of long numbers; the sums of a ray by the three-term recurrence backwards, without a division.
+//! Special functions of long numbers; the sums of a ray by the backward three-term recurrence without divisions.
 
 use rug::Float;
 
@@ -6,10 +6,10 @@ use super::bessel::{RoundedSpecial, by_ratios};
 use super::hypergeometric::{Spare, damped_start, finish, in_scaled_bounded};
 use super::ray::{Ray, RaySums, RoundedSums, bits};
 
-/// [`backward`] has fewer.
+/// Upper bound on the roundings of [`backward`].
 const SUM_ROUNDINGS: f64 = 2.0;
 
-/// A ray that arrives now may do so a rounding later.
+/// Returns the ray with ξ ≥ 0: rounding can make ξ negative for a ray that has just arrived.
 fn arrived(ray: &Ray<Float>) -> Ray<Float> {
     let xi = if ray.xi.is_sign_negative() { Float::new(ray.xi.prec()) } else { ray.xi.clone() };
     Ray { xi, ..ray.clone() }
@@ -28,7 +28,7 @@ impl RoundedSpecial for Float {
         finish(damped_start(&ray.half(), &ray.xi, &ray.eta), ray.xi.prec())
     }
 
-    /// By the recurrence without divisions where it can be, by the ratios elsewhere.
+    /// Computes the sums by the recurrence without divisions if it applies, otherwise by the ratios.
     fn ray_sums_rounded<const K: usize>(
         ray: &Ray<Float>,
         first: [i64; K],
@@ -45,30 +45,30 @@ impl RoundedSpecial for Float {
     }
 }
 
-/// More terms than this are left to the recurrence of the ratios.
+/// Maximum number of terms of this recurrence; the recurrence of the ratios handles more.
 const MOST_TERMS: i64 = 100_000;
-/// The least precision of a term.
+/// Minimum precision of a term.
 const FEWEST_BITS: u32 = 64;
 
-/// `e^{−rt} ψ₀`, and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n`, with fewer than two roundings; `None` where this way
-/// is not open: for `r ξ = 0`, far too many terms, or a first weight below 1.
+/// Computes `e^{−rt} ψ₀` and `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` with fewer than two roundings; `None` if this
+/// method does not apply: for `r ξ = 0`, too many terms, or a first weight below 1.
 ///
-/// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. It is
-/// followed downwards from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
+/// **Source**: `f_n = (r/2)ⁿ ψ_n` obeys `f_{n−1} = (n f_n + w f_{n+1})/x` with `x = rξ/2`, `w = rη/2`. The recurrence
+/// runs downwards from `f_N = 1`, `f_{N+1} = 0`, and the sums over f are divided by f₀ once.
 ///
-/// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` pass on a relative error of their successor
-/// times `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` has one of its own, `τ_n ≤ 6·2^{−p_n}`:
-/// coefficients cut to `p_n` bits, two products, a product with n, a sum. So that of `σ_n` is at most
-/// `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for
-/// the greatest n₀, and so `τ_j Π θ_k` is at most `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. There
-/// `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which falls with k: with
-/// `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. That of `f_n/f₀`, a
-/// product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f falls with n. In the sum it has the
-/// weight `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`: all in all `24·2^{−W} (B N⁵ + N²)`, and W makes that less
-/// than a tenth of a rounding. N is such that the start with `f_{N+1} = 0` and the terms left out are less than
+/// **Accuracy**: the ratios `σ_n = f_n/f_{n−1} = x/(n + wσ_{n+1})` inherit the relative error of their successor times
+/// `θ_n = wσ_nσ_{n+1}/x = I_{n+1}/I_{n−1} < 1`, and `f_{n−1}` adds its own error `τ_n ≤ 6·2^{−p_n}`: coefficients cut
+/// to `p_n` bits, two products, a product with n, a sum. The error of `σ_n` is therefore at most
+/// `Σ_{j≥n} τ_j Π_{k=n}^{j−1} θ_k`. The bits grow with the terms, `2^{−p_n} ≤ 4·2^{−W} max(1, f_{n₀}/f_{n−1})` for the
+/// greatest n₀, so `τ_j Π θ_k` is at most `24·2^{−W} (f_{n₀}/f_{n−1} Π θ_k/σ_k + 1)`. Here
+/// `θ_k/σ_k = wσ_{k+1}/x < 2w/(k + ½ + √((k+½)² + z²)) = b_k` (Segura 2011), which decreases with k. With
+/// `B = Σ_{j≥1} Π_{k<j} b_k`, the error of `σ_n` is at most `24·2^{−W} (B f_{n₀}/f_{n−1} + N)`. The error of `f_n/f₀`,
+/// a product of n ratios, is at most `24·2^{−W} (B n f_{n₀}/f_n + N²)`, since f decreases with n. In the sum it has the
+/// weight `c_n f_n/S` with `c_n ≤ n³` and `S ≥ f_{n₀}`. The total is `24·2^{−W} (B N⁵ + N²)`, and W makes it less than
+/// a tenth of a rounding. N is chosen so that the start with `f_{N+1} = 0` and the omitted terms contribute less than
 /// another tenth.
 ///
-/// The number is rounded once more when the spare bits are dropped.
+/// Dropping the spare bits rounds the number once more.
 fn backward<const K: usize>(
     ray: &Ray<Float>,
     terms: i64,
@@ -91,7 +91,7 @@ fn backward<const K: usize>(
         return None;
     }
     let full = p + extra as u32;
-    // One for x or w, one for the quotient, within the τ_n above.
+    // One rounding for x or w and one for the quotient, within the τ_n above.
     let (x, w) = (Float::with_val(full + 8, half * xi), Float::with_val(full + 8, half * eta));
     let (by_x, by_w) = (Float::with_val(full + 8, x.recip_ref()), Float::with_val(full + 8, &w / &x));
     let start = damped_start(half, xi, eta)?;
@@ -100,7 +100,7 @@ fn backward<const K: usize>(
     loop {
         let (sums, zeroth, reached) = descend((terms, last), (&by_x, &by_w), (bits, full), (&first, &weight));
         if reached < full {
-            // Terms were fewer than the bits that they must leave: begin with more.
+            // The terms grew by fewer bits than needed: restart with more bits.
             bits += full - reached + 8;
             continue;
         }
@@ -115,7 +115,7 @@ fn backward<const K: usize>(
     }
 }
 
-/// `log₂ B` with a margin.
+/// Returns `log₂ B` plus a margin.
 fn spread(argument: f64, w: f64, terms: i64) -> f64 {
     let z = argument * (1.0 - 1e-12);
     let (mut log, mut greatest) = (0.0f64, 0.0f64);
@@ -127,7 +127,7 @@ fn spread(argument: f64, w: f64, terms: i64) -> f64 {
     greatest + ((terms + 1) as f64).log2() + 1.0
 }
 
-/// The sums over f, f₀, and the precision that the term `last` has; `bits` at the start and at most.
+/// Returns the sums over f, f₀, and the precision of the term `last`; precisions range from `bits` to `full`.
 fn descend<const K: usize>(
     (terms, last): (i64, i64),
     (by_x, by_w): (&Float, &Float),
@@ -154,7 +154,7 @@ fn descend<const K: usize>(
         let grown = i64::from(bits) + i64::from(next.get_exp().unwrap_or(0)) + i64::from(n.ilog2());
         let grown = grown.max(i64::from(bits)).min(i64::from(full)) as u32;
         if grown > precision {
-            // Rounded up to whole words; the product is repeated with the bits that it deserves.
+            // The precision is rounded up to whole words, and the product is repeated with it.
             precision = grown.next_multiple_of(64).min(full);
             (cut_x, cut_w) = (Float::with_val(precision, by_x), Float::with_val(precision, by_w));
             next = Float::with_val(precision, &value * &cut_x);

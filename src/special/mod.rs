@@ -1,5 +1,5 @@
-//! Special functions, each once by name, with an implementation for each number system by [`Special`]: scaled Bessel
-//! functions, the sums over `ψ_n` that a ray carries, `φ` functions, Gauss–Legendre.
+//! Special functions, each under one name, implemented for each number system by [`Special`]: scaled Bessel functions,
+//! sums over `ψ_n` along a ray, `φ` functions, Gauss–Legendre.
 
 mod bessel;
 #[cfg(feature = "mp")]

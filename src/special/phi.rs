@@ -1,9 +1,9 @@
-//! `φ₁`, `φ₂` of free fall with drag, and the two logarithmic means of its highest point, regular at zero.
+//! Functions `φ₁`, `φ₂` of free fall with drag, and two logarithmic means for its highest point, regular at zero.
 
 use super::bits;
 use crate::number::Analytic;
 
-/// `φ₁(z) = (eᶻ − 1)/z`, 1 at `z = 0`.
+/// Computes `φ₁(z) = (eᶻ − 1)/z`, 1 at `z = 0`.
 ///
 /// **Source**: (3.38), (3.43) without the division by `2r`.
 ///
@@ -18,15 +18,15 @@ pub fn phi1<S: Analytic>(z: &S) -> S {
     if z.vanishes() == Ok(true) { z.one() } else { z.exp_m1() / z }
 }
 
-/// Factorials are counted in bits, so many at a time.
+/// Bits of the factorial that are counted at once.
 const STEP_BITS: f64 = 11.0;
 const STEP: f64 = 2048.0;
 
-/// `φ₂(z) = (eᶻ − 1 − z)/z²`, 1/2 at `z = 0`.
+/// Computes `φ₂(z) = (eᶻ − 1 − z)/z²`, 1/2 at `z = 0`.
 ///
 /// **Source**: (3.38), (3.44) without the division by `4r²`.
 ///
-/// **Accuracy**: within 16 roundings for `z ≤ 1`: below `|z| = 1` the terms of the series add up to `φ₂(|z|) ≤ 2φ₂(z)`;
+/// **Accuracy**: within 16 roundings for `z ≤ 1`: for `|z| ≤ 1` the magnitudes of the terms sum to `φ₂(|z|) ≤ 2φ₂(z)`;
 /// for `z < −1` the difference is more than a third of `|z|`.
 ///
 /// ```
@@ -36,11 +36,11 @@ const STEP: f64 = 2048.0;
 /// ```
 pub fn phi2<S: Analytic>(z: &S) -> S {
     let one = z.one();
-    // Both ways are right near the border.
+    // Both formulas are accurate near the boundary.
     if z.to_f64().abs() > 1.0 {
         return (z.exp_m1() - z) / z.square();
     }
-    // Σ zᵏ/(k+2)!, by Horner. With |z| ≤ 1 the rest after K terms is below 2/(K+2)!.
+    // Horner's rule for Σ zᵏ/(k+2)!. With |z| ≤ 1 the rest after K terms is below 2/(K+2)!.
     let (mut terms, mut factorial, mut left) = (1i64, 1.0f64, bits(z) + 2.0);
     while left > 0.0 {
         terms += 1;
@@ -49,7 +49,7 @@ pub fn phi2<S: Analytic>(z: &S) -> S {
             (factorial, left) = (factorial / STEP, left - STEP_BITS);
         }
     }
-    // What stands in the place of all further terms is between 0 and 2.
+    // The factor that replaces all further terms is between 0 and 2.
     let mut sum = one.clone().widened(&one);
     for k in (1..=terms).rev() {
         sum = one.clone() + z.clone() / one.int(k + 2) * &sum;
@@ -57,7 +57,7 @@ pub fn phi2<S: Analytic>(z: &S) -> S {
     sum / one.int(2)
 }
 
-/// `λ(y) = ln(1+y)/y`, 1 at `y = 0`: the time of the highest point, `t* − t_b = (h¹/g) λ(2rh¹/g)`.
+/// Computes `λ(y) = ln(1+y)/y`, 1 at `y = 0`; the time of the highest point is `t* − t_b = (h¹/g) λ(2rh¹/g)`.
 ///
 /// **Source**: Remark 2.
 ///
@@ -68,7 +68,8 @@ pub fn log_mean<S: Analytic>(y: &S) -> S {
     if y.vanishes() == Ok(true) { y.one() } else { y.ln_1p() / y }
 }
 
-/// `λ₂(y) = (y − ln(1+y))/y²`, 1/2 at `y = 0`, for `y ≥ 0`: the highest point, `h_max − h⁰ = ((h¹)²/g) λ₂(2rh¹/g)`.
+/// Computes `λ₂(y) = (y − ln(1+y))/y²`, 1/2 at `y = 0`, for `y ≥ 0`; the highest point is
+/// `h_max − h⁰ = ((h¹)²/g) λ₂(2rh¹/g)`.
 ///
 /// **Source**: Remark 2.
 ///
@@ -77,8 +78,8 @@ pub fn log_rest<S: Analytic>(y: &S) -> S {
     if y.to_f64() > 0.25 {
         return (y.clone() - y.ln_1p()) / y.square();
     }
-    // Σ (−y)ᵏ/(k+2): alternating, falling faster than 4⁻ᵏ, so the rest is below the first term left out, and that
-    // below 1.
+    // The series Σ (−y)ᵏ/(k+2) alternates and decreases faster than 4⁻ᵏ, so the rest is below the first omitted term,
+    // which is below 1.
     let terms = (bits(y) / 2.0) as i64 + 2;
     let mut sum = y.zero().widened(&y.one());
     for k in (0..=terms).rev() {

@@ -1,8 +1,8 @@
-//! What one ray of the lattice carries to a point: positive sums over `ψ_n`, in one backward pass.
+//! Contribution of one ray of the lattice to a point: positive sums over `ψ_n`, in one backward pass.
 //!
-//! `ψ_n(ξ,η) = (ξⁿ/n!) ₀F₁(; n+1; r²ξη/4)` with `ξ = t − a`, `η = t + a` for the travel time `a`. The ratios
-//! `ρ_n = ψ_n/ψ_{n−1}` obey `ρ_n = ξ/(n + (r²η/4) ρ_{n+1})`, which has no cancellation, is stable downwards, and is
-//! `ξ/n` at `r = 0`: no formula here divides by `r`.
+//! The functions are `ψ_n(ξ,η) = (ξⁿ/n!) ₀F₁(; n+1; r²ξη/4)` with `ξ = t − a`, `η = t + a` for the travel time `a`. The
+//! ratios `ρ_n = ψ_n/ψ_{n−1}` obey `ρ_n = ξ/(n + (r²η/4) ρ_{n+1})`. This recurrence has no cancellation, is stable
+//! downwards, and gives `ξ/n` at `r = 0`: no formula here divides by `r`.
 
 use crate::number::{Analytic, Rounded, Scalar};
 
@@ -32,22 +32,22 @@ pub struct RoundedSums<S, const K: usize> {
     pub start_roundings: f64,
     /// Roundings in `sums`.
     pub sum_roundings: f64,
-    /// The last term that is summed; all after it are below a roundoff.
+    /// The last summed term; all later terms are below a roundoff.
     pub terms: i64,
-    /// The mean index, weighed by the terms of a sum, is at most this.
+    /// Upper bound on the mean index, weighted by the terms of a sum.
     pub mean: f64,
 }
 
-/// No ray asks for more terms than this; only damping beyond `r t ≈ 10¹⁰` could.
+/// Maximum number of terms of a ray; only damping beyond `r t ≈ 10¹⁰` requires more.
 pub(super) const MOST_TERMS: i64 = 4_000_000;
 
 impl<S: Analytic> Ray<S> {
-    /// The ray of travel time `a ≤ t`.
+    /// Returns the ray of travel time `a ≤ t`.
     pub fn new(damping: &S, travel: &S, time: &S) -> Self {
         Ray { xi: time.clone() - travel, eta: time.clone() + travel, damping: damping.clone() }
     }
 
-    /// The ray of travel time zero: `ξ = η = t`.
+    /// Returns the ray of travel time zero: `ξ = η = t`.
     pub fn at_source(damping: &S, time: &S) -> Self {
         Ray { xi: time.clone(), eta: time.clone(), damping: damping.clone() }
     }
@@ -58,17 +58,17 @@ impl<S: Analytic> Ray<S> {
 }
 
 impl<S: Rounded> Ray<S> {
-    /// `r/2`.
+    /// Returns `r/2`.
     pub(super) fn half(&self) -> S {
         self.damping.clone() / self.damping.int(2)
     }
 
-    /// `r √(ξη)`.
+    /// Returns `r √(ξη)`.
     pub(super) fn argument(&self) -> f64 {
         self.damping.to_f64() * (self.xi.to_f64().max(0.0) * self.eta.to_f64()).sqrt()
     }
 
-    /// `I_k(z)/I_{k−1}(z) (ξ/η)^{1/2}` for k = 1 … n.
+    /// Returns `I_k(z)/I_{k−1}(z) (ξ/η)^{1/2}` for k = 1 … n.
     pub(super) fn ratios(&self, n: i64) -> Vec<S> {
         let (half, mut sigma) = (self.half(), self.xi.zero());
         let mut ratios = Vec::new();
@@ -81,17 +81,17 @@ impl<S: Rounded> Ray<S> {
         ratios
     }
 
-    /// `ρ_n` from `σ_{n+1} = (r/2) ρ_{n+1}`; `(r/2) η σ` cannot overflow, since `σ < 1`.
+    /// Returns `ρ_n` from `σ_{n+1} = (r/2) ρ_{n+1}`; `(r/2) η σ` cannot overflow, since `σ < 1`.
     #[inline]
     fn ratio(&self, n: i64, next: &S, half: &S) -> S {
         self.xi.clone() / (half.clone() * &self.eta * next + self.xi.int(n))
     }
 
-    /// How many terms leave a relative rest below the roundoff, for weights that grow no faster than n³, from index
-    /// `first` on.
+    /// Returns the number of terms that leave a relative rest below the roundoff, for weights that grow no faster than
+    /// n³, from index `first` on.
     ///
     /// With z = r√(ξη): `I_n/I_{n−1} < z/(n−½+√((n−½)²+z²))` (Amos 1974, Segura 2011), so `(r/2)ρ_n < rξ/(n−½+√(…))`.
-    /// These bounds fall with n: the rest after n is at most its first term times the geometric series of the ratio
+    /// These bounds decrease with n: the rest after n is at most its first term times the geometric series of the ratio
     /// there. Starting the recurrence with ρ = 0 changes `ρ_k` by the product of `(I_n/I_{n−1})(I_{n+1}/I_n)` from k
     /// on, which the second product bounds by its square.
     pub(super) fn terms(&self, first: i64) -> i64 {
@@ -104,7 +104,7 @@ impl<S: Rounded> Ray<S> {
             return first + 1;
         }
         if z < 4.0 && goal < 100.0 {
-            // The same with the root left out, `I_n/I_{n−1} < z/(2n−1)`, and without divisions.
+            // The same bounds without the root, `I_n/I_{n−1} < z/(2n−1)`, and without divisions.
             let (limit, z_square) = (negative_power(goal.ceil()), z * z);
             let mut size = 1.0f64;
             while n < 64 {
@@ -113,7 +113,7 @@ impl<S: Rounded> Ray<S> {
                 rest *= reach;
                 square *= z_square;
                 size *= below;
-                // From n = 10 on the ratio, with the growth of the weights, is below 1/2.
+                // The ratio, with the growth of the weights, is below 1/2 from n = 10 on.
                 if n >= 10 && 2.0 * rest * m * m * m <= limit * size && square <= limit * size * size {
                     return n;
                 }
@@ -146,23 +146,23 @@ impl<S: Rounded> Ray<S> {
         }
     }
 
-    /// A bound of the mean index over the terms of a sum from index `first` on, whose weights obey
-    /// `c_n ≤ 1.2 (n/n₀)³ c_{n₀}`, as all here do.
+    /// Bounds the mean index over the terms of a sum from index `first` on, for weights with
+    /// `c_n ≤ 1.2 (n/n₀)³ c_{n₀}`, which all weights here satisfy.
     ///
-    /// `(r/2)ρ_n < rξ/(2n − 1)`, so with `x = rξ ≤ 1` the terms are, relative to the first of them,
-    /// `T_j ≤ 1.2 (1 + j/n₀)³ x/((2n₀+1)(2n₀+3)⋯(2n₀+2j−1))`, and `Σ j T_j` is greatest for `n₀ = 1`: less than `10.6
-    /// x`.
+    /// Since `(r/2)ρ_n < rξ/(2n − 1)`, for `x = rξ ≤ 1` the terms relative to the first are
+    /// `T_j ≤ 1.2 (1 + j/n₀)³ x/((2n₀+1)(2n₀+3)⋯(2n₀+2j−1))`, and `Σ j T_j` is greatest for `n₀ = 1`: less than
+    /// `10.6 x`.
     fn mean_index(&self, first: i64, terms: i64) -> f64 {
         let reach = self.damping.to_f64() * self.xi.to_f64().max(0.0);
         if reach <= 1.0 { (first as f64 + 10.6 * reach).min(terms as f64) } else { terms as f64 }
     }
 
-    /// The sums by the ratios, from `e^{−rt} ψ₀` with its roundings.
+    /// Computes the sums by the ratios, from `e^{−rt} ψ₀` with its roundings.
     ///
-    /// **Accuracy**: the weights are not negative, so the relative error is at most `sum_roundings` roundings. In the
-    /// n-th term each ratio adds 4 roundings and passes on those of its successor times `I_{n+1}/I_{n−1}`; summed over
-    /// all N by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4n + 2.3 z (2 + ln 2N)`; Horner adds 3n. What counts is the
-    /// mean of n.
+    /// **Accuracy**: the weights are nonnegative, so the relative error is at most `sum_roundings` roundings. In the
+    /// n-th term each ratio adds 4 roundings and inherits those of its successor times `I_{n+1}/I_{n−1}`; summed over
+    /// all N by `asinh s ≥ 0.88 s` (s ≤ 1) that is at most `4n + 2.3 z (2 + ln 2N)`. Horner's rule adds 3n. The mean of
+    /// n enters the result.
     #[inline]
     pub(super) fn sums_by_ratios<const K: usize>(
         &self,
@@ -174,7 +174,7 @@ impl<S: Rounded> Ray<S> {
         let (terms, half) = (self.terms(last), self.half());
         let mut sigma = self.xi.zero();
         let mut sums: [S; K] = std::array::from_fn(|_| self.xi.zero());
-        // ψ_n = ψ_0 ρ_1 ⋯ ρ_n: the last factors are at hand when the pass comes down to n₀.
+        // The factors of ψ_n = ψ_0 ρ_1 ⋯ ρ_n up to n₀ are multiplied at the end of the pass, when n comes down to n₀.
         let mut heads: [S; K] = std::array::from_fn(|_| start.clone());
         for n in (1..=terms).rev() {
             let weights = weight(n);
@@ -204,12 +204,12 @@ impl<S: Rounded> Ray<S> {
     }
 }
 
-/// Bits of the significand, as far as sums are to be carried.
+/// Returns the number of bits of the significand, limited to those that sums carry.
 pub(super) fn bits<S: Scalar>(like: &S) -> f64 {
     (-like.log2_roundoff()).clamp(1.0, 1e6)
 }
 
-/// `2^{−n}` for the whole part of n, zero below the normal doubles.
+/// Returns `2^{−n}` for the integer part of n; zero below the normal doubles.
 #[inline]
 fn negative_power(n: f64) -> f64 {
     if (0.0..1022.0).contains(&n) { f64::from_bits((1023 - n as u64) << 52) } else { 0.0 }

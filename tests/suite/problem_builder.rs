@@ -1,7 +1,7 @@
 //! The builder, and that it and a scene file end in the same checks.
 
 use dalembert::problem::{Builder, ProblemError, ProblemErrorKind as Kind, Written};
-use dalembert::{Error, Material, Number, Problem, Profile, Run, Scene, Speed, Start, Top};
+use dalembert::{Error, Material, Number, Problem, Profile, Run, Scene, Speed, Start, Top, Warning};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -13,6 +13,37 @@ fn n(text: &str) -> Number {
 /// A falling rod with `L = c = g = 1` and `μ = 3`.
 fn rod() -> Builder {
     Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(3)
+}
+
+/// Warnings before a run and after it, each on both sides of its limit.
+#[test]
+fn warnings_name_what_the_theory_leaves_out() {
+    let of = |builder: Builder| builder.build().unwrap().warnings();
+    let steel = |modulus: f64| Problem::builder().length(1).material(modulus, 7800, 1e-4).impact_speed(1);
+    assert_eq!(of(steel(210e9)), []);
+    assert!(matches!(of(steel(210.0))[..], [Warning::StrainAboveOne { strain }] if (strain - 6.0945).abs() < 1e-4));
+    // Numbers without a material have no units to be wrong in.
+    assert_eq!(of(rod()), []);
+    // μ/c = 0.9, and g t₁/c = 0.2 more at the end of the contact.
+    let weak = Problem::builder().length(1).material(1, 1, 1).impact_speed("0.9").gravity("0.1");
+    assert_eq!(of(weak.clone()), []);
+    let warnings = weak.build().unwrap().solve().unwrap().warnings();
+    assert!(
+        matches!(warnings[..], [Warning::StrainAboveOne { strain }] if (strain - 1.1).abs() < 1e-12),
+        "{warnings:?}"
+    );
+    let pulled = Problem::builder().length(1).material(1, 1, 1).displacement([(0, 0), (1, 2)]);
+    assert!(matches!(of(pulled)[..], [Warning::StrainAboveOne { strain }] if strain == 2.0));
+
+    // μ = 3 against g/2r = 5 and 2.5, where a flight is asked for.
+    assert_eq!(of(rod().damping("0.1").impacts(2)), []);
+    assert_eq!(of(rod().damping("0.2")), []);
+    let expected = Warning::DragDominates { speed: 3.0, terminal: Some(2.5), reach: 7.5 };
+    assert_eq!(of(rod().damping("0.2").impacts(2)), std::slice::from_ref(&expected));
+    assert!(expected.to_string().contains("above g/2r = 2.5, the greatest speed of a fall"), "{expected}");
+    let expected = Warning::DragDominates { speed: 3.0, terminal: None, reach: 7.5 };
+    assert_eq!(of(rod().gravity(0).damping("0.2").time(9)), std::slice::from_ref(&expected));
+    assert!(expected.to_string().contains("stops a rod at the speed 3 within 7.5"), "{expected}");
 }
 
 #[test]

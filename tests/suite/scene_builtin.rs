@@ -1,6 +1,6 @@
 //! The built-in scenes, and what their comments say as far as it follows from their numbers.
 
-use dalembert::{Effect, Material, Number, Parameters, Scene, Start, Top, builtin};
+use dalembert::{Effect, Material, Number, Parameters, Problem, Scene, Start, Top, builtin};
 
 fn scene(name: &str) -> Scene {
     Scene::parse(builtin::get(name).expect(name).source).expect(name)
@@ -32,6 +32,23 @@ fn every_scene_is_read_and_says_what_it_is() {
         assert!(builtin.source.lines().all(|line| line.chars().count() <= 120), "{}", builtin.name);
     }
     assert_eq!(builtin::get("no-such-scene"), None);
+}
+
+/// A scene is the same after it was written as TOML or JSON and read again, and so is its problem alone.
+#[test]
+fn every_scene_goes_through_serde() {
+    for name in builtin::names() {
+        let scene = scene(name);
+        let again = Scene::parse(&toml::to_string(&scene).unwrap()).expect(name);
+        let fields = |scene: &Scene| (scene.title.clone(), scene.units, scene.accuracy, scene.targets.clone());
+        assert_eq!((&again.problem, fields(&again)), (&scene.problem, fields(&scene)), "{name}");
+        let read: Scene = toml::from_str(&toml::to_string(&scene).unwrap()).expect(name);
+        assert_eq!((&read.problem, fields(&read)), (&scene.problem, fields(&scene)), "{name}");
+        let problem: Problem = serde_json::from_value(serde_json::to_value(&scene.problem).unwrap()).expect(name);
+        assert_eq!(problem, scene.problem, "{name}");
+    }
+    let error = toml::from_str::<Problem>("rod = { length = -1, wave_speed = 1 }").unwrap_err().to_string();
+    assert!(error.contains("found length = -1, expected a length above zero"), "{error}");
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Columns that stand below each other.
+//! Tables of text with aligned columns.
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, presets};
 
-/// A table with a header; numbers stand to the right.
+/// Formats a table with a header; the first `words` columns are aligned to the left, the others to the right.
 pub fn table(header: &[&str], rows: Vec<Vec<String>>, words: usize) -> String {
     let mut table = Table::new();
     table

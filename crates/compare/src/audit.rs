@@ -1,31 +1,34 @@
-//! What the laws say of other people's data alone: contact conditions, energy, momentum.
+//! The audit of data by the laws of motion: contact conditions, energy, momentum.
 
 use serde::Serialize;
 
-/// A greatest value, and when it is reached.
+/// A greatest value with its time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Extreme {
     pub value: f64,
     pub time: f64,
 }
 
+/// The change of the energy of the data against that of the exact history, `theirs − ours` less its value at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct EnergyChange {
-    /// `theirs − ours` at the end, less what it is at the start.
+    /// The change at the end.
     pub change: f64,
-    /// The most that it is above that at the start.
+    /// The greatest change upwards.
     pub gain: Extreme,
+    /// The greatest change downwards.
     pub loss: Extreme,
-    /// `change` divided by our energy at the start, `None` where that is zero.
+    /// `change` divided by the exact energy at the start; `None` where that is zero.
     pub relative: Option<f64>,
+    /// The exact energy at the start.
     #[serde(skip)]
     pub start: f64,
 }
 
-/// What the laws say of samples; `None` where the columns for it are not given.
+/// The result of the audit; `None` where the columns for it are not given.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Audit {
-    /// The deepest `−v(0,t)`.
+    /// The greatest `−v(0,t)`.
     pub penetration: Option<Extreme>,
     /// The greatest pull of the ground, `−F`.
     pub tension: Option<Extreme>,
@@ -34,47 +37,60 @@ pub(crate) struct Audit {
     pub energy_change: Option<EnergyChange>,
     /// `[P] + 2r [∫ P dt] + ρS L g [t] − ∫ F dt` over all samples, with `P = ρS L h′`.
     pub momentum: Option<f64>,
-    /// How many of our contacts have none in the samples.
+    /// The number of exact contacts without one in the data.
     pub missed: usize,
-    /// How many contacts of the samples are none of ours.
+    /// The number of contacts in the data without an exact one.
     pub invented: usize,
-    /// How many more, of either, are shorter than two steps of the samples.
+    /// The number of further contacts of either kind that are shorter than two steps of the samples.
     pub below_step: usize,
-    /// Times of the run that the samples leave out: before, after, and in holes ten times as long as the median step.
+    /// Times of the run without samples: before the first, after the last, and holes of ten median steps.
     pub not_covered: Vec<[f64; 2]>,
 }
 
-/// What an audit needs of samples: columns in our conventions and units.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Books<'a> {
-    pub times: &'a [f64],
-    /// How many of them are the start, where the ground does not act yet.
-    pub start: usize,
-    pub displacement: Option<&'a [f64]>,
-    /// `F`: the force of the ground, or what is proportional to it.
-    pub force: Option<&'a [f64]>,
-    pub energy: Option<[&'a [f64]; 2]>,
-    pub centre_velocity: Option<&'a [f64]>,
-    /// `ρS L` (or `L`, where forces are per `ρS`), `g` and `r`; `None` where the top is fixed and the ground not alone.
-    pub momentum: Option<[f64; 3]>,
+/// The values of the rod that enter the balance of momentum.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MomentumTerms {
+    /// `ρS L`, or `L` where forces are per `ρS`.
+    pub mass: f64,
+    pub gravity: f64,
+    pub damping: f64,
 }
 
-impl Books<'_> {
-    /// The first sample with the greatest `value` above zero.
-    fn most(&self, value: impl Fn(usize) -> f64) -> Extreme {
+/// The columns that an audit needs, in the conventions and units of the library.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct AuditInput<'a> {
+    pub times: &'a [f64],
+    /// The number of samples at the start, where the ground does not act yet.
+    pub start: usize,
+    pub displacement: Option<&'a [f64]>,
+    /// The force of the ground `F`.
+    pub force: Option<&'a [f64]>,
+    /// The exact energy and that of the data.
+    pub energy: Option<[&'a [f64]; 2]>,
+    pub centre_velocity: Option<&'a [f64]>,
+    /// The terms of the momentum; `None` where the top is fixed, as then the ground does not act alone.
+    pub momentum: Option<MomentumTerms>,
+}
+
+/// Number of median steps without a sample that make a hole.
+const HOLE: f64 = 10.0;
+
+impl AuditInput<'_> {
+    /// Returns the first sample with the greatest `value` above zero.
+    fn greatest(&self, value: impl Fn(usize) -> f64) -> Extreme {
         let none = Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) };
         let all = (self.start..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] });
         all.fold(none, |most, found| if found.value > most.value { found } else { most })
     }
 
-    /// `∫ value dt` by the trapezoidal rule.
+    /// Returns `∫ value dt` by the trapezoidal rule.
     fn integral(&self, value: impl Fn(usize) -> f64) -> f64 {
         (1..self.times.len()).map(|k| (self.times[k] - self.times[k - 1]) * f64::midpoint(value(k - 1), value(k))).sum()
     }
 
-    /// The audit, but for contacts and coverage.
+    /// Computes the audit, but for contacts and coverage.
     ///
-    /// **Source**: (1.5), (1.6) for the contact conditions; `P′ + 2rP = F − ρS L g`; the energy of ours is (3.54).
+    /// **Source**: (1.5), (1.6) for the contact conditions; `P′ + 2rP = F − ρS L g`; (3.54) for the exact energy.
     ///
     /// **Accuracy**: integrals by the trapezoidal rule over the samples.
     pub(super) fn audit(&self) -> Audit {
@@ -83,22 +99,22 @@ impl Books<'_> {
             let last = change(ours.len() - 1);
             EnergyChange {
                 change: last,
-                gain: self.most(change),
-                loss: self.most(|k| -change(k)),
+                gain: self.greatest(change),
+                loss: self.greatest(|k| -change(k)),
                 relative: (ours[0] != 0.0).then(|| last / ours[0].abs()),
                 start: ours[0].abs(),
             }
         });
         let momentum = self.momentum.zip(self.force).zip(self.centre_velocity).and_then(|((rod, force), rate)| {
-            let [mass, gravity, damping] = rod;
             let change = rate.last()? - rate.first()?;
-            let passed = self.times.last()? - self.times.first()?;
+            let duration = self.times.last()? - self.times.first()?;
             let path = self.integral(|k| rate[k]);
-            Some(mass * (change + 2.0 * damping * path + gravity * passed) - self.integral(|k| force[k]))
+            let drawn = change + 2.0 * rod.damping * path + rod.gravity * duration;
+            Some(rod.mass * drawn - self.integral(|k| force[k]))
         });
         Audit {
-            penetration: self.displacement.map(|v| self.most(|k| -v[k])),
-            tension: self.force.map(|force| self.most(|k| -force[k])),
+            penetration: self.displacement.map(|v| self.greatest(|k| -v[k])),
+            tension: self.force.map(|force| self.greatest(|k| -force[k])),
             complementarity: self.displacement.zip(self.force).map(|(v, f)| self.integral(|k| (v[k] * f[k]).abs())),
             energy_change,
             momentum,
@@ -106,19 +122,16 @@ impl Books<'_> {
         }
     }
 
-    /// Times between 0 and `end` that the samples leave out, whose `median` step is known.
+    /// Returns the times between 0 and `end` without samples, whose `median` step is known.
     pub(super) fn not_covered(&self, median: f64, end: f64) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (self.times.first(), self.times.last()) else { return vec![[0.0, end]] };
-        let long = |from: &f64, to: &f64| to - from > HOLE * median;
-        let holes = self.times.windows(2).filter(|pair| long(&pair[0], &pair[1])).map(|pair| [pair[0], pair[1]]);
+        let is_hole = |from: &f64, to: &f64| to - from > HOLE * median;
+        let holes = self.times.windows(2).filter(|pair| is_hole(&pair[0], &pair[1])).map(|pair| [pair[0], pair[1]]);
         let before = (*first > median).then_some([0.0, *first]);
         let after = (end - last > median).then_some([*last, end]);
         before.into_iter().chain(holes).chain(after).collect()
     }
 }
-
-/// So many median steps without a sample are a hole.
-const HOLE: f64 = 10.0;
 
 #[cfg(test)]
 #[path = "tests/audit.rs"]

@@ -1,15 +1,14 @@
-//! From data to a report: what may be said of them, the run that they call for, and what comes of it.
+//! The comparison of data with an exact history: options are checked, the run is planned and solved, files are compared.
 
-use super::agree::Agreement;
+use super::agreement::Agreement;
 use super::data::{DataError, Source};
+use super::diagnosis::Diagnosis;
 use super::fit::{Fit, FitError};
-use super::limit::{Limit, Order, Outcome, orders, outcomes};
-use super::map::{Map, MapError};
+use super::limit::{Limit, LimitError, Order, Outcome, orders, outcomes};
+use super::map::{ColumnMap, Conversions, MapError};
 use super::options::Options;
-use super::ours::Ours;
+use super::reference::Reference;
 use super::samples::Samples;
-use super::unfitted::Judgement;
-use super::verdict::judged;
 use dalembert::Error;
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
@@ -17,7 +16,7 @@ use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
 use dalembert::solve::{Numbers, Observer, Plan, Question, TypedHistory};
 
-/// Data that cannot be compared, and why; the message says what was found and what was expected.
+/// The reason why data cannot be compared; the message says what was found and what was expected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each case is described by its message")]
 pub enum CompareError {
@@ -35,11 +34,11 @@ pub enum CompareError {
     #[error("{file}: {error}")]
     Fit { file: String, error: FitError },
     #[error(transparent)]
-    History(#[from] Error),
+    TypedHistory(#[from] Error),
 }
 
 impl CompareError {
-    /// The key of [`Options`] that mends it.
+    /// Returns the key of [`Options`] that would correct it.
     pub fn key(&self) -> Option<&'static str> {
         match self {
             CompareError::Map { error: MapError::NoTime { .. } | MapError::TwoTimes, .. } => Some("dt"),
@@ -52,7 +51,7 @@ impl CompareError {
 }
 
 impl Options {
-    /// Refuses what cannot be meant of `count` sources.
+    /// Checks the options for `count` sources.
     fn check(&self, count: usize) -> Result<(), CompareError> {
         let refuse = |key, found: String, expected: String| Err(CompareError::Option { key, found, expected });
         if !self.widths.is_empty() && self.widths.len() != count {
@@ -72,7 +71,8 @@ impl Options {
         Ok(())
     }
 
-    /// How far the data should go: `to`, or the end of the scene's own run, where that is a time or soon found.
+    /// Returns the time to which the data should go: `to`, or the end of the run of the scene, where that is a time or
+    /// quickly found.
     fn until(&self, problem: &Problem) -> Option<f64> {
         match (&self.to, &problem.run) {
             (Some(to), _) => Some(to.to_f64()),
@@ -84,19 +84,20 @@ impl Options {
         }
     }
 
+    /// Reads the samples of a source.
     fn samples(&self, source: Source, length: f64, units: &Units) -> Result<Samples, CompareError> {
         let of = |number: &Option<Number>| number.as_ref().map_or(0.0, Number::to_f64);
         let counted = self.dt.is_some();
         let sized = source.head.is_sized;
         let guess = (sized && self.map.is_none() && !counted && source.head.names.is_empty() && source.head.width > 3)
             .then_some(PLAIN);
-        let map =
-            Map::of(guess.or(self.map.as_deref()), &source.head.names, source.head.width, counted).and_then(|map| {
+        let map = ColumnMap::new(guess.or(self.map.as_deref()), &source.head.names, source.head.width, counted)
+            .and_then(|map| {
                 let names = if self.map.is_none() { source.head.names.as_slice() } else { &[] };
-                let (conversions, converted) = map.conversions(names, units)?;
-                Ok((map, conversions, converted))
+                let conversions = map.conversions(names, units)?;
+                Ok((map, conversions))
             });
-        let (map, conversions, converted) = map.map_err(|error| {
+        let (map, Conversions { of_columns, remark }) = map.map_err(|error| {
             let error = match (error, source.head.misnamed) {
                 (MapError::NoNames, Some(found)) => MapError::Names { found, expected: source.head.width },
                 (error, _) => error,
@@ -106,57 +107,73 @@ impl Options {
         let clock = counted.then(|| (of(&self.t0), of(&self.dt)));
         let places: Vec<usize> = map.columns.iter().map(|(_, place)| *place).collect();
         let mut columns = source.columns(&places, map.place(Quantity::Side))?;
-        for (values, conversion) in columns.values.iter_mut().zip(conversions) {
+        for (values, conversion) in columns.values.iter_mut().zip(of_columns) {
             values.iter_mut().for_each(|value| *value = conversion.apply(*value));
         }
-        let mut samples = Samples::of(columns, &map, clock, of(&self.shift), length)?;
-        samples.notes.extend((!converted.is_empty()).then(|| format!("units: {converted}")));
+        let mut samples = Samples::new(columns, &map, clock, of(&self.shift), length)?;
+        samples.notes.extend((!remark.is_empty()).then(|| format!("units: {remark}")));
         samples.notes.extend(sized.then(|| "the first line holds the numbers of rows and columns: skipped".into()));
         samples.notes.extend(guess.map(|guess| format!("the columns have no names: taken as {guess}")));
         Ok(samples)
     }
 }
 
-/// Data that are read, and the run that they call for.
+/// Data that are read, and the plan of the run that they need.
 #[derive(Debug)]
 pub struct Prepared {
     problem: Problem,
-    /// What the run will be.
+    /// The plan of the run.
     pub plan: Plan,
-    data: Vec<(String, Samples)>,
+    data: Vec<NamedSamples>,
+    /// The time to which the data should go.
     until: Option<f64>,
     options: Options,
 }
 
-/// What a comparison has found: a table, JSON, and samples beside ours.
+/// The samples of a source, with its name.
+#[derive(Debug)]
+struct NamedSamples {
+    file: String,
+    samples: Samples,
+}
+
+/// The result of a comparison, as a table, as JSON, and as samples beside the exact values.
 #[derive(Debug)]
 pub struct Comparison {
     /// One for each source, in their order.
     pub files: Vec<ComparedFile>,
     pub(crate) orders: Vec<Order>,
-    /// Those of our own run.
+    /// The warnings of the exact run.
     pub warnings: Vec<Warning>,
 }
 
-/// One source beside our history.
+/// A source beside the exact history.
 #[derive(Debug)]
 pub struct ComparedFile {
+    /// The name of the source.
     pub file: String,
+    /// The samples beside the exact values.
     pub agreement: Agreement,
-    pub(crate) judgement: Judgement,
-    /// The values that explain it best, and what comes of it with them.
-    pub(crate) fit: Option<(Fit, Agreement)>,
+    pub(crate) diagnosis: Diagnosis,
+    pub(crate) fit: Option<FittedFile>,
 }
 
-/// What the columns of a file without names are taken for that begins with their number, as Siconos' own are.
+/// A fit, and the samples beside the history with the fitted values.
+#[derive(Debug)]
+pub(crate) struct FittedFile {
+    pub(crate) fit: Fit,
+    pub(crate) agreement: Agreement,
+}
+
+/// The map of a file without names that begins with the number of its columns, as those of Siconos do.
 const PLAIN: &str = "t=0,u=1,v=2,force=3";
-/// A run of more impacts is not solved to see whether data break off before its end.
+/// Largest number of impacts of a run that is solved to find its end.
 const MOST_IMPACTS: u32 = 1000;
-/// Data that go so many times as far as the scene's own run are in another unit of time.
+/// Ratio of the times of data to the run of the scene from which on they are in another unit of time.
 const FAR: f64 = 100.0;
 
-/// Where the scene's own run ends. A run of impacts is solved for that only where the data go on for more than [`FAR`]
-/// round trips for each of them; hops may be shorter than a round trip, and then data that are too long are not
+/// Returns the end of the run of the scene. A run of impacts is solved for it only where the data go on for more than
+/// [`FAR`] round trips for each impact; hops may be shorter than a round trip, and then data that are too long are not
 /// refused.
 fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     match &problem.run {
@@ -166,7 +183,7 @@ fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
     }
 }
 
-/// What times may be in that go so many times as far as the run.
+/// Returns the unit in which times may be that go `times` as far as the run.
 fn unit_of_time(times: f64) -> &'static str {
     match (times.log10() / 3.0).round() {
         ..=1.0 => "milliseconds",
@@ -176,8 +193,8 @@ fn unit_of_time(times: f64) -> &'static str {
 }
 
 impl Prepared {
-    /// Reads `sources`, which are to be compared with `problem` in its `units`, solved in doubles to `accuracy`. It is
-    /// followed as far as its own run and the data go.
+    /// Reads `sources`, to be compared with `problem` in its `units`, solved in doubles to `accuracy` as far as its own
+    /// run and the data go.
     ///
     /// **Errors**: [`CompareError`].
     pub fn new(
@@ -189,10 +206,14 @@ impl Prepared {
     ) -> Result<Self, CompareError> {
         options.check(sources.len())?;
         let rod = Parameters::<f64>::of(problem, &())?;
-        let read = |source: Source| Ok((source.file.clone(), options.samples(source, rod.length, units)?));
+        let read = |source: Source| {
+            let file = source.file.clone();
+            Ok(NamedSamples { file, samples: options.samples(source, rod.length, units)? })
+        };
         let data = sources.into_iter().map(read).collect::<Result<Vec<_>, CompareError>>()?;
-        let last = data.iter().filter_map(|(_, samples)| samples.grid.times.last()).fold(0.0, |a: f64, b| a.max(*b));
-        for (file, samples) in &data {
+        let ends = data.iter().filter_map(|data| data.samples.grid.times.last());
+        let last = ends.fold(0.0, |a: f64, b| a.max(*b));
+        for NamedSamples { file, samples } in &data {
             let last = samples.grid.times.last().copied().unwrap_or(0.0);
             let end = own_end(problem, rod.round_trip(), last);
             if let Some(end) = end.filter(|end| *end > 0.0 && last > FAR * end) {
@@ -218,20 +239,19 @@ impl Prepared {
         let Prepared { problem, plan, data, until, options } = self;
         let history = TypedHistory::<f64>::solve(&problem, &plan, observer)?;
         let mut files = Vec::new();
-        for (file, samples) in data {
-            let ours = Ours::of(&history)?;
+        for NamedSamples { file, samples } in data {
+            let reference = Reference::new(&history)?;
             let again = (!options.fit.is_empty()).then(|| samples.clone());
-            let agreement = Agreement::of(&ours, samples, &options, until)?;
-            let judgement = judged(&ours, &agreement)?;
+            let agreement = Agreement::new(&reference, samples, &options, until)?;
+            let diagnosis = Diagnosis::new(&reference, &agreement)?;
             let mut fit = None;
             if let Some(samples) = again {
-                let found = Fit::of(&ours, &agreement, &options.fit)?;
+                let found = Fit::new(&reference, &agreement, &options.fit)?;
                 let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
-                let ours = Ours::of(&found.history)?;
-                let then = Agreement::of(&ours, samples, &options, until)?;
-                fit = Some((found, then));
+                let agreement = Agreement::new(&Reference::new(&found.history)?, samples, &options, until)?;
+                fit = Some(FittedFile { fit: found, agreement });
             }
-            files.push(ComparedFile { file, agreement, judgement, fit });
+            files.push(ComparedFile { file, agreement, diagnosis, fit });
         }
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
         let widths: Vec<f64> = match options.widths.as_slice() {
@@ -244,24 +264,17 @@ impl Prepared {
 }
 
 impl Comparison {
-    /// What comes of `limits`, for each source. A run that breaks off before the end of that of the scene fails.
+    /// Checks `limits` for each source. A run that breaks off before the end of the run of the scene fails.
     ///
-    /// **Errors**: what the data do not have.
-    pub fn outcomes(&self, limits: &[Limit]) -> Result<Vec<Outcome>, String> {
+    /// **Errors**: [`LimitError`] for a bound of something that the data do not have.
+    pub fn outcomes(&self, limits: &[Limit]) -> Result<Vec<Outcome>, LimitError> {
         let files: Vec<_> = self.files.iter().map(|file| (file.file.as_str(), &file.agreement)).collect();
         outcomes(&files, &self.orders, limits)
     }
 }
 
-impl std::fmt::Display for Outcome {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: expected {}", self.file, self.expected)?;
-        self.failure.iter().try_for_each(|found| write!(f, ", found {found}"))
-    }
-}
-
 impl ComparedFile {
-    /// Every sample, by name: `t`, `x` of a field, and for each quantity ours and theirs.
+    /// Returns every column by name: `t`, `x` of a field, and for each quantity the exact values and the data.
     pub fn columns(&self) -> impl Iterator<Item = (String, &[f64])> {
         let Agreement { grid, quantities, .. } = &self.agreement;
         let own = [("t", Some(&grid.times)), ("x", grid.points.as_ref())];

@@ -2,33 +2,37 @@
 
 use serde::Serialize;
 
-use super::agree::Agreement;
-use super::model::{Model, solved};
-use super::norms::{Compared, Grid};
-use super::ours::Ours;
+use super::agreement::Agreement;
+use super::model::{Model, derivatives, solve_beyond};
+use super::norms::{ComparedColumn, Grid};
+use super::reference::Reference;
 use dalembert::Error;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::Quantity;
 use dalembert::solve::TypedHistory;
 
+/// A value of the scene as it was fitted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct FittedValue {
     pub(crate) name: String,
+    /// The value in the scene.
     pub(crate) scene: f64,
     pub(crate) value: f64,
-    /// Its standard error, from what remains.
+    /// The standard error, from the residuals.
     pub(crate) error: f64,
 }
 
+/// The result of a fit.
 #[derive(Debug)]
 pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
+    /// The history with the fitted values.
     pub(crate) history: TypedHistory<f64>,
 }
 
-/// Why values cannot be fitted.
+/// The reason why values cannot be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each case is described by its message")]
 pub enum FitError {
@@ -43,95 +47,197 @@ pub enum FitError {
     NotTold(String),
 }
 
-/// So many samples of a column are fitted at most.
+/// Largest number of samples of a column in a fit.
 const SAMPLES: usize = 4000;
-/// So many steps a fit takes at most, in all.
+/// Largest number of steps of a fit, in all stages.
 const STEPS: usize = 20;
-/// The share of a value that difference quotients are taken over: the root of the accuracy of the values.
+/// Share of a value over which a difference quotient is taken: the root of the accuracy of the values.
 const WIDTH: f64 = 1e-6;
 
-/// Residuals of a problem; derivatives are taken of it.
-type Residuals<'a> = &'a dyn Fn(&Problem) -> Option<Vec<f64>>;
+/// The residuals of a stage of a fit, by columns; NaN for samples that are left out.
+trait Residuals {
+    /// Returns the residuals in `problem`; `None` where that has no answer.
+    fn residuals(&self, problem: &Problem) -> Option<Vec<f64>>;
 
-fn varied(problem: &Problem, parameters: &[Parameter], values: &[f64]) -> Option<Problem> {
-    let set = |problem: Problem, (parameter, value): (&Parameter, &f64)| parameter.set(&problem, *value).ok();
-    parameters.iter().zip(values).try_fold(problem.clone(), set)
+    /// Returns the derivatives of the residuals by a value of the problem of `history`; `None` where the library has
+    /// none.
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>>;
+}
+
+/// The residuals of the first two stages: those of a [`Model`].
+impl Residuals for Model<'_> {
+    fn residuals(&self, problem: &Problem) -> Option<Vec<f64>> {
+        Some(self.errors(&self.values(problem, |time| time).ok()?).concat())
+    }
+
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>> {
+        let slopes = self.derivatives(history, by)?.concat();
+        Some(slopes.into_iter().map(|slope| -slope).collect())
+    }
+}
+
+/// The residuals of the last stage: every `stride`-th sample that is more than two steps away from a jump.
+struct Pointwise<'a> {
+    columns: &'a [ComparedColumn],
+    grid: Grid,
+    stride: usize,
+    step: f64,
+    /// The weight of each column.
+    weights: Vec<f64>,
+}
+
+impl<'a> Pointwise<'a> {
+    fn new(agreement: &'a Agreement) -> Self {
+        let (times, columns) = (&agreement.grid.times, agreement.quantities.as_slice());
+        let stride = times.len().div_ceil(SAMPLES);
+        let grid = Grid::new(times.iter().copied().step_by(stride).collect(), None);
+        Pointwise { columns, grid, stride, step: agreement.step, weights: vec![1.0; columns.len()] }
+    }
+
+    fn quantities(&self) -> Vec<Quantity> {
+        self.columns.iter().map(|column| column.what).collect()
+    }
+
+    fn last(&self) -> f64 {
+        self.grid.times.last().copied().unwrap_or_default()
+    }
+
+    /// Returns the residuals of each column.
+    fn by_column(&self, problem: &Problem) -> Result<Vec<Vec<f64>>, Error> {
+        let history = solve_beyond(problem, self.last())?;
+        let reference = Reference::new(&history)?;
+        let all = reference.values(&self.quantities(), &self.grid)?;
+        let residuals = |((column, values), weight): ((&ComparedColumn, Vec<f64>), &f64)| {
+            let rays = reference.nearest_rays(column.what, &self.grid);
+            let residual = |k: usize| match rays.get(k) {
+                Some(ray) if (ray - self.grid.times[k]).abs() <= 2.0 * self.step => f64::NAN,
+                _ => (column.theirs[k * self.stride] - values[k]) / weight,
+            };
+            (0..self.grid.times.len()).map(residual).collect()
+        };
+        Ok(self.columns.iter().zip(all).zip(&self.weights).map(residuals).collect())
+    }
+
+    /// Returns the same residuals, those of each column divided by their root mean square in `problem`.
+    fn weighted(self, problem: &Problem) -> Result<Self, Error> {
+        let weights = self.by_column(problem)?.iter().map(|column| root_mean_square(column)).collect();
+        Ok(Pointwise { weights, ..self })
+    }
+}
+
+impl Residuals for Pointwise<'_> {
+    fn residuals(&self, problem: &Problem) -> Option<Vec<f64>> {
+        Some(self.by_column(problem).ok()?.concat())
+    }
+
+    fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<f64>> {
+        let all = derivatives(history, by, &self.quantities(), &self.grid.times)?;
+        let scaled = |(slopes, weight): (Vec<f64>, &f64)| slopes.into_iter().map(|slope| -slope / weight).collect();
+        Some(all.into_iter().zip(&self.weights).map(scaled).collect::<Vec<Vec<f64>>>().concat())
+    }
+}
+
+/// Returns the root of the mean square of the values that are numbers; 1 where it is zero.
+fn root_mean_square(values: &[f64]) -> f64 {
+    let numbers = values.iter().filter(|value| !value.is_nan());
+    let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
+    if count > 0.0 && sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+}
+
+/// The unknowns of a fit.
+struct Unknowns<'a> {
+    problem: &'a Problem,
+    parameters: &'a [Parameter],
+    /// The natural size of each value.
+    sizes: Vec<f64>,
+    columns: usize,
+    /// The end of the data.
+    last: f64,
+}
+
+impl Unknowns<'_> {
+    fn problem_with(&self, values: &[f64]) -> Option<Problem> {
+        let set = |problem: Problem, (parameter, value): (&Parameter, &f64)| parameter.set(&problem, *value).ok();
+        self.parameters.iter().zip(values).try_fold(self.problem.clone(), set)
+    }
+
+    /// Returns the derivatives of the residuals, which are `now`, by each unknown: those of the library where it has
+    /// them, otherwise difference quotients. A sample that is left out on either side has the quotient zero.
+    fn slopes(&self, stage: &dyn Residuals, values: &[f64], now: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let history = solve_beyond(&self.problem_with(values)?, self.last).ok();
+        let quotient = |i: usize| {
+            let mut next = values.to_vec();
+            next[i] += WIDTH * self.sizes[i];
+            let (width, next) = (next[i] - values[i], stage.residuals(&self.problem_with(&next)?)?);
+            let slope = |(now, next): (&f64, &f64)| if (next - now).is_nan() { 0.0 } else { (next - now) / width };
+            Some(now.iter().zip(&next).map(slope).collect())
+        };
+        let slope = |i: usize| {
+            let exact = history.as_ref().and_then(|history| stage.derivatives(history, self.parameters[i]));
+            exact.or_else(|| quotient(i))
+        };
+        (0..values.len()).map(slope).collect()
+    }
+
+    /// Minimises the residuals of a stage from `values` in at most `steps` steps.
+    fn minimize(&self, stage: &dyn Residuals, values: &[f64], steps: usize) -> Option<LeastSquares> {
+        let residuals = |values: &[f64]| stage.residuals(&self.problem_with(values)?);
+        let slopes = |values: &[f64], now: &[f64]| self.slopes(stage, values, now);
+        least_squares(values, &self.sizes, self.columns, steps, residuals, slopes)
+    }
 }
 
 impl Fit {
-    /// The values of `parameters` that explain `columns` best, from those of the problem of `ours`.
+    /// Finds the values of `parameters` that explain the data best, from those of the problem of `reference`.
     ///
-    /// **Source**: Levenberg and Marquardt's method in three stages, the residuals of the first two as in `model`: up
-    /// to the second impact, then over all times, then sample by sample where no jump is within two steps. In the last
-    /// stage each column weighs by what remained of it.
-    pub(super) fn of(
-        ours: &Ours<'_>,
+    /// **Source**: the method of Levenberg and Marquardt in three stages: with the signals of a [`Model`] up to the
+    /// second impact, then over all times, then sample by sample where no jump is within two steps. In the last stage
+    /// each column is divided by the root mean square of its residuals.
+    pub(super) fn new(
+        reference: &Reference<'_>,
         agreement: &Agreement,
         parameters: &[Parameter],
     ) -> Result<Result<Self, FitError>, Error> {
-        let problem = ours.history.problem();
+        let history = reference.history;
+        let problem = history.problem();
         if let Some(absent) = parameters.iter().find(|parameter| parameter.value(problem).is_none()) {
             return Ok(Err(FitError::Absent(absent.to_string())));
         }
         let start: Vec<f64> = parameters.iter().filter_map(|parameter| parameter.value(problem)).collect();
-        let (history, grid, columns) = (ours.history, &agreement.grid, &agreement.quantities);
-        let samples = grid.times.len() * columns.len();
+        let columns = agreement.quantities.len();
+        let samples = agreement.grid.times.len() * columns;
         if samples <= parameters.len() {
             return Ok(Err(FitError::TooFew { samples, unknowns: parameters.len() }));
         }
         let scales = history.scales();
-        let scale = |(parameter, value): (&Parameter, &f64)| match parameter {
+        let size = |(parameter, value): (&Parameter, &f64)| match parameter {
             _ if *value != 0.0 => value.abs(),
             Parameter::Damping => 0.01 / scales.time,
             Parameter::Gravity => scales.velocity / scales.time,
             Parameter::Gap => scales.velocity * scales.time,
             _ => scales.velocity,
         };
-        let sizes: Vec<f64> = parameters.iter().zip(&start).map(scale).collect();
+        let sizes = parameters.iter().zip(&start).map(size).collect();
+        let last = agreement.grid.times.last().copied().unwrap_or_default();
+        let unknowns = Unknowns { problem, parameters, sizes, columns, last };
         let release = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
         let second = history.events().iter().map(|event| event.t).find(|time| *time > release);
-        let last = grid.times.last().copied().unwrap_or_default();
         let (mut values, mut left) = (start.clone(), STEPS);
-        let run = |values: &[f64], most: usize, residuals: Residuals<'_>| {
-            let of = |values: &[f64]| residuals(&varied(problem, parameters, values)?);
-            // Difference quotients of our own runs. What is left out on either side of one has none.
-            let linear = |values: &[f64], now: &[f64]| {
-                let by = |i: usize| {
-                    let mut next = values.to_vec();
-                    next[i] += WIDTH * sizes[i];
-                    let (width, next) = (next[i] - values[i], of(&next)?);
-                    let slope =
-                        |(now, next): (&f64, &f64)| if (next - now).is_nan() { 0.0 } else { (next - now) / width };
-                    Some(now.iter().zip(&next).map(slope).collect())
-                };
-                (0..values.len()).map(by).collect()
-            };
-            least(values, &sizes, (most, columns.len()), of, linear)
-        };
-        // Up to the second impact, and over all times.
         for until in [second.unwrap_or(last), last] {
-            let model = Model::of(ours, agreement, until, SAMPLES / 10)?;
-            let residuals = |problem: &Problem| Some(model.errors(&model.values(problem, |time| time).ok()?).concat());
-            // The start may be far from the data; half a dozen steps bring it near. What only later times or the
-            // samples one by one tell is left for them.
-            if let Some(found) = run(&values, left.min(STEPS / 3), &residuals) {
+            let model = Model::new(reference, agreement, until, SAMPLES / 10)?;
+            // Half a dozen steps bring a start that is far from the data near them. Values that only later times or
+            // single samples determine are left to the next stage.
+            if let Some(found) = unknowns.minimize(&model, &values, left.min(STEPS / 3)) {
                 (values, left) = (found.values, left - found.steps);
             }
         }
-        let near = varied(problem, parameters, &values).unwrap_or_else(|| problem.clone());
-        let stride = grid.times.len().div_ceil(SAMPLES);
-        let weights = pointwise(&near, columns, &grid.times, (stride, agreement.step), None)?;
-        let weights: Vec<f64> = weights.iter().map(|column| rms(column)).collect();
-        let residuals = |problem: &Problem| {
-            let all = pointwise(problem, columns, &grid.times, (stride, agreement.step), Some(&weights)).ok()?;
-            Some(all.concat())
-        };
-        let Some(Least { values, errors, steps, settled }) = run(&values, left, &residuals) else {
+        let near = unknowns.problem_with(&values).unwrap_or_else(|| problem.clone());
+        let stage = Pointwise::new(agreement).weighted(&near)?;
+        let Some(LeastSquares { values, errors, steps, settled }) = unknowns.minimize(&stage, &values, left) else {
             let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
             return Ok(Err(FitError::NotTold(names.join(", "))));
         };
-        let problem = varied(problem, parameters, &values).unwrap_or(near);
-        let history = solved(&problem, last)?;
+        let history = solve_beyond(&unknowns.problem_with(&values).unwrap_or(near), last)?;
         let fitted = |k: usize| FittedValue {
             name: parameters[k].to_string(),
             scene: start[k],
@@ -143,41 +249,9 @@ impl Fit {
     }
 }
 
-fn rms(values: &[f64]) -> f64 {
-    let told = values.iter().filter(|value| !value.is_nan());
-    let (sum, count) = told.fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
-    if count > 0.0 && sum > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
-}
-
-/// `theirs − ours` of each column at every `stride`-th sample, divided by its weight; no number within two steps of a
-/// jump.
-fn pointwise(
-    problem: &Problem,
-    columns: &[Compared],
-    times: &[f64],
-    (stride, step): (usize, f64),
-    weights: Option<&[f64]>,
-) -> Result<Vec<Vec<f64>>, Error> {
-    let history = solved(problem, times.last().copied().unwrap_or_default())?;
-    let ours = Ours::of(&history)?;
-    let kept: Vec<f64> = times.iter().copied().step_by(stride).collect();
-    let grid = Grid::new(kept, None);
-    let whats: Vec<Quantity> = columns.iter().map(|column| column.what).collect();
-    let all = ours.values(&whats, &grid)?;
-    let of = |((column, values), place): ((&Compared, Vec<f64>), usize)| {
-        let weight = weights.map_or(1.0, |weights| weights[place]);
-        let passing = ours.passing(column.what, &grid);
-        let error = |k: usize| match passing.get(k) {
-            Some(jump) if (jump - grid.times[k]).abs() <= 2.0 * step => f64::NAN,
-            _ => (column.theirs[k * stride] - values[k]) / weight,
-        };
-        (0..grid.times.len()).map(error).collect()
-    };
-    Ok(columns.iter().zip(all).zip(0..).map(of).collect())
-}
-
+/// The result of a minimisation.
 #[derive(Clone, Debug)]
-struct Least {
+struct LeastSquares {
     values: Vec<f64>,
     errors: Vec<f64>,
     steps: usize,
@@ -185,14 +259,14 @@ struct Least {
     settled: bool,
 }
 
-/// Derivatives are known to about 1e-6: what is left of the square of one, when those before it are taken out, is
-/// rounding below this share.
-const TOLD: f64 = 1e-11;
+/// Share of the square of a derivative below which the part that is independent of the derivatives before it is
+/// rounding; derivatives are known to about 1e-6.
+const INDEPENDENT: f64 = 1e-11;
 
-/// Stretches of samples whose errors are taken for independent.
+/// Number of stretches of samples whose errors are taken for independent.
 const BATCHES: usize = 20;
 
-/// Solves `A x = b` of a symmetric positive matrix, by Cholesky's decomposition; `None` where it is none.
+/// Solves `A x = b` with a symmetric positive matrix by Cholesky's decomposition; `None` for other matrices.
 fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     let count = right.len();
     let mut lower = vec![vec![0.0; count]; count];
@@ -201,7 +275,7 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
             let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
             let rest: f64 = matrix[i][j] - sum;
             lower[i][j] = match i == j {
-                true if rest > TOLD * matrix[i][i] => rest.sqrt(),
+                true if rest > INDEPENDENT * matrix[i][i] => rest.sqrt(),
                 true => return None,
                 false => rest / lower[j][j],
             };
@@ -217,21 +291,21 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     Some(x)
 }
 
-/// The values that leave the least of `Σ r²`, from `start` in at most `most` steps, by Levenberg and Marquardt's method
-/// in unknowns divided by `scales`. `residuals` is `None` where there is no answer, and `linear` gives their
-/// derivatives. What is no number is left out. `None` where the residuals do not tell the unknowns apart. They are
-/// those of so many columns, one after the other.
+/// Minimises `Σ r²` from `start` in at most `most` steps, by the method of Levenberg and Marquardt in unknowns divided
+/// by `scales`. `residuals` returns those of so many `columns`, one after the other, or `None` where there is no answer,
+/// and `linear` their derivatives; NaN is left out. `None` where the residuals do not determine the unknowns.
 ///
 /// **Accuracy**: a standard error is the greater of two: that of independent residuals of one size, from the normal
-/// matrix, and that of the means of [`BATCHES`] stretches of samples, which is right where neighbours are off alike, as
-/// by what a scheme does wrong. Both are the same for noise.
-fn least(
+/// matrix, and that of the means of [`BATCHES`] stretches of samples, which is right where neighbours have the same
+/// error, as the error of a scheme. Both are the same for noise.
+fn least_squares(
     start: &[f64],
     scales: &[f64],
-    (most, columns): (usize, usize),
+    columns: usize,
+    most: usize,
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
     linear: impl Fn(&[f64], &[f64]) -> Option<Vec<Vec<f64>>>,
-) -> Option<Least> {
+) -> Option<LeastSquares> {
     let square = |r: &[f64]| r.iter().filter(|r| !r.is_nan()).map(|r| r * r).sum::<f64>();
     let count = start.len();
     let mut values = start.to_vec();
@@ -241,9 +315,9 @@ fn least(
     let mut slopes = vec![vec![0.0; now.len()]; count];
     while steps < most && !settled {
         slopes = linear(&values, &now)?;
-        let told = |pair: &(&f64, &f64)| !pair.1.is_nan();
-        let dot =
-            |i: usize, r: &[f64]| slopes[i].iter().zip(r).filter(told).map(|(a, b)| a * b).sum::<f64>() * scales[i];
+        // Slopes at samples that are left out do not count either.
+        let kept: Vec<usize> = (0..now.len()).filter(|k| !now[*k].is_nan()).collect();
+        let dot = |i: usize, r: &[f64]| kept.iter().map(|k| slopes[i][*k] * r[*k]).sum::<f64>() * scales[i];
         let row = |i: usize| (0..count).map(|j| dot(i, &slopes[j]) * scales[j]).collect();
         normal = (0..count).map(row).collect();
         let right: Vec<f64> = (0..count).map(|i| -dot(i, &now)).collect();
@@ -255,14 +329,14 @@ fn least(
             (0..count).for_each(|i| damped[i][i] *= 1.0 + damping);
             let step = solve(&damped, &right)?;
             let next: Vec<f64> = (0..count).map(|i| values[i] + step[i] * scales[i]).collect();
-            let small = step.iter().all(|step| step.abs() <= 1e-12);
+            let is_small = step.iter().all(|step| step.abs() <= 1e-12);
             match residuals(&next) {
                 Some(tried) if square(&tried) <= square(&now) => {
-                    (values, now, damping, settled) = (next, tried, damping / 10.0, small);
+                    (values, now, damping, settled) = (next, tried, damping / 10.0, is_small);
                     break;
                 }
-                // No better is to be had.
-                _ if small || tries > 12 => {
+                // No step is better.
+                _ if is_small || tries > 12 => {
                     settled = true;
                     break;
                 }
@@ -270,14 +344,14 @@ fn least(
             }
         }
     }
-    let told = now.iter().filter(|r| !r.is_nan()).count();
-    let variance = square(&now) / told.saturating_sub(count).max(1) as f64;
+    let kept = now.iter().filter(|r| !r.is_nan()).count();
+    let variance = square(&now) / kept.saturating_sub(count).max(1) as f64;
     let samples = (now.len() / columns).max(1);
     let batches = BATCHES.min(samples);
     let error = |i: usize| {
         let unit: Vec<f64> = (0..count).map(|j| f64::from(u8::from(i == j))).collect();
         let row = solve(&normal, &unit)?;
-        // What each residual adds to the value, by stretches. Together they add nothing.
+        // The part of the value that each stretch of residuals adds. All together add nothing.
         let mut sums = vec![0.0; batches];
         for (k, residual) in now.iter().enumerate().filter(|(_, residual)| !residual.is_nan()) {
             let slope: f64 = (0..count).map(|j| row[j] * slopes[j][k] * scales[j]).sum();
@@ -287,7 +361,7 @@ fn least(
         Some((variance * row[i]).max(together).sqrt() * scales[i])
     };
     let errors = (0..count).map(error).collect::<Option<_>>()?;
-    Some(Least { values, errors, steps, settled })
+    Some(LeastSquares { values, errors, steps, settled })
 }
 
 #[cfg(test)]

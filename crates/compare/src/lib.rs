@@ -1,4 +1,8 @@
-//! Other people's data held against a history: the same quantities at the same times, and what follows from them.
+//! Comparison of data from other programs with the exact history of a rod.
+//!
+//! [`Prepared`] reads [`data::Source`]s and plans the run that they need, [`Prepared::compare`] solves it, and a
+//! [`Comparison`] reports norms, contacts, an audit by the laws of motion and the causes of what differs, as a table or
+//! as JSON. A [`Limit`] bounds any of these in a test.
 //!
 //! ```
 //! use dalembert_compare::data::Source;
@@ -11,7 +15,7 @@
 //! let times = vec![0.5, 1.0, 1.5];
 //! let strain = times.iter().map(|t| -1.01 * (3.0 + t)).collect();
 //! let names = vec!["t".to_string(), "strain".to_string()];
-//! let source = Source::arrays("mine", names, vec![Ok(times), Ok(strain)]);
+//! let source = Source::from_columns("mine", names, vec![Ok(times), Ok(strain)]);
 //! let units = Units::of(&rod, UnitSystem::Si);
 //! let prepared = Prepared::new(&rod, &units, None, vec![source], &Options::default())?;
 //! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;
@@ -21,31 +25,31 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod agree;
+mod agreement;
 pub mod aligned;
 mod audit;
 mod comparison;
+mod contacts;
 pub mod data;
+mod diagnosis;
 mod fit;
 mod limit;
 mod map;
 mod model;
 mod norms;
 mod options;
-mod ours;
+mod reference;
 mod report;
 mod samples;
-mod touch;
-mod unfitted;
-mod verdict;
+mod spring;
+mod symptoms;
 mod wording;
 
-pub use agree::{Agreement, Coverage};
+pub use agreement::Agreement;
 pub use comparison::{CompareError, ComparedFile, Comparison, Prepared};
 pub use fit::FitError;
-pub use limit::{Limit, Outcome};
+pub use limit::{Limit, LimitError, Outcome};
 pub use map::MapError;
-pub use norms::Compared;
-pub use norms::{Grid, norms, order};
+pub use norms::{ComparedColumn, Grid};
 pub use options::{Axis, Compression, Options, Origin};
 pub use report::LEGEND;

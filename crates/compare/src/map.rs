@@ -1,8 +1,8 @@
-//! Which column of a file is which quantity.
+//! The assignment of the columns of a file to quantities.
 
 use dalembert::quantity::{Conversion, Measure, Needs, Quantity, Units};
 
-/// What of `field`, or over time, is called so and can be compared.
+/// Returns the quantity of this name that can be compared, along the rod for a `field`, otherwise over time.
 pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
     let needs = if field { Needs::PointAndTime } else { Needs::Time };
     let plain = || name.to_lowercase().replace([' ', '-'], "_");
@@ -10,15 +10,25 @@ pub(crate) fn compared(name: &str, field: bool) -> Option<Quantity> {
     found.filter(|quantity| !matches!(quantity, Quantity::Time | Quantity::Side | Quantity::Point))
 }
 
+/// The columns of a source by their quantities.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Map {
-    /// The columns that are read: first those of [`PLACES`], but for times that are counted, then what is compared.
+pub(crate) struct ColumnMap {
+    /// The columns that are read: first those of [`PLACES`], but for times that are counted, then those compared.
     pub(crate) columns: Vec<(Quantity, usize)>,
-    /// The names of columns that nothing is called by.
+    /// The names of columns that are not used.
     pub(crate) unused: Vec<String>,
 }
 
-/// Why the columns of a source cannot be told.
+/// The conversions of columns to the units of a scene.
+#[derive(Debug)]
+pub(crate) struct Conversions {
+    /// One for each column that is read.
+    pub(crate) of_columns: Vec<Conversion>,
+    /// The remark on them in the report.
+    pub(crate) remark: String,
+}
+
+/// The reason why the columns of a source cannot be assigned.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each case is described by its message")]
 pub enum MapError {
@@ -57,11 +67,11 @@ fn known(field: bool) -> String {
     format!("{} (u and v for short)", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Where and when a row is, by the names of the columns that say it.
+/// The names of the columns that give the time, point and side of a row.
 const PLACES: [(Quantity, &[&str]); 3] =
     [(Quantity::Time, &["t", "time"]), (Quantity::Point, &["x", "point"]), (Quantity::Side, &["side"])];
 
-/// The name and the unit of `force [N]`, `t (s)`; `u[0]` is a name.
+/// Returns the name and the unit of `force [N]` or `t (s)`; `u[0]` is a name.
 fn name_and_unit(header: &str) -> (&str, Option<&str>) {
     let bracketed = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
         let (name, unit) = header.strip_suffix(close)?.rsplit_once(open)?;
@@ -70,16 +80,16 @@ fn name_and_unit(header: &str) -> (&str, Option<&str>) {
     bracketed.map_or((header, None), |(name, unit)| (name, Some(unit)))
 }
 
-impl Map {
-    /// The map that `text` asks for, `NAME=COLUMN` separated by commas; without it the names of the columns themselves.
+impl ColumnMap {
+    /// Builds the map that `text` describes, `NAME=COLUMN` separated by commas, or that of the names of the columns.
     /// `counted` says that times come from `dt`.
-    pub(crate) fn of(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {
+    pub(crate) fn new(text: Option<&str>, names: &[String], width: usize, counted: bool) -> Result<Self, MapError> {
         let entries: Vec<(String, usize)> = match text {
             Some(text) => text.split(',').map(|entry| entry_of(entry, names, width)).collect::<Result<_, _>>()?,
             None => names.iter().map(|name| name_and_unit(name).0.to_string()).zip(0..).collect(),
         };
         let is = |name: &str, known: &[&str]| known.contains(&name.to_lowercase().as_str());
-        let mut map = Map { columns: Vec::new(), unused: Vec::new() };
+        let mut map = ColumnMap { columns: Vec::new(), unused: Vec::new() };
         for (what, known) in PLACES {
             let mut found = entries.iter().filter(|(name, _)| is(name, known));
             map.columns.extend(found.next().map(|(_, place)| (what, *place)));
@@ -94,7 +104,7 @@ impl Map {
             let twice = found.is_some_and(|found| map.place(found).is_some());
             match found {
                 Some(quantity) if !twice => map.columns.push((quantity, *place)),
-                // Columns that nobody asked for may be anything; of several of one quantity the first is taken.
+                // Columns without a map may be anything; of several of one quantity the first is taken.
                 _ if text.is_none() => map.unused.push(name.clone()),
                 Some(_) => return Err(MapError::Twice { found: name.clone() }),
                 None => return Err(MapError::Name { found: name.clone(), field }),
@@ -117,10 +127,10 @@ impl Map {
         self.columns.iter().find(|(other, _)| *other == what).map(|(_, place)| *place)
     }
 
-    /// What brings each of the columns to the units of the scene, where its name says that it is in
-    /// another one, and what is to be said of that. A scene without units has its numbers as they are.
-    pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<(Vec<Conversion>, String), MapError> {
-        let (mut all, mut said) = (Vec::new(), Vec::new());
+    /// Returns the conversion of each column to the unit of the scene, by the unit in its name. Numbers of a scene
+    /// without units stay as they are.
+    pub(crate) fn conversions(&self, names: &[String], units: &Units) -> Result<Conversions, MapError> {
+        let (mut all, mut remarks) = (Vec::new(), Vec::new());
         for (quantity, place) in &self.columns {
             let header = names.get(*place).map_or("", String::as_str);
             let (Some(unit), Some(measure)) = (name_and_unit(header).1, quantity.measure()) else {
@@ -130,7 +140,7 @@ impl Map {
             let expected = quantity.unit(units);
             let is_number = measure == Measure::Strain;
             if expected.is_empty() && !is_number {
-                said.push(format!("{header} as it is, the scene having no units"));
+                remarks.push(format!("{header} as it is, the scene having no units"));
                 all.push(Conversion::NONE);
                 continue;
             }
@@ -145,14 +155,15 @@ impl Map {
                 },
             })?;
             if conversion != Conversion::NONE {
-                said.push(format!("{header} in {}", if is_number { "1" } else { expected }));
+                remarks.push(format!("{header} in {}", if is_number { "1" } else { expected }));
             }
             all.push(conversion);
         }
-        Ok((all, said.join(", ")))
+        Ok(Conversions { of_columns: all, remark: remarks.join(", ") })
     }
 }
 
+/// Returns the name and the place of an entry `NAME=COLUMN` of a map.
 fn entry_of(entry: &str, names: &[String], width: usize) -> Result<(String, usize), MapError> {
     let (name, column) = entry.split_once('=').ok_or_else(|| MapError::Form { found: entry.trim().into() })?;
     let (name, column) = (name.trim(), column.trim());

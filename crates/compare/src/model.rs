@@ -1,74 +1,121 @@
-//! What other values of the scene would have given at the times of the data, and the columns that are held against it.
+//! Predictions for other values of the scene at the times of the data, and the columns they are compared with.
 
-use super::agree::Agreement;
-use super::norms::{Compared, Grid};
-use super::ours::Ours;
-use dalembert::Error;
-use dalembert::Side;
+use std::cell::OnceCell;
+
+use super::agreement::Agreement;
+use super::norms::{ComparedColumn, Grid};
+use super::reference::Reference;
+use super::spring::SpringContact;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
 use dalembert::solve::TypedHistory;
+use dalembert::{Error, Number, Side};
 
-/// A column as it is held against a run: itself where it has no jumps, its integral over time where it has them. An
-/// integral does not see how far a front is spread about its time, and changes steadily with the values of the scene.
+/// A column of data as it is compared with a run: the column itself where it has no jumps, otherwise its integral over
+/// time. An integral does not depend on how far a front is spread about its time, and it changes continuously with the
+/// values of the scene.
 #[derive(Debug)]
 pub(super) struct Signal {
-    pub(super) what: Quantity,
-    /// The quantity that the values below are of.
+    /// The quantity of the column.
+    pub(super) column: Quantity,
+    /// The quantity that the signal is compared with: the column or its integral.
     pub(super) model: Quantity,
-    /// Theirs, at the times of the [`Model`].
-    pub(super) theirs: Vec<f64>,
-    pub(super) is_empty: bool,
-    /// What makes it a time: an error of so much is one of a unit of time.
+    /// The data at the times of the [`Model`].
+    pub(super) data: Vec<f64>,
+    /// Whether the column is zero throughout.
+    pub(super) is_zero: bool,
+    /// The change of the signal that counts as one unit of time.
     pub(super) rate: f64,
 }
 
-/// Times and columns of data, with the problem that they are of.
+/// The signals of a data set, with the problem that they belong to.
 #[derive(Debug)]
 pub(super) struct Model<'a> {
     pub(super) problem: &'a Problem,
-    /// `ρS L`, or `L` where forces are per `ρS`.
+    /// The mass of the rod `ρS L`, or `L` where forces are per `ρS`.
     mass: f64,
     pub(super) times: Vec<f64>,
     pub(super) signals: Vec<Signal>,
+    /// The weight of each time in an integral.
     pub(super) weights: Vec<f64>,
     /// The median step of the data.
     pub(super) step: f64,
+    /// The march on a rigid ground.
+    rigid: OnceCell<Option<SpringContact>>,
 }
 
-pub(super) fn solved(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
-    // A rounding further, for times that are as many.
-    problem.to_builder().time(until * (1.0 + 4.0 * f64::EPSILON)).build()?.doubles()
+/// Solves `problem` to a little beyond `until`, so that times next to the end have both sides.
+pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
+    problem.to_builder().time(until.max(f64::MIN_POSITIVE) * (1.0 + 1e-8)).build()?.doubles()
 }
 
-/// `start + ∫ values dt` by the trapezoidal rule.
+/// The distance from a ray, in round trips, at which derivatives are taken, of undamped and of damped rods. On a ray
+/// they are one-sided, and those of damped rods come from runs whose rays are a little apart.
+const RAY_DISTANCE: [f64; 2] = [1e-9, 1e-3];
+
+/// Returns the derivative of each quantity at `times` by a value of the problem, `None` where the library settles none.
+///
+/// **Accuracy**: that of [`TypedHistory::derivatives_at`], at times [`RAY_DISTANCE`] off the rays.
+pub(super) fn derivatives(
+    history: &TypedHistory<f64>,
+    by: Parameter,
+    quantities: &[Quantity],
+    times: &[f64],
+) -> Option<Vec<Vec<f64>>> {
+    let trip = history.scales().time;
+    let is_damped = by == Parameter::Damping || Parameter::Damping.value(history.problem()).is_some_and(|r| r > 0.0);
+    let distance = trip * RAY_DISTANCE[usize::from(is_damped)];
+    let reference = if is_damped { Some(Reference::new(history).ok()?) } else { None };
+    let number = |time: &f64| -> Option<Number> {
+        let before = if *time > distance { time - distance } else { time + distance };
+        let moved = reference.as_ref().map_or(before, |it| it.away_from_rays(*time, distance));
+        format!("{:e}", moved.clamp(0.0, *history.end())).parse().ok()
+    };
+    let times: Vec<Number> = times.iter().map(number).collect::<Option<_>>()?;
+    let rows = history.derivatives_at(by, quantities, &times, &[], Side::Right).ok()?;
+    let column = |place: usize| {
+        let cell = |row: &Vec<Option<dalembert::Derivative<_>>>| {
+            let [left, right] = row.get(place)?.as_ref()?.sides();
+            right.or(left).ok().map(|derivative: &dalembert::Estimate<f64>| *derivative.value())
+        };
+        rows.iter().map(cell).collect()
+    };
+    (0..quantities.len()).map(column).collect()
+}
+
+/// Returns `start + ∫ values dt` at each time by the trapezoidal rule.
 fn integral(times: &[f64], values: &[f64], start: f64) -> Vec<f64> {
-    let mut sum = start;
     let step = |k: usize| (times[k] - times[k - 1]) * f64::midpoint(values[k - 1], values[k]);
-    let sums = (0..times.len()).map(|k| {
-        sum += if k > 0 { step(k) } else { 0.0 };
-        sum
+    let sums = (0..times.len()).scan(start, |sum, k| {
+        *sum += if k > 0 { step(k) } else { 0.0 };
+        Some(*sum)
     });
     sums.collect()
 }
 
 impl<'a> Model<'a> {
-    /// The columns at the samples up to `until`, at most about `most` of them.
-    pub(super) fn of(ours: &Ours<'a>, agreement: &Agreement, until: f64, most: usize) -> Result<Self, Error> {
-        let problem = ours.history.problem();
-        let (history, times, step) = (ours.history, &agreement.grid.times, agreement.step);
+    /// Builds the signals of the samples up to `until`, at about `most` times at most.
+    pub(super) fn new(
+        reference: &Reference<'a>,
+        agreement: &Agreement,
+        until: f64,
+        most: usize,
+    ) -> Result<Self, Error> {
+        let history = reference.history;
+        let problem = history.problem();
+        let (times, step) = (&agreement.grid.times, agreement.step);
         let (speed, trip) = (history.scales().velocity, history.scales().time);
         let wave_speed = Parameter::WaveSpeed.value(problem).unwrap_or(1.0);
-        let [mass, ..] = ours.momentum();
+        let mass = reference.mass();
         let count = times.partition_point(|time| *time <= until);
         let kept: Vec<usize> = (0..count).step_by(count.div_ceil(most).max(1)).collect();
         let mut signals = Vec::new();
-        for Compared { what, ours: own, theirs, .. } in &agreement.quantities {
+        for ComparedColumn { what, ours, theirs, .. } in &agreement.quantities {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
                 Some(Measure::Energy) => mass * speed * speed / trip,
                 Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => {
-                    ours.line() * wave_speed * speed
+                    reference.line_density() * wave_speed * speed
                 }
                 Some(_) => speed,
                 None => continue,
@@ -79,38 +126,47 @@ impl<'a> Model<'a> {
                 Quantity::Force | Quantity::Stress | Quantity::Strain => Quantity::Impulse,
                 _ => *what,
             };
-            let mut values: Vec<f64> = theirs.iter().map(|value| value * ours.force_per(*what)).collect();
+            let mut values: Vec<f64> = theirs.iter().map(|value| value * reference.force_factor(*what)).collect();
             if what.jumps() {
                 let start = history.columns(&[model, *what], &times[..1], Some(Side::Right))?;
-                // A row with the stress that is there before the start, on which nothing has acted yet.
-                let before = own[0] != start[1][0] && own[0] != 0.0;
-                if let (true, Some(next)) = (before, values.get(1).copied()) {
+                // A first row that holds the stress before the start is replaced by the next one.
+                let is_before_start = ours[0] != start[1][0] && ours[0] != 0.0;
+                if let (true, Some(next)) = (is_before_start, values.get(1).copied()) {
                     values[0] = next;
                 }
                 values = integral(times, &values, start[0][0]);
             }
-            let is_empty = theirs.iter().all(|value| *value == 0.0);
-            let theirs = kept.iter().map(|k| values[*k]).collect();
-            signals.push(Signal { what: *what, model, theirs, is_empty, rate });
+            let is_zero = theirs.iter().all(|value| *value == 0.0);
+            let data = kept.iter().map(|k| values[*k]).collect();
+            signals.push(Signal { column: *what, model, data, is_zero, rate });
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
         let weights = Grid::new(times.clone(), None).weights;
-        Ok(Model { problem, mass, times, signals, weights, step })
+        Ok(Model { problem, mass, times, signals, weights, step, rigid: OnceCell::new() })
     }
 
-    /// The values of each signal in `problem`, at `at` of the times. Before `t = 0` the rod has fallen as a whole.
+    fn quantities(&self) -> Vec<Quantity> {
+        self.signals.iter().map(|signal| signal.model).collect()
+    }
+
+    /// Solves `problem` as far as the times go.
+    pub(super) fn solve(&self, problem: &Problem) -> Result<TypedHistory<f64>, Error> {
+        solve_beyond(problem, self.times.last().copied().unwrap_or_default())
+    }
+
+    /// Returns the values of each signal in `problem` at the times mapped by `at`. Before `t = 0` the rod falls as a
+    /// whole.
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
         let times: Vec<f64> = self.times.iter().map(|time| at(*time)).collect();
-        let last = times.iter().copied().fold(0.0, f64::max);
-        let history = solved(problem, last.max(f64::MIN_POSITIVE))?;
-        let whats: Vec<Quantity> = self.signals.iter().map(|signal| signal.model).collect();
-        let asked: Vec<f64> = times.iter().map(|time| time.clamp(0.0, *history.end())).collect();
-        let mut all = history.columns(&whats, &asked, Some(Side::Right))?;
+        let history = solve_beyond(problem, times.iter().copied().fold(0.0, f64::max))?;
+        let quantities = self.quantities();
+        let from_start: Vec<f64> = times.iter().map(|time| time.max(0.0)).collect();
+        let mut all = history.columns(&quantities, &from_start, Some(Side::Right))?;
         let value = |parameter: Parameter| parameter.value(problem).unwrap_or_default();
         let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::ImpactSpeed));
-        for (values, what) in all.iter_mut().zip(&whats) {
+        for (values, quantity) in all.iter_mut().zip(&quantities) {
             for (value, time) in values.iter_mut().zip(&times).filter(|(_, time)| **time < 0.0) {
-                match what.measure() {
+                match quantity.measure() {
                     Some(Measure::Length) => *value -= (speed + gravity * time / 2.0) * time,
                     Some(Measure::Velocity) => *value = -speed - gravity * time,
                     _ => {}
@@ -120,42 +176,55 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// How far theirs are from these `values`, as times.
-    pub(super) fn errors(&self, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let of = |(signal, values): (&Signal, &Vec<f64>)| {
-            signal.theirs.iter().zip(values).map(|(theirs, ours)| (theirs - ours) / signal.rate).collect()
-        };
-        self.signals.iter().zip(values).map(of).collect()
+    /// Returns the derivatives of each signal by a value of the problem of `history`, in units of time per unit of the
+    /// value; `None` where the library settles none.
+    pub(super) fn derivatives(&self, history: &TypedHistory<f64>, by: Parameter) -> Option<Vec<Vec<f64>>> {
+        let mut all = derivatives(history, by, &self.quantities(), &self.times)?;
+        for (values, signal) in all.iter_mut().zip(&self.signals) {
+            values.iter_mut().for_each(|value| *value /= signal.rate);
+        }
+        Some(all)
     }
 
-    /// What a rod gives whose ends carry `share` of its mass more in all.
+    /// Returns `data − values` of each signal, in units of time.
+    pub(super) fn errors(&self, values: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let errors = |(signal, values): (&Signal, &Vec<f64>)| {
+            signal.data.iter().zip(values).map(|(data, value)| (data - value) / signal.rate).collect()
+        };
+        self.signals.iter().zip(values).map(errors).collect()
+    }
+
+    /// Returns the signals of a rod whose ends carry `share` of its mass in addition, half at each end.
     ///
-    /// **Source**: to first order in the share. The mass at the top moves with it as a piece of the rod would that is
-    /// as heavy; that at the ground is stopped at an impact and set off at a release, at once.
+    /// **Accuracy**: first order in the share. The mass at the top moves as a piece of rod of the same mass would. The
+    /// mass at the ground is stopped by an impact and set off by a release, both at once.
     pub(super) fn with_end_mass(&self, share: f64) -> Result<Vec<Vec<f64>>, Error> {
-        let (length, own) = (Parameter::Length.value(self.problem).unwrap_or_default(), self.mass);
+        let length = Parameter::Length.value(self.problem).unwrap_or_default();
         let problem = Parameter::Length.set(self.problem, length * (1.0 + share / 2.0))?;
         let mut all = self.values(&problem, |time| time)?;
-        let (extra, rod) = (own * share / 2.0, own * (1.0 + share / 2.0));
-        let history = solved(&problem, self.times.last().copied().unwrap_or_default())?;
+        let (extra, rod) = (self.mass * share / 2.0, self.mass * (1.0 + share / 2.0));
+        let history = self.solve(&problem)?;
         let value = |parameter: Parameter| parameter.value(&problem).unwrap_or_default();
         let (gravity, speed) = (value(Parameter::Gravity), value(Parameter::ImpactSpeed));
-        // The mass at the ground by itself: where it is stopped, and what of the time it lies there.
-        let mut contacts = Vec::new();
+        let mut stops = Vec::new();
         for contact in history.contacts() {
             let before = history.columns(&[Quantity::EndVelocity], &[contact.impact], Some(Side::Left))?;
-            contacts.push((contact.impact, contact.release.unwrap_or(f64::INFINITY), before[0][0].abs()));
+            stops.push(Stop {
+                from: contact.impact,
+                to: contact.release.unwrap_or(f64::INFINITY),
+                speed: before[0][0].abs(),
+            });
         }
+        // The velocity that the ground has given to the mass until then.
         let given = |time: f64| -> f64 {
-            let of = |(from, to, speed): &(f64, f64, f64)| speed + gravity * (time.min(*to) - from);
-            contacts.iter().filter(|contact| contact.0 < time).map(of).sum()
+            let gain = |stop: &Stop| stop.speed + gravity * (time.min(stop.to) - stop.from);
+            stops.iter().filter(|stop| stop.from < time).map(gain).sum()
         };
-        let rates: Vec<f64> = self.times.iter().map(|time| given(*time) - speed - gravity * time).collect();
-        let start = Parameter::Gap.value(&problem).unwrap_or_default();
-        let places = integral(&self.times, &rates, start);
+        let velocities: Vec<f64> = self.times.iter().map(|time| given(*time) - speed - gravity * time).collect();
+        let places = integral(&self.times, &velocities, value(Parameter::Gap));
         for (values, signal) in all.iter_mut().zip(&self.signals) {
             for (k, value) in values.iter_mut().enumerate() {
-                let (u, v) = (places[k], rates[k]);
+                let (u, v) = (places[k], velocities[k]);
                 *value = match signal.model {
                     Quantity::Impulse => *value + extra * given(self.times[k]),
                     Quantity::Centre => (*value * rod + extra * u) / (rod + extra),
@@ -167,4 +236,25 @@ impl<'a> Model<'a> {
         }
         Ok(all)
     }
+
+    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`; `None` where the rod
+    /// does not start with a uniform velocity, or bounces too long.
+    pub(super) fn change_by_spring(&self, softness: f64) -> Option<Vec<Vec<f64>>> {
+        let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
+        let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
+        let soft = march(softness)?;
+        let change = |signal: &Signal| {
+            let factor = if signal.model == Quantity::Impulse { self.mass } else { 1.0 };
+            let change = |time: &f64| factor * (soft.at(signal.model, *time) - rigid.at(signal.model, *time));
+            self.times.iter().map(change).collect()
+        };
+        Some(self.signals.iter().map(change).collect())
+    }
+}
+
+/// The time that a mass lies on the ground, and the speed at which it arrives.
+struct Stop {
+    from: f64,
+    to: f64,
+    speed: f64,
 }

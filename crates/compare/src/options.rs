@@ -1,6 +1,6 @@
-//! What is said of data besides themselves, and how it brings them to our signs, origins and factors.
+//! Conventions of data, and their conversion to the signs, origins and factors of the library.
 
-use super::ours::Ours;
+use super::reference::Reference;
 use dalembert::Error;
 use dalembert::number::Number;
 use dalembert::problem::Parameter;
@@ -17,17 +17,17 @@ pub enum Compression {
     Negative,
 }
 
-/// Where displacements are zero in data.
+/// The place in data at which displacements are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Origin {
-    /// Where the undeformed rod stands on the ground
+    /// The place of the undeformed rod on the ground
     #[default]
     Ground,
-    /// Where the rod is at t = 0
+    /// The place of the rod at t = 0
     Start,
 }
 
-/// Which way displacements and velocities count in data.
+/// The direction in which displacements and velocities of data are positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Axis {
     /// Away from the ground
@@ -37,10 +37,10 @@ pub enum Axis {
     Down,
 }
 
-/// What is said of data besides themselves; messages call it by these names.
+/// The conventions of data, and the tasks of a comparison; messages use these names.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Options {
-    /// Which column is what, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the columns
+    /// Column of each quantity, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the columns
     #[arg(long, value_name = "NAME=COLUMN,…")]
     pub map: Option<String>,
     /// Step between rows, where no column holds the time
@@ -49,16 +49,16 @@ pub struct Options {
     /// Time of the first row, with --dt
     #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
     pub t0: Option<Number>,
-    /// Added to the times of the data
+    /// Time added to the times of the data
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub shift: Option<Number>,
     /// Sign of forces, stresses and strains in compression; by default forces are +, stresses and strains −
     #[arg(long, value_enum, value_name = "SIGN", allow_hyphen_values = true)]
     pub compression: Option<Compression>,
-    /// Where displacements are zero
+    /// Place at which displacements are zero
     #[arg(long = "u-origin", value_enum, value_name = "U_ORIGIN", default_value_t)]
     pub origin: Origin,
-    /// Which way displacements and velocities count
+    /// Direction in which displacements and velocities are positive
     #[arg(long, value_enum, default_value_t)]
     pub axis: Axis,
     /// Factor that brings the energies of the data to those of the rod
@@ -73,35 +73,35 @@ pub struct Options {
     /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, impact_speed, gap
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub fit: Vec<Parameter>,
-    /// How far the data are to go; by default as far as the run of the scene
+    /// Time to which the data are to go; by default the end of the run of the scene
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: Option<Number>,
 }
 
 impl Options {
-    /// The factor that brings a quantity to our convention: forces are positive in compression, strains and stresses in
-    /// tension.
+    /// Returns the factor that brings a quantity to the convention of the library: forces are positive in compression,
+    /// strains and stresses in tension.
     fn factor(&self, quantity: Quantity) -> f64 {
-        let turned = match quantity.measure() {
+        let is_reversed = match quantity.measure() {
             Some(Measure::Length | Measure::Velocity) => self.axis == Axis::Down,
             Some(Measure::Strain | Measure::Stress) => self.compression == Some(Compression::Positive),
             Some(Measure::Force | Measure::Impulse) => self.compression == Some(Compression::Negative),
             Some(Measure::Energy) => return self.energy_scale.as_ref().map_or(1.0, Number::to_f64),
             Some(Measure::Time) | None => false,
         };
-        if turned { -1.0 } else { 1.0 }
+        if is_reversed { -1.0 } else { 1.0 }
     }
 
-    /// Brings all quantities to our conventions.
+    /// Brings all quantities to the conventions of the library.
     pub(super) fn apply(
         &self,
-        ours: &Ours<'_>,
+        reference: &Reference<'_>,
         quantities: &mut [(Quantity, Vec<f64>)],
         points: Option<&[f64]>,
     ) -> Result<(), Error> {
         for (what, values) in quantities {
             let factor = self.factor(*what);
-            let starts = if self.origin == Origin::Start { ours.start(*what, points)? } else { None };
+            let starts = if self.origin == Origin::Start { reference.start(*what, points)? } else { None };
             for (k, value) in values.iter_mut().enumerate() {
                 *value *= factor;
                 if let Some(starts) = &starts {

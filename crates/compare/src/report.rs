@@ -1,22 +1,22 @@
-//! Other people's data beside ours, as a table and JSON.
+//! The report of a comparison, as a table and as JSON.
 
 use serde_json::{Value, json};
 
-use super::agree::{Agreement, Coverage};
+use super::agreement::{Agreement, Coverage};
 use super::audit::Extreme;
-use super::comparison::{ComparedFile, Comparison};
-use super::fit::{Fit, FittedValue};
+use super::comparison::{ComparedFile, Comparison, FittedFile};
+use super::contacts::ContactPair;
+use super::diagnosis::{Detectable, Diagnosis, Hint};
+use super::fit::FittedValue;
 use super::limit::Order;
-use super::norms::{Compared, NORMS, Norm};
-use super::touch::Touch;
-use super::unfitted::ToldFrom;
+use super::norms::{ComparedColumn, NORMS, Norm};
 use crate::aligned::table;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Quantity, Units};
 
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
-/// What the words of the table mean.
+/// The meaning of the words of the table.
 pub const LEGEND: &str = "\
 norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
                     trapezoidal rule; relative to the same norm of ours
@@ -38,7 +38,8 @@ missed, invented    contacts of ours without one of theirs, and the other way ro
 below the step      such contacts that are shorter than two steps: samples need not show them
 not covered         times of the run without samples
 hint                one number that explains most of what differs in all that it concerns, up to the
-                    second impact, with its standard error
+                    second impact, with its standard error; where several explain it about equally
+                    well, all of them, and none is asserted
 no hint             no such number; spread: the width of a ramp that is as far from a jump as theirs
 one would be told   the sizes from which on a wrong number stands out of what differs, and is found
                     within a fifth
@@ -48,7 +49,7 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
-/// `peak, N`.
+/// Returns `peak, N`.
 fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
     match what.unit(units) {
         "" => name.to_string(),
@@ -56,12 +57,12 @@ fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
     }
 }
 
-/// `1 gap`, `2 gaps`.
+/// Returns `1 gap` or `2 gaps`.
 fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }
 
-/// `12.34`, `1.234e-5`, or `–`.
+/// Returns `12.34`, `1.234e-5`, or `–`.
 fn size(x: Option<f64>) -> String {
     match x {
         None => "–".into(),
@@ -71,7 +72,7 @@ fn size(x: Option<f64>) -> String {
     }
 }
 
-/// `0.12 %`, or `–`.
+/// Returns `0.12 %`, or `–`.
 fn share(x: Option<f64>) -> String {
     match x {
         None => "–".into(),
@@ -82,7 +83,7 @@ fn share(x: Option<f64>) -> String {
 }
 
 fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
-    let ComparedFile { file, agreement, judgement, fit } = compared;
+    let ComparedFile { file, agreement, diagnosis, fit } = compared;
     let times = &agreement.grid.times;
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
@@ -104,54 +105,67 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         out += &format!("\n{}", audit_lines(agreement, units));
     }
     out.push('\n');
-    for hint in &judgement.hints {
-        out += &format!("hint: {}\n", hint.text);
-    }
-    if judgement.hints.is_empty() {
-        let merged = agreement.contacts.iter().filter_map(|(_, theirs)| theirs.as_ref()).map(|touch| touch.merged);
+    out += &hint_lines(diagnosis);
+    if diagnosis.hints.is_empty() {
+        let theirs = agreement.contacts.iter().filter_map(|pair| pair.theirs.as_ref());
+        let merged = theirs.map(|contact| contact.merged);
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
         out += "no hint: no single wrong number explains what differs";
         if !chatter.is_empty() {
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
             out += &format!("; the contact chatters: {gaps} closed in {contacts}");
-        } else if let Some(width) = judgement.spread {
+        } else if let Some(width) = diagnosis.spread {
             let steps = width / agreement.step;
             out += &format!("; the fronts are spread over {} ({steps:.1} steps), as by dispersion", width.decimal(3));
         }
         out.push('\n');
-        out += &told_line(&judgement.told_from);
+        out += &detectable_line(&diagnosis.detectable);
     }
-    if let Some((fit, then)) = fit {
-        out += &format!("\n{}\n", fit_table(fit, agreement, then));
+    if let Some(fit) = fit {
+        out += &format!("\n{}\n", fit_table(fit, agreement));
     }
     out
 }
 
-/// From what size on a wrong number would have been said, of those that are about all columns.
-fn told_line(told_from: &[ToldFrom]) -> String {
-    let one = |told: &ToldFrom| match told.kind {
-        kind @ "time_shift" => format!("{kind} {}", told.value.decimal(2)),
+/// Returns the hints, those that explain the data about equally well below each other.
+fn hint_lines(diagnosis: &Diagnosis) -> String {
+    let rivals = diagnosis.hints.iter().filter(|hint| !hint.asserted).count();
+    let mut heading = (rivals > 0).then(|| {
+        let count = if rivals == 2 { "two".to_string() } else { rivals.to_string() };
+        format!("hint: {count} causes explain the data about equally well:\n")
+    });
+    let line = |hint: &Hint| match hint.asserted {
+        true => format!("hint: {}\n", hint.text),
+        false => heading.take().unwrap_or_default() + &format!("      {}\n", hint.text),
+    };
+    diagnosis.hints.iter().map(line).collect()
+}
+
+/// Returns the line with the least sizes of wrong numbers that concern all columns.
+fn detectable_line(detectable: &[Detectable]) -> String {
+    let one = |told: &Detectable| match told.kind {
+        kind @ ("time_shift" | "damping") => format!("{kind} {}", told.value.decimal(2)),
         kind => format!("{kind} {} %", (100.0 * told.value).decimal(2)),
     };
-    let all: Vec<String> = told_from.iter().filter(|told| told.quantity == "all").map(one).collect();
+    let all: Vec<String> = detectable.iter().filter(|told| told.quantity == "all").map(one).collect();
     if all.is_empty() { String::new() } else { format!("one would be told from: {}\n", all.join(", ")) }
 }
 
-/// What was fitted, what remains of each column, and how the contacts then agree.
-fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
+/// Returns the tables of a fit: the values, the misfit of each column, and the contacts.
+fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) -> String {
     let row = |value: &FittedValue| {
         vec![value.name.clone(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
     };
     let values = table(&["fitted", "scene", "value", "standard error"], fit.values.iter().map(row).collect(), 1);
-    let column = |(now, then): (&Compared, &Compared)| {
+    let column = |(now, then): (&ComparedColumn, &ComparedColumn)| {
         let of = |norm: Norm| norm.relative.map_or_else(|| size(Some(norm.absolute)), |relative| share(Some(relative)));
         vec![now.what.name().into(), of(now.norms.l2), of(then.norms.l2)]
     };
     let columns = now.quantities.iter().zip(&then.quantities).map(column).collect();
     let columns = table(&["L2 of", "scene", "fitted"], columns, 1);
-    let contact = |(k, (ours, theirs)): (usize, &(Option<Touch>, Option<Touch>))| {
+    let contact = |(k, ContactPair { ours, theirs }): (usize, &ContactPair)| {
         let texts = match (ours, theirs) {
-            (Some(a), Some(b)) => a.apart(b)[..4].iter().map(|x| size(*x)).collect(),
+            (Some(a), Some(b)) => a.differences(b)[..4].iter().map(|x| size(*x)).collect(),
             _ => vec!["unpaired".into()],
         };
         [vec![(k + 1).to_string()], texts].concat()
@@ -167,7 +181,7 @@ fn fit_table(fit: &Fit, now: &Agreement, then: &Agreement) -> String {
 
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
     let mut rows = Vec::new();
-    for Compared { what, norms, .. } in &agreement.quantities {
+    for ComparedColumn { what, norms, .. } in &agreement.quantities {
         let name = with_unit(what.name(), *what, units);
         let on_jumps = match norms.on_jumps {
             0 => String::new(),
@@ -176,26 +190,26 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
         };
         let names = [name, on_jumps, String::new(), String::new()];
         let shown = if what.jumps() { 4 } else { 3 };
-        for (name, (_, title, norm)) in names.into_iter().zip(NORMS).take(shown) {
-            let norm = norm(norms);
+        for (name, kind) in names.into_iter().zip(NORMS).take(shown) {
+            let norm = (kind.get)(norms);
             let point = norm.and_then(|norm| norm.point).map_or_else(String::new, |x| format!(", x = {}", number(x)));
             let at = norm.and_then(|norm| norm.time).map_or_else(String::new, |time| number(time) + &point);
             let absolute = size(norm.map(|norm| norm.absolute));
-            rows.push(vec![name, title.into(), absolute, share(norm.and_then(|norm| norm.relative)), at]);
+            rows.push(vec![name, kind.title.into(), absolute, share(norm.and_then(|norm| norm.relative)), at]);
         }
     }
     table(&["quantity", "norm", "absolute", "relative", "at t"], rows, 2)
 }
 
-fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) -> String {
+fn contacts_table(contacts: &[ContactPair], units: &Units) -> String {
     let row = |name: &str, whose: String, values: [Option<f64>; 5]| {
         let numbers = values.map(|value| value.map_or_else(|| "–".into(), number));
         [&[name.to_string(), whose][..], &numbers].concat()
     };
     let mut rows = Vec::new();
-    for (k, (ours, theirs)) in contacts.iter().enumerate() {
+    for (k, ContactPair { ours, theirs }) in contacts.iter().enumerate() {
         let name = &(k + 1).to_string();
-        let whose = match theirs.as_ref().map_or(0, |touch| touch.merged) {
+        let whose = match theirs.as_ref().map_or(0, |contact| contact.merged) {
             0 => "theirs".to_string(),
             count => format!("theirs, {} closed", counted(count, "gap")),
         };
@@ -203,7 +217,7 @@ fn contacts_table(contacts: &[(Option<Touch>, Option<Touch>)], units: &Units) ->
             (Some(a), Some(b)) => {
                 rows.push(row(name, "ours".into(), a.numbers()));
                 rows.push(row("", whose, b.numbers()));
-                rows.push(row("", "difference".into(), a.apart(b)));
+                rows.push(row("", "difference".into(), a.differences(b)));
             }
             (Some(a), None) => {
                 let why = if a.below_step { "below their step" } else { "missing in theirs" };
@@ -232,7 +246,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     let [length, force, impulse, joule] =
         [Quantity::EndDisplacement, Quantity::Force, Quantity::Impulse, Quantity::Energy]
             .map(|column| column.unit(units));
-    // A length and a force over a time; without a material all of it is per ρS.
+    // Energy times time; per ρS without a material.
     let action = if units.has_material() && !joule.is_empty() { format!("{joule} s") } else { joule.to_string() };
     let energy = audit.energy_change.as_ref().map(|energy| {
         let of_ours =
@@ -258,7 +272,7 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
     lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
 }
 
-/// The orders of convergence that several files show, one row for each pair of neighbours.
+/// Returns the table of the orders of convergence, one row for each pair of neighbouring files.
 fn orders_table(orders: &[Order]) -> String {
     let order = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| format!("{x:.2}"));
     let rows = orders.iter().map(|row| {
@@ -266,7 +280,7 @@ fn orders_table(orders: &[Order]) -> String {
         let order = |x: Option<f64>| order(x.filter(|_| row.meaningless.is_none()));
         [row.quantity.into(), widths].into_iter().chain(row.orders.values().map(|x| order(*x))).collect()
     });
-    let header = [&["observed order", "width"][..], &NORMS.map(|norm| norm.1)].concat();
+    let header = [&["observed order", "width"][..], &NORMS.map(|norm| norm.title)].concat();
     let mut out = table(&header, rows.collect(), 2) + "\n";
     for Order { quantity, widths, meaningless, .. } in orders {
         let said =
@@ -276,9 +290,9 @@ fn orders_table(orders: &[Order]) -> String {
     out
 }
 
-fn fit_json(fit: &Fit, then: &Agreement) -> Value {
+fn fit_json(FittedFile { fit, agreement: then }: &FittedFile) -> Value {
     let norms = then.quantities.iter().map(|compared| json!({"name": compared.what.name(), "l2": compared.norms.l2}));
-    let contacts = then.contacts.iter().map(|(ours, theirs)| json!({"fitted": ours, "theirs": theirs}));
+    let contacts = then.contacts.iter().map(|pair| json!({"fitted": pair.ours, "theirs": pair.theirs}));
     json!({
         "values": fit.values,
         "steps": fit.steps,
@@ -288,7 +302,7 @@ fn fit_json(fit: &Fit, then: &Agreement) -> Value {
     })
 }
 
-/// An object with the members of another one too.
+/// Returns an object with the members of another one added.
 fn joined(mut value: Value, more: Value) -> Value {
     if let (Some(object), Value::Object(more)) = (value.as_object_mut(), more) {
         object.extend(more);
@@ -296,11 +310,10 @@ fn joined(mut value: Value, more: Value) -> Value {
     value
 }
 
-fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, units: &Units) -> Value {
-    let quantities = agreement.quantities.iter().map(|Compared { what, norms, .. }| {
+fn file_json(ComparedFile { file, agreement, diagnosis, fit }: &ComparedFile, units: &Units) -> Value {
+    let quantities = agreement.quantities.iter().map(|ComparedColumn { what, norms, .. }| {
         joined(json!({"name": what.name(), "unit": what.unit(units)}), json!(norms))
     });
-    let contacts = agreement.contacts.iter().map(|(ours, theirs)| json!({"ours": ours, "theirs": theirs}));
     json!({
         "file": file,
         "weights": WEIGHTS,
@@ -310,24 +323,25 @@ fn file_json(ComparedFile { file, agreement, judgement, fit }: &ComparedFile, un
         "notes": agreement.notes,
         "coverage": agreement.coverage,
         "quantities": quantities.collect::<Vec<_>>(),
-        "contacts": contacts.collect::<Vec<_>>(),
+        "contacts": agreement.contacts,
         "audit": agreement.audit,
-        "hints": judgement.hints,
-        "told_from": judgement.told_from,
-        "spread": judgement.spread,
-        "fit": fit.as_ref().map(|(fit, then)| fit_json(fit, then)),
+        "hints": diagnosis.hints,
+        "told_from": diagnosis.detectable,
+        "spread": diagnosis.spread,
+        "fit": fit.as_ref().map(fit_json),
     })
 }
 
 impl Comparison {
-    /// The report as text, values in these `units`.
+    /// Returns the report as text, values in these `units`.
     pub fn table(&self, title: Option<&str>, units: &Units) -> String {
         let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
         tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
         tables.join("\n")
     }
 
-    /// Everything, schema 1: of one file its members stand at the top, of several under `files`, with their `orders`.
+    /// Returns the report as JSON, schema 1: the members of a single file stand at the top, those of several under
+    /// `files`, with their `orders`.
     pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
         let found = match self.files.as_slice() {
             [one] => file_json(one, units),

@@ -1,7 +1,7 @@
-//! Samples: the rows of a file at times of ours.
+//! Samples: the rows of a file at times of the history.
 
 use super::data::{Columns, DataError, DataErrorKind};
-use super::map::Map;
+use super::map::ColumnMap;
 use super::norms::Grid;
 use dalembert::Side;
 use dalembert::quantity::Quantity;
@@ -10,46 +10,47 @@ use dalembert::quantity::Quantity;
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     pub(crate) grid: Grid,
-    /// In the conventions of the file.
+    /// The columns in the conventions of the file.
     pub(crate) quantities: Vec<(Quantity, Vec<f64>)>,
     pub(crate) step: f64,
-    /// How many rows lie before `t = 0`.
+    /// The number of rows before `t = 0`.
     pub(crate) outside: usize,
     pub(crate) notes: Vec<String>,
-    pub(crate) rounding: Rounding,
-    /// Which limit each row holds at a jump, where that is known.
+    pub(crate) rounding: TimeRounding,
+    /// The limit that each row holds at a jump, where that is known.
     pub(crate) sides: Vec<Option<Side>>,
 }
 
-/// How far a time may be from what is meant by it: half a unit of its last written digit, and what adding up steps
-/// one by one may lose, but never a quarter of a step.
+/// The rounding of the times of a file: half a unit of the last written digit, plus the rounding of steps that are added
+/// up one by one, and at most a quarter of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rounding {
-    /// Decimals after the point that the times have, and digits in all: the most that any of them needs.
+pub(crate) struct TimeRounding {
+    /// The greatest number of decimals of a time.
     decimals: i32,
+    /// The greatest number of digits of a time.
     digits: i32,
     rows: f64,
     pub(crate) most: f64,
 }
 
-/// So many times are looked at for their digits.
-const LOOKED_AT: usize = 1000;
+/// Largest number of times whose digits are counted.
+const COUNTED: usize = 1000;
 
-impl Rounding {
-    fn of(times: &[f64], step: f64) -> Self {
+impl TimeRounding {
+    fn new(times: &[f64], step: f64) -> Self {
         let (mut decimals, mut digits) = (0, 1);
-        for time in times.iter().step_by(times.len().div_ceil(LOOKED_AT).max(1)).filter(|time| **time != 0.0) {
-            // The shortest text that is this double: what a file with fewer digits has written.
+        for time in times.iter().step_by(times.len().div_ceil(COUNTED).max(1)).filter(|time| **time != 0.0) {
+            // The shortest text of this double is that of a file with fewer digits.
             let text = format!("{time:e}");
             let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
             let written = mantissa.chars().filter(char::is_ascii_digit).count() as i32;
             digits = digits.max(written);
             decimals = decimals.max(written - 1 - exponent.parse::<i32>().unwrap_or(0));
         }
-        Rounding { decimals, digits, rows: times.len() as f64, most: step / 4.0 }
+        TimeRounding { decimals, digits, rows: times.len() as f64, most: step / 4.0 }
     }
 
-    /// How far `time` may be off.
+    /// Returns the rounding of `time`.
     pub(crate) fn at(&self, time: f64) -> f64 {
         let place = time.abs().log10().floor().max(-300.0) as i32 + 1 - self.digits;
         let unit = 10f64.powi(place.max(-self.decimals));
@@ -58,12 +59,12 @@ impl Rounding {
 }
 
 impl Samples {
-    /// The samples in `columns` as `map` reads them, on a clock that is `shift` behind ours; where the times are not in
-    /// the file they are `start + k step`. Two rows at one time are the limits of a jump, the earlier first; a field
-    /// needs the column of sides for that.
-    pub(crate) fn of(
+    /// Builds the samples in `columns` as `map` assigns them, with `shift` added to the times; times that are not in the
+    /// file are `start + k step`. Two rows at one time are the limits at a jump, the earlier first; a field needs the
+    /// column of sides for that.
+    pub(crate) fn new(
         mut columns: Columns,
-        map: &Map,
+        map: &ColumnMap,
         counted: Option<(f64, f64)>,
         shift: f64,
         length: f64,
@@ -79,10 +80,10 @@ impl Samples {
             (None, Some((start, step))) => (0..rows).map(|k| start + k as f64 * step).collect(),
             (None, None) => Vec::new(),
         };
-        let (points, said) = (of(Quantity::Point), of(Quantity::Side));
+        let (points, given_sides) = (of(Quantity::Point), of(Quantity::Side));
         let refuse = |row: usize, what: Quantity, kind| Err(columns.refuse(row, map.place(what).unwrap_or(0), kind));
         let mut sides = vec![None; times.len()];
-        for (k, found) in said.iter().flatten().enumerate() {
+        for (k, found) in given_sides.iter().flatten().enumerate() {
             sides[k] = match *found {
                 -1.0 => Some(Side::Left),
                 0.0 => None,
@@ -93,7 +94,7 @@ impl Samples {
         let limits = [Some(Side::Left), Some(Side::Right)];
         for k in 1..times.len() {
             let (before, found) = (times[k - 1], times[k]);
-            if found == before && points.is_none() && said.is_none() && sides[k - 1].is_none() {
+            if found == before && points.is_none() && given_sides.is_none() && sides[k - 1].is_none() {
                 sides[k - 1..=k].copy_from_slice(&limits);
             }
             let follows = found > before || (found == before && (points.is_some() || sides[k - 1..=k] == limits));
@@ -125,7 +126,7 @@ impl Samples {
         let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
         let middle = steps.len() / 2;
         let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
-        let rounding = Rounding::of(&times, step);
+        let rounding = TimeRounding::new(&times, step);
         let whats = map.columns.iter().map(|(what, _)| *what);
         let is_place = |what: &Quantity| matches!(what, Quantity::Time | Quantity::Point | Quantity::Side);
         let quantities = whats.skip_while(|what| is_place(what)).zip(values.map(&cut)).collect();

@@ -1,68 +1,88 @@
-//! A hypothesis that holds, in words.
+//! The wording of hints.
 
-use super::ours::Ours;
-use super::unfitted::{LEFT, Verdict};
-use super::verdict::{Fitted, Hypothesis, Judge, NO_GRAVITY};
+use super::diagnosis::{Cause, CauseFits, Fitted, Hint, NO_GRAVITY};
+use super::reference::Reference;
+use super::symptoms::LEFT;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameter;
 
-impl Judge<'_> {
-    pub(super) fn verdict(
-        &self,
-        kind: &'static str,
-        hypothesis: Hypothesis,
-        fitted: &Fitted,
-        ours: &Ours<'_>,
-    ) -> Verdict {
-        let Fitted { value: p, error, .. } = *fitted;
-        let percent = |p: f64, error: f64| format!("{:+.2} ± {:.2} %", 100.0 * p, 100.0 * error).replace('-', "−");
-        let (off, column) = (percent(p, error), |place: usize| self.model.signals[place].what);
-        let mut verdict = Verdict { kind, quantity: "all", value: p, error, text: String::new() };
-        verdict.text = match hypothesis {
-            Hypothesis::Value(Parameter::WaveSpeed) => {
+/// Time by which a contact with a spring ground lasts longer than `2L/c`, in units of `EA/k` over the wave speed.
+///
+/// **Source**: for a free rod without gravity that hits a stiff spring, the root of `e^x = 2 + 2x`.
+const EXTENSION: f64 = 1.678_346_990_016_660_7;
+
+fn percent(p: f64, error: f64) -> String {
+    format!("{:+.2} ± {:.2} %", 100.0 * p, 100.0 * error).replace('-', "−")
+}
+
+impl CauseFits<'_> {
+    /// Returns the hint at a cause.
+    pub(super) fn hint(&self, kind: &'static str, fitted: &Fitted, reference: &Reference<'_>) -> Hint {
+        let Fitted { value: p, error, cause, .. } = *fitted;
+        let (off, column) = (percent(p, error), |place: usize| self.model.signals[place].column);
+        let mut hint = Hint { error, ..Hint::new(kind, p, String::new()) };
+        hint.text = match cause {
+            Cause::Value(Parameter::WaveSpeed) => {
                 let modulus = percent((1.0 + p) * (1.0 + p) - 1.0, 2.0 * error);
                 format!("wave speed off by {off}, as by a modulus off by {modulus}")
             }
-            Hypothesis::Value(Parameter::Density) => format!("mass off by {off}: check density and mass matrix"),
-            Hypothesis::Value(Parameter::ImpactSpeed) => format!("velocity at the start off by {off}"),
-            Hypothesis::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(NO_GRAVITY) => {
-                verdict.value = -1.0;
+            Cause::Value(Parameter::Density) => format!("mass off by {off}: check density and mass matrix"),
+            Cause::Value(Parameter::ImpactSpeed) => format!("velocity at the start off by {off}"),
+            Cause::Value(Parameter::Gravity) if p < -1.0 + 3.0 * error.max(NO_GRAVITY) => {
+                hint.value = -1.0;
                 "no gravity: is the weight missing?".into()
             }
-            Hypothesis::Value(parameter) => format!("{} off by {off}", parameter.name()),
-            Hypothesis::EndMass => format!("the ends carry {off} of the mass of the rod besides: check end masses"),
-            Hypothesis::Clock => format!("clock off by {off}: check the step of time"),
-            Hypothesis::Late => {
+            Cause::Value(parameter) => format!("{} off by {off}", parameter.name()),
+            Cause::Damping => {
+                let (scene, error) = (self.damping(), error / self.trip);
+                (hint.value, hint.error) = (scene + p / self.trip, error);
+                let (found, error) = (hint.value.decimal(4), error.decimal(2));
+                let instead = if scene == 0.0 { "none".into() } else { scene.decimal(4) };
+                format!("damping r = {found} ± {error} where the scene has {instead}")
+            }
+            Cause::SoftContact => {
+                let rod = reference.rod();
+                let (softness, error) = (p * rod.length, error * rod.length);
+                let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
+                let (softness, error) = (softness.decimal(4), error.decimal(2));
+                format!(
+                    "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and \
+                     the contact lasts longer by {longer}"
+                )
+            }
+            Cause::EndMass => format!("the ends carry {off} of the mass of the rod besides: check end masses"),
+            Cause::Clock => format!("clock off by {off}: check the step of time"),
+            Cause::TimeShift => {
                 let (late, error) = (p * self.trip, error * self.trip);
-                (verdict.value, verdict.error) = (late, error);
+                (hint.value, hint.error) = (late, error);
                 let (side, steps) = (if late > 0.0 { "late" } else { "early" }, late.abs() / self.model.step);
                 let (by, error, shift) = (late.abs().decimal(4), error.decimal(2), (-late).decimal(4));
                 format!(
                     "{by} ± {error} {side}, {steps:.2} steps: is it on the same clock? A shift of {shift} undoes it"
                 )
             }
-            Hypothesis::Factor(place) => {
+            Cause::Factor(place) => {
                 let (what, factor) = (column(place), 1.0 + p);
-                (verdict.quantity, verdict.value) = (what.name(), factor);
+                (hint.quantity, hint.value) = (what.name(), factor);
                 if (factor + 1.0).abs() < (2.0 * error).max(LEFT * LEFT) {
-                    (verdict.kind, verdict.value) = ("sign", -1.0);
+                    (hint.kind, hint.value) = ("sign", -1.0);
                     format!("{} has the other sign", what.name())
                 } else {
-                    let near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
-                    let known = ours.factors(what).into_iter().filter(|(value, _)| near(*value));
-                    let known: Vec<&str> = known.map(|(_, question)| question).collect();
+                    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
+                    let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
+                    let known: Vec<&str> = known.map(|known| known.question).collect();
                     let ask = if known.is_empty() { "which unit?".to_string() } else { known.join(" ") };
                     format!("{} × {} ± {}: {ask}", what.name(), factor.decimal(4), error.decimal(2))
                 }
             }
-            Hypothesis::Origin(place) => {
+            Cause::Offset(place) => {
                 let unit = self.trip * self.model.signals[place].rate;
                 let (offset, error) = (p * unit, error * unit);
-                (verdict.quantity, verdict.value, verdict.error) = (column(place).name(), offset, error);
-                let (name, offset, error) = (verdict.quantity, offset.decimal(4), error.decimal(2));
+                (hint.quantity, hint.value, hint.error) = (column(place).name(), offset, error);
+                let (name, offset, error) = (hint.quantity, offset.decimal(4), error.decimal(2));
                 format!("{name} off by {offset} ± {error} everywhere: is it measured from elsewhere?")
             }
         };
-        verdict
+        hint
     }
 }

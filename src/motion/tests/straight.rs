@@ -1,7 +1,7 @@
 use super::*;
 
-/// T₂ and T₅ on 1 … 3, at a thousand times: within a millionth of the peak, and no more than four times the pieces
-/// that equal chords of the greatest curvature take.
+/// Checks T₂ and T₅ on 1 … 3 at a thousand times: the chords are within a millionth of the peak, and no more than four
+/// times as many as equal chords at the greatest curvature.
 #[test]
 fn straight_pieces_follow_the_curve() {
     let chebyshev = vec![0.25, 0.0, 1.0, 0.0, 0.0, 0.5];

@@ -1,4 +1,4 @@
-//! Enclosures as a number system.
+//! Enclosures as a number system of formulas.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -11,7 +11,7 @@ use super::super::radical::Radical;
 use super::super::{Analytic, Bounded, Estimate, Number, Open, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};
 
-/// The digits that both ends prove, or so many of them as a precision asks for; both ends where they prove none.
+/// Prints the digits that both ends prove, up to the requested precision; both ends if they prove no digit.
 impl fmt::Display for Interval {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let held = (f64::from(self.lo.prec()) * std::f64::consts::LOG10_2) as u32;
@@ -52,7 +52,7 @@ impl Scalar for Interval {
         Interval::checked(down(bits, x), up(bits, x), inside)
     }
 
-    /// Of what may reach below zero by its width alone, see [`Analytic::sqrt`].
+    /// Returns the square root. The part below zero of an interval around zero is dropped, see [`Analytic::sqrt`].
     fn try_sqrt(&self) -> Option<Self> {
         match Scalar::sign(self) {
             Ok(Ordering::Less) => None,
@@ -61,7 +61,7 @@ impl Scalar for Interval {
         }
     }
 
-    /// The end that is farther from zero, rounded away from it: what a bound wants.
+    /// Returns the end farther from zero, rounded away from zero, as bounds require.
     fn to_f64(&self) -> f64 {
         if self.hi.cmp_abs(&self.lo) == Some(Ordering::Less) {
             self.lo.to_f64_round(Round::AwayZero)
@@ -121,7 +121,7 @@ impl Scalar for Interval {
         if !radius.is_finite() {
             return f64::INFINITY;
         }
-        // In two parts, because the radius of long numbers is below the range of doubles.
+        // The exponent is kept apart because the radius of a long number is below the range of doubles.
         let (mantissa, exponent) = radius.to_f64_exp_round(Round::Up);
         mantissa.log2() + f64::from(exponent)
     }
@@ -144,7 +144,7 @@ impl Scalar for Interval {
         self.lo.is_finite() && self.hi.is_finite()
     }
 
-    /// The middle.
+    /// Returns the decimal of the middle.
     fn decimal(&self, digits: u32) -> String {
         self.mid().decimal(digits)
     }
@@ -156,7 +156,7 @@ impl Scalar for Interval {
 
     fn proved(&self, digits: u32) -> u32 {
         let agree = |digits: &u32| self.lo.decimal(*digits) == self.hi.decimal(*digits);
-        // Ends at both sides of 0.25 agree in no first digit, but in two.
+        // Ends on both sides of 0.25 do not agree in one digit, but in two.
         (1..=digits).rev().chain(digits + 1..digits + 3).find(agree).unwrap_or(0)
     }
 
@@ -232,7 +232,7 @@ macro_rules! rising {
 }
 
 impl Analytic for Interval {
-    /// Of what is not negative: the part below zero, which only width can make, is left out.
+    /// Returns the square root of a number known to be nonnegative; the part of the interval below zero is dropped.
     fn sqrt(&self) -> Self {
         let bits = self.lo.prec();
         let zero = Float::with_val(bits, 0);
@@ -282,7 +282,7 @@ impl Bounded for Interval {
     }
 
     fn or_exactly(self, other: impl FnOnce() -> Self) -> Self {
-        // A quotient by what may be zero has no ends, even where it is known exactly.
+        // A quotient by a number that may be zero has no finite ends, even if it is known exactly.
         let lost = matches!(self.inside, Inside::Lost);
         if !lost && self.is_finite() {
             return self;
@@ -299,7 +299,7 @@ impl Bounded for Interval {
     }
 }
 
-/// The middle, within the radius and a rounding, as every long number that is printed.
+/// Reads the middle with the radius and one rounding as its bound, the form in which every long number is printed.
 impl Reads<Interval> for Estimate<Float> {
     fn read(number: Interval) -> Self {
         let near = number.estimate(number.lo.prec());
@@ -313,7 +313,7 @@ impl Reads<Interval> for Estimate<Float> {
     }
 }
 
-/// The numbers within the bound.
+/// Encloses the numbers within the bound.
 impl Reads<Estimate<Float>> for Interval {
     fn read(number: Estimate<Float>) -> Self {
         Interval::within(&number)
@@ -324,7 +324,7 @@ impl Reads<Estimate<Float>> for Interval {
     }
 }
 
-/// The middle, within the radius.
+/// Reads the middle with the radius as its bound.
 impl Reads<Interval> for Estimate<f64> {
     fn read(number: Interval) -> Self {
         Estimate::<f64>::read(Estimate::<Float>::read(number))

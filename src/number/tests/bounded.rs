@@ -7,7 +7,7 @@ fn a_break_elsewhere_moves_a_value_by_its_jumps() {
     let [zero, one, four] = [0.0, 1.0, 4.0].map(Estimate::exact);
     value.cross_break(&Estimate::new(0.5, 5.0), [&one, &zero], [&four, &one]);
     assert!((value.error() - 17.0).abs() < 1e-9);
-    // A break that may lie 2⁻²⁰ elsewhere: [bend] δ²/2 alone is 2⁻⁴¹, 2¹² roundoffs.
+    // A break that may be 2⁻²⁰ away: [bend] δ²/2 alone is 2⁻⁴¹, 2¹² roundoffs.
     let mut value = Estimate::exact(1.0f64);
     value.cross_break(&Estimate::new(0.5, 2f64.powi(33)), [&zero, &zero], [&zero, &one]);
     assert!((value.error() - 2f64.powi(12)).abs() < 1e-9 * value.error());
@@ -29,7 +29,7 @@ fn a_root_next_to_zero() {
 #[test]
 fn one_number_for_two() {
     let (a, b) = (Estimate::new(1.0f64, 2.0), Estimate::new(1.0 + 2.0 * f64::EPSILON, 3.0));
-    // b is 4 roundoffs away, and 3 more in its bound.
+    // b is 4 roundoffs away, with 3 more in its bound.
     assert!(a.same(&b) && a.clone().joined(&b).error() >= 7.0);
     assert_eq!(a.taken_for_zero().error(), 2.0 + 2f64.powi(53));
 }

@@ -6,7 +6,7 @@ fn dual(value: (i64, i64), rate: (i64, i64)) -> Dual<Rational> {
     Dual::new(fraction(value), fraction(rate))
 }
 
-/// `(x² + 3)/x` at x = 2, whose derivative is `1 − 3/x²`, and `√(x² + 5)`, whose derivative is `x/√(x² + 5)`.
+/// Checks `(x² + 3)/x` at x = 2, with the derivative `1 − 3/x²`, and `√(x² + 5)`, with the derivative `x/√(x² + 5)`.
 #[test]
 fn rates_are_derivatives() {
     let x = dual((2, 1), (1, 1));
@@ -21,29 +21,29 @@ fn rates_decide_between_equal_numbers() {
     let (one, more, less) = (dual((1, 1), (0, 1)), dual((1, 1), (1, 9)), dual((1, 1), (-1, 9)));
     assert_eq!((more.compare(&one), less.compare(&one)), (Ok(Ordering::Greater), Ok(Ordering::Less)));
     assert_eq!([&one, &more, &less].map(Scalar::floor_int), [Some(1), Some(1), Some(0)]);
-    // ε/ε is not of first order, and neither is √ε.
+    // First order determines neither ε/ε nor √ε.
     let step = more - &one;
     assert_eq!(((one / &step).sign(), step.try_sqrt().unwrap().sign()), (Err(Open), Err(Open)));
 }
 
-/// `√(x² + 3)/(2 x)` at x = 0.1 has the rate `−3/(2 x² √(x² + 3))`: in doubles the number and its rate are each within
-/// their own bound, which is some roundings of them.
+/// Checks `√(x² + 3)/(2 x)` at x = 0.1, with the rate `−3/(2 x² √(x² + 3))`: in doubles the number and its rate are
+/// each within their own bound, which is a few roundings of them.
 #[test]
 fn rates_in_doubles_carry_their_bounds() {
     let x = Dual::new(Estimate::rounded(0.1, 1.0), Estimate::exact(1.0));
     let found = (x.square() + x.int(3)).try_sqrt().unwrap() / x.clone().doubled();
     let rate = found.rate().unwrap();
-    // 3.01 has the root 1.7349351572897473 and a tenth.
+    // √3.01 = 1.7349351572897473 as a double.
     let expected = -3.0 / (2.0 * 0.01 * 1.734_935_157_289_747_3);
     assert!((rate.value() - expected).abs() <= rate.bound() && rate.bound() < 40.0 * f64::EPSILON * expected.abs());
-    // Equal within bounds: no rate says which one is greater.
+    // Equal within bounds: no rate decides which number is greater.
     let tenths = x.clone() + &x + &x;
     let three = Dual::constant(Estimate::rounded(0.3, 1.0));
     assert_eq!((tenths.compare(&three), three.compare(&three)), (Err(Open), Ok(Ordering::Equal)));
 }
 
-/// `a + b s` vanishes at `s = −a/b`, which has the rate `−ȧ/b + a ḃ/b²`: with a = 0 within 2⁻⁴³, ȧ = 2⁻⁴⁰, b = −2 and
-/// ḃ = 1 that is 2⁻⁴¹ within 2⁻⁴⁵, and the bound at most four times that.
+/// Checks that `a + b s` vanishes at `s = −a/b` with the rate `−ȧ/b + a ḃ/b²`. With a = 0 within 2⁻⁴³, ȧ = 2⁻⁴⁰, b = −2
+/// and ḃ = 1 this is 2⁻⁴¹ within 2⁻⁴⁵, and the bound is at most four times that.
 #[test]
 fn a_root_next_to_a_break_has_a_rate() {
     let known = |x: f64| Estimate::exact(x);
@@ -54,7 +54,7 @@ fn a_root_next_to_a_break_has_a_rate() {
     let (size, within) = (rate.value().abs(), rate.bound());
     assert!((size - 0.5f64.powi(41)).abs() <= within, "{rate:?}");
     assert!((0.5f64.powi(45)..0.5f64.powi(43)).contains(&within), "{rate:?}");
-    // No slope, no rate: nothing is known of it.
+    // The root has no rate without a slope: its error is unbounded.
     let flat = height.root_deviation(&Dual::constant(known(0.0)), &Dual::constant(known(0.0))).unwrap();
     assert_eq!(flat.rate().unwrap().bound(), f64::INFINITY);
 }

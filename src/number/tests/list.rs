@@ -1,6 +1,6 @@
 use super::*;
 
-/// Equally spaced decimals are the doubles that a program writes for them.
+/// Checks that equally spaced decimals are the doubles that a program writes for them.
 #[test]
 fn decimals_stay_decimals() {
     let of = |list: Result<List, String>| list.unwrap().lift::<f64>(&());
@@ -8,7 +8,7 @@ fn decimals_stay_decimals() {
     assert_eq!(of(List::steps(&number("0.1"), &number("0.3"))), [0.0, 0.1, 0.2, 0.3]);
     assert_eq!(of(List::steps(&number("1e-1"), &number("0.39"))), [0.0, 0.1, 0.2, 0.3]);
     assert_eq!(of(List::equally_spaced("-1..1/5:4")), [-1.0, -0.6, -0.2, 0.2]);
-    // What does not fit into integers keeps both ends.
+    // A list that does not fit into integers keeps both ends.
     let long = of(List::equally_spaced("0..0.12345678901234567:3"));
     assert_eq!((long[0], long[2]), (0.0, 0.12345678901234567));
 }

@@ -21,7 +21,7 @@ fn a_field_with_an_order() {
     // 7/5 < √2 < 17/12
     assert_eq!(root(2).compare(&fraction(7, 5)), Some(Ordering::Greater));
     assert_eq!(root(2).compare(&fraction(17, 12)), Some(Ordering::Less));
-    // √8 = 2√2, and several roots side by side.
+    // √8 = 2√2; sums of several roots.
     assert!(equal(&root(8), &root(2).scaled(&Rational::from(2)).unwrap()));
     let sum = root(2).add(&root(3)).unwrap();
     let square = sum.mul(&sum).unwrap();
@@ -37,7 +37,7 @@ fn roots_in_the_field_and_beyond() {
     // (1 − √2)² = 3 − 2√2, whose root is √2 − 1.
     let square = fraction(3, 1).sub(&root(8)).unwrap();
     assert!(equal(&square.sqrt().unwrap(), &root(2).sub(&fraction(1, 1)).unwrap()));
-    // √(1 + √2) is new; its square is not.
+    // √(1 + √2) is a new root; its square is not.
     let inner = fraction(1, 1).add(&root(2)).unwrap();
     let nested = inner.sqrt().unwrap();
     assert!(equal(&nested.mul(&nested).unwrap(), &inner));

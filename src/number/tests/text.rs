@@ -7,7 +7,7 @@ fn no_digit_beyond_the_bound_is_printed() {
     let around = |x: f64, by: f64| Interval::between(Float::with_val(99, x - by), Float::with_val(99, x + by));
     assert_eq!(show(&around(2.0, 9e-6), 20), "2.0000");
     assert_eq!(show(&around(2.0, 3.0), 20), "0");
-    // 1.05 lies between: of two digits one end says 1.0 and the other 1.1.
+    // The ends surround 1.05: in two digits one end rounds to 1.0 and the other to 1.1.
     let ends = [104_999_999, 105_000_001].map(|end| Float::with_val(99, end) / 100_000_000u32);
     let [low, high] = ends;
     let astride = Interval::between(low, high);
@@ -29,7 +29,7 @@ fn no_digit_beyond_the_bound_is_printed() {
     assert_eq!(bound_of_log2(shown_bound(&around(0.0, 1e-20), 20)), "2.1e-20");
 }
 
-/// Both ends of any enclosure round to what is printed of it, and what is printed of its ends is outside of it.
+/// Checks that both ends of an enclosure round to its printed form, and that its printed ends lie outside it.
 #[test]
 fn both_ends_print_what_is_proved() {
     let mut state = 1878u64;
@@ -40,7 +40,7 @@ fn both_ends_print_what_is_proved() {
     let read = |text: &str| text.parse::<crate::number::Number>().unwrap().to_rational();
     let (mut compared, mut short) = (0, 0);
     for _ in 0..4000 {
-        // Next to the place where the rounding to so many digits changes, and anywhere.
+        // Enclosures near a rounding boundary of `digits` digits, and elsewhere.
         let digits = 1 + next(20) as u32;
         let mantissa = Float::with_val(200, next(10u64.pow(digits.min(12))) as f64 + 0.5 * next(3) as f64);
         let power = |n: u64| Float::with_val(200, Float::i_pow_u(10, n as u32));
@@ -52,7 +52,7 @@ fn both_ends_print_what_is_proved() {
         let [low, high] = x.ends(digits).unwrap().map(|end| read(&end));
         assert!(low <= lo && high >= hi, "{lo} {hi}: {low} {high}");
         let text = show(&x, digits);
-        // Zeros before the point do not say whether they are known.
+        // Zeros before the point may be known digits or not.
         if text.ends_with('0') && !text.contains('.') {
             continue;
         }

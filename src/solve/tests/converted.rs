@@ -6,7 +6,7 @@ use crate::number::{Estimate, Float};
 
 type Long = Estimate<Float>;
 
-/// An engine that counts its grids, and answers nothing else.
+/// An engine that counts its grids, and answers no other query.
 #[derive(Debug)]
 struct Grids(Course<Long>, AtomicUsize);
 
@@ -42,7 +42,7 @@ impl Motion<Long> for Grids {
     }
 }
 
-/// A grid in longer numbers is marched once.
+/// Checks that a grid in longer numbers is marched once.
 #[test]
 fn a_grid_is_asked_of_the_engine_as_a_whole() {
     let end = Estimate::exact(Float::with_val(128, 2));
@@ -53,7 +53,7 @@ fn a_grid_is_asked_of_the_engine_as_a_whole() {
     assert_eq!(engine.1.load(Ordering::Relaxed), 1);
 }
 
-/// Under a fixed top, with jumps and kinks.
+/// Builds a problem under a fixed top, with jumps and kinks.
 fn profile() -> Problem {
     let number = |text: &str| text.parse::<crate::number::Number>().unwrap();
     let list = |list: &[(&str, &str)]| list.iter().map(|(x, v)| (number(x), number(v))).collect::<Vec<_>>();
@@ -63,7 +63,7 @@ fn profile() -> Problem {
     rod.time(number("11/2")).build().unwrap()
 }
 
-/// All that is asked at a time.
+/// Returns the answers to all queries at a time.
 fn asked<S: Scalar>(motion: &dyn Motion<S>, (point, time): (&S, &S), grid: &[S]) -> Vec<S> {
     let mut found = Vec::new();
     for pair in [Pair::GroundEnd, Pair::Centre, Pair::Energy, Pair::EnergyParts] {
@@ -75,8 +75,8 @@ fn asked<S: Scalar>(motion: &dyn Motion<S>, (point, time): (&S, &S), grid: &[S])
     found
 }
 
-/// Numbers that no number of `M` spells: what is asked at these is within the bounds of that in fractions. Returns how
-/// many numbers are off by more than they are rounded by.
+/// Checks at points and times that no number of `M` spells that the answers are within their bounds of those in
+/// fractions. Returns how many numbers differ by more than their rounding.
 fn within<N: crate::number::Bounded, S: crate::number::Rounded>(
     precision: &N::Precision,
     own: &<Estimate<S> as Scalar>::Precision,
@@ -104,7 +104,7 @@ where
             let bound = rug::Rational::from_f64(found.error() * (1.0 + 1e-12)).unwrap() >> bits;
             let away = (rational(found.value()) - &expected).abs();
             assert!(away <= bound, "{j} at {point}, {time}: {found:?}, expected {}", expected.to_f64());
-            // Five digits for the width of eight enclosures.
+            // Five digits allow for the width of eight enclosures.
             assert!(found.error() < 1e5, "{j} at {point}, {time}: {found:?}");
             off += usize::from(away > rug::Rational::from(expected.abs_ref()) >> bits);
             compared += 1;
@@ -114,8 +114,8 @@ where
     off
 }
 
-/// A time or a point with more digits than a double has is known within roundings, which the answers of all number
-/// systems carry; and so is one that longer numbers round, where enclosures are asked.
+/// Checks that a time or a point with more digits than a double counts as known within roundings, which the answers of
+/// all number systems carry. The same holds for one that longer numbers round, if enclosures answer.
 #[test]
 fn what_no_number_spells_is_known_within_a_rounding() {
     let double = |x: &f64| rug::Rational::from_f64(*x).unwrap();

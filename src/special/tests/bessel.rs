@@ -1,6 +1,6 @@
 use super::*;
 
-/// (2.16) by the trapezoidal rule, which converges geometrically for a periodic integrand.
+/// Evaluates (2.16) by the trapezoidal rule, which converges geometrically for a periodic integrand.
 fn by_integral(z: f64, n: i32) -> f64 {
     let points = 400 + 4 * z.sqrt() as i32;
     let sum: f64 = (0..points)

@@ -3,7 +3,7 @@ use crate::number::IntervalPrecision;
 use crate::special::{i0_scaled, i1_scaled};
 use rug::Rational;
 
-/// From few bits, where every cut is coarse, to many; the truth has twice as many.
+/// Checks precisions from few bits, where every cut is coarse, to many, against a reference with twice as many.
 #[test]
 fn sums_in_many_bits_lie_inside() {
     let fraction = |p: i64| Rational::from((p, 1000));

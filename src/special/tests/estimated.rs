@@ -1,6 +1,6 @@
 use super::*;
 
-/// Arguments off by a part in a million, against the sums of the true ones.
+/// Compares sums of arguments with a relative error of 10⁻⁶ with the sums of the exact arguments.
 #[test]
 fn errors_of_the_arguments_are_covered() {
     let weight = |n: i64| [n % 2, n, n * n * n];

@@ -1,6 +1,6 @@
 use super::*;
 
-/// An n-point rule integrates x^(2n−2) exactly, and not x^(2n).
+/// Checks that an n-point rule integrates x^(2n−2) exactly, and x^(2n) not.
 #[test]
 fn degree_of_exactness() {
     for n in 1..60usize {

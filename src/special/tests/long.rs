@@ -1,8 +1,8 @@
 use super::*;
 use crate::special::bessel::expansion;
 
-/// `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)`, term by term: once a term is half of the one before, the rest is below the
-/// last one.
+/// Computes `e^{−z} Σ_m (z/2)^{2m+n}/(m!(m+n)!)` term by term: once a term is less than half of the previous one, the
+/// rest is below the last term.
 fn series(z: &Float, n: i64) -> Float {
     let half = z.clone() / 2u32;
     let square = half.clone().square();
@@ -35,7 +35,7 @@ fn off(value: &Float, exact: &Float, p: u32) -> f64 {
     (wrong.abs() << p).to_f64()
 }
 
-/// The series and the expansion term by term, with twice the precision, against the fast way and its bound.
+/// Compares the fast method and its bound with the series and the expansion, term by term, in twice the precision.
 #[test]
 fn the_fast_way_keeps_its_bound() {
     for p in [64u32, 65, 200, 1000, 4096] {
@@ -57,7 +57,7 @@ fn the_fast_way_keeps_its_bound() {
     }
 }
 
-/// By ratios with twice the precision, for the same numbers, which then are exact.
+/// Compares with the ratios in twice the precision, for the same numbers, which are exact there.
 #[test]
 fn the_recurrence_without_divisions_keeps_its_bound() {
     let weight = |n: i64| {

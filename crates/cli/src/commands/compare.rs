@@ -123,14 +123,15 @@ impl Compare {
     /// Returns the bounds of the command line and of the file.
     fn limits(&self) -> Result<Vec<Limit>, Failure> {
         let mut limits = self.fail_above.clone();
-        limits.extend(self.fail_below.iter().cloned().map(Limit::turned));
+        limits.extend(self.fail_below.iter().cloned().map(Limit::into_minimum));
         let Some(path) = &self.gates else { return Ok(limits) };
         let shown = path.display();
         let text = std::fs::read_to_string(path).map_err(|error| failure!("{shown}: cannot be read: {error}"))?;
         let gates: Gates = toml::from_str(&text).map_err(|error| failure!("{shown}: {}", error.to_string().trim()))?;
         for (bounds, below) in [(gates.above, false), (gates.below, true)] {
             for (name, bound) in bounds {
-                limits.push(Limit::new(&name, bound, below).map_err(|error| failure!("{shown}: {error}"))?);
+                let limit = Limit::new(&name, bound).map_err(|error| failure!("{shown}: {error}"))?;
+                limits.push(if below { limit.into_minimum() } else { limit });
             }
         }
         Ok(limits)

@@ -51,7 +51,7 @@ impl Explain {
                 "limits": plan.limits(),
                 "sensitivity": Sensitivity::of(&scene.problem),
                 "plan": plan,
-                "warnings": scene.problem.neglected().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
+                "warnings": scene.problem.warnings().into_iter().map(|note| note.to_string()).collect::<Vec<_>>(),
             })))
         })
     }
@@ -74,7 +74,7 @@ impl Explain {
         let limits = plan.limits().into_iter().enumerate();
         let limits = limits.map(|(k, limit)| (if k == 0 { "limits:" } else { "" }, limit));
         let measured = Sensitivity::of(&scene.problem).map(|measured| ("measured:", measured.to_string()));
-        let warnings = scene.problem.neglected().into_iter().map(|neglected| ("warning:", neglected.to_string()));
+        let warnings = scene.problem.warnings().into_iter().map(|warning| ("warning:", warning.to_string()));
         for (name, text) in lines.into_iter().chain(reasons).chain(limits).chain(measured).chain(warnings) {
             out += &(format!("{name:10}") + &fold(&text, 10).replace('\n', "\n          ") + "\n");
         }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::dataset::{Column, Dataset};
 use dalembert::quantity::{Measure, Units};
-use dalembert_compare::{Compared, ComparedFile};
+use dalembert_compare::{ComparedColumn, ComparedFile};
 use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};
 
 /// Returns two panels for each quantity: the exact values as a thin line over the data, and the difference.
@@ -23,7 +23,7 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
         }
         panel
     };
-    let panels = compared.agreement.quantities.iter().flat_map(|Compared { what, ours, theirs, .. }| {
+    let panels = compared.agreement.quantities.iter().flat_map(|ComparedColumn { what, ours, theirs, .. }| {
         let unit = if what.unit(units) == "1" { "" } else { what.unit(units) };
         let (exact, other) = (Stroke::new("#000000", 0.2), Stroke::new("#e69f00", 0.5));
         let apart = theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect();
@@ -40,12 +40,12 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
 pub(crate) fn compare_data(ComparedFile { agreement, .. }: &ComparedFile) -> Dataset {
     let points = agreement.grid.points.as_ref();
     let mut columns: Vec<Column> = ["t"].into_iter().chain(points.map(|_| "x")).map(Column::new).collect();
-    for Compared { what, .. } in &agreement.quantities {
+    for ComparedColumn { what, .. } in &agreement.quantities {
         columns.extend(["ours", "theirs", "difference"].map(|whose| Column::new(format!("{}_{whose}", what.name()))));
     }
     let row = |(k, time): (usize, &f64)| {
         let place = [time.to_string()].into_iter().chain(points.map(|points| points[k].to_string()));
-        let values = agreement.quantities.iter().flat_map(|Compared { ours, theirs, .. }| {
+        let values = agreement.quantities.iter().flat_map(|ComparedColumn { ours, theirs, .. }| {
             [ours[k], theirs[k], theirs[k] - ours[k]].map(|value| format!("{value:e}"))
         });
         place.chain(values).map(Into::into).collect()

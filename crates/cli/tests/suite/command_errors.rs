@@ -50,7 +50,7 @@ fn misspelt_names_get_suggestions() {
     refused(&["solve", "getfem-dynamic-contct"], &["did you mean `getfem-dynamic-contact`?"]);
     refused(&["scenes", "getfem-dynamic-contct"], &["did you mean `getfem-dynamic-contact`?"]);
     refused(&["sample", "paper-weak", "--quantity", "u_ende"], &["'u_end'"]);
-    refused(&["sweep", "paper-weak", "--vary", "impact.sped=1", "--quantity", "e_P"], &["did you mean impact.speed?"]);
+    refused(&["sweep", "paper-weak", "--vary", "impact.sped=1", "--quantity", "e_P"], &["did you mean impact_speed?"]);
     refused(&["check", "--only", "figur-4"], &["did you mean `figure-4`?"]);
     refused(&["figures", "--only", "tenth-bonce", "-o", "figures"], &["did you mean tenth-bounce?"]);
     refused_with(&["solve", "-"], &SCENE.replace("speed = 3", "sped = 3"), &["did you mean speed?"]);

@@ -15,9 +15,7 @@ mod common;
 mod compare_command;
 mod compare_contacts;
 mod compare_fits;
-mod compare_peers;
 mod compare_reading;
-mod compare_verdicts;
 mod cost_measured;
 #[cfg(feature = "mp")]
 mod derivatives;
@@ -26,7 +24,6 @@ mod derivatives_at;
 mod endings;
 #[cfg(all(feature = "mp", target_os = "linux"))]
 mod guide;
-mod peers;
 mod pictures;
 #[cfg(feature = "mp")]
 mod reference;

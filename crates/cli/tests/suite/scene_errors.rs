@@ -398,6 +398,8 @@ const CASES: &[Case] = &[
     case("meant_drop_height", "rod = {}\nimpact.height = 2\n", Kind::UnknownKey, (2, 8), "height"),
     case("meant_acceleration", "rod = {}\ngravity.g = 9.81\n", Kind::UnknownKey, (2, 9), "g"),
     case("meant_another_table", "rod = { speed = 3 }\n", Kind::UnknownKey, (1, 9), "speed"),
+    case("material_damping", "rod = { rayleigh_beta = 1e-5 }\n", Kind::UnknownKey, (1, 9), "rayleigh_beta"),
+    case("material_damping_elsewhere", "rod = {}\nkelvin-voigt = 1\n", Kind::UnknownKey, (2, 1), "kelvin-voigt"),
     case("meant_no_table", "length = 1\n", Kind::UnknownKey, (1, 1), "length"),
     case("meant_a_table", "beam = { length = 1 }\n", Kind::UnknownKey, (1, 1), "beam"),
     case("meant_fixed", "rod = { length = 1, top = \"Fixed end\" }\n", Kind::OutOfRange, (1, 27), "\"Fixed end\""),

@@ -1,6 +1,6 @@
-//! What is wrong with data, and where; columns that may be wrong.
+//! Errors in data, with their place.
 
-/// Data that cannot be read: the source, the place in it, and what is wrong there.
+/// An error in data, with its source and the place in it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}{}: {kind}", place.as_ref().map_or_else(String::new, |place| format!(", {place}")))]
 pub struct DataError {
@@ -9,7 +9,7 @@ pub struct DataError {
     kind: DataErrorKind,
 }
 
-/// What is wrong with data.
+/// The kind of an error in data.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "each case is described by its message")]
 pub enum DataErrorKind {
@@ -48,13 +48,14 @@ pub enum DataErrorKind {
 }
 
 impl DataErrorKind {
+    /// Builds the error of this kind at a place.
     pub(crate) fn at(self, file: &str, place: Option<String>) -> DataError {
         DataError { file: file.into(), place, kind: self }
     }
 }
 
-/// A column of an array, or why it is none of numbers: it may not be asked for.
+/// A column of an array, or the reason why it holds no numbers, which matters only if the column is read.
 pub type Column = Result<Vec<f64>, DataErrorKind>;
 
-/// The columns of arrays, which have names in an archive.
+/// The columns of each array, and its name in an archive.
 pub(super) type Arrays = Vec<(Option<String>, Vec<Column>)>;

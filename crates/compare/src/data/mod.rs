@@ -1,4 +1,4 @@
-//! Other people's data: columns of numbers from text, `.npy` and `.npz`.
+//! Columns of numbers from text, `.npy` and `.npz`.
 
 mod error;
 mod numpy;

@@ -1,4 +1,4 @@
-//! Columns in NumPy's arrays.
+//! Columns of NumPy's arrays.
 
 use std::io::Cursor;
 
@@ -8,11 +8,11 @@ use ndarray_npy::{NpzReader, ReadNpyError, ReadNpyExt, ReadNpzError, ReadableEle
 use super::error::{Arrays, Column, DataErrorKind};
 use dalembert::number::short;
 
-/// Reads an array or an archive of arrays, there with their names: an array of one axis is a column, one of two axes
-/// has a column for each index of its second. A number alone is no column.
+/// Reads an array, or an archive of arrays with their names. An array of one axis is a column, one of two axes has a
+/// column for each index of its second, and a single number has none.
 pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKind> {
     if is_array {
-        let array = numbers(Held::Array(&bytes))?;
+        let array = numbers(ArrayPlace::Array(&bytes))?;
         let shape = array.shape().to_vec();
         let columns = columns(array);
         let none = columns.is_empty() || columns.iter().any(Result::is_err);
@@ -22,7 +22,7 @@ pub(super) fn read(bytes: Vec<u8>, is_array: bool) -> Result<Arrays, DataErrorKi
     let mut archive = NpzReader::new(Cursor::new(bytes)).map_err(unreadable)?;
     let names = archive.names().map_err(unreadable)?;
     let read = |name: String| {
-        let columns = numbers(Held::Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
+        let columns = numbers(ArrayPlace::Entry(&mut archive, &name)).map_or_else(|kind| vec![Err(kind)], columns);
         (Some(name), columns)
     };
     Ok(names.into_iter().map(read).collect())
@@ -37,26 +37,28 @@ fn columns(array: ArrayD<f64>) -> Vec<Column> {
     }
 }
 
-/// An array as it is held: by itself, or in an archive by its name.
-enum Held<'a> {
+/// The place of an array: a file of its own, or an archive, where it has a name.
+enum ArrayPlace<'a> {
     Array(&'a [u8]),
     Entry(&'a mut NpzReader<Cursor<Vec<u8>>>, &'a str),
 }
 
-impl Held<'_> {
+impl ArrayPlace<'_> {
     fn read<T: ReadableElement>(&mut self) -> Result<ArrayD<T>, ReadNpyError> {
         match self {
-            Held::Array(bytes) => ArrayD::read_npy(*bytes),
-            Held::Entry(archive, name) => archive.by_name::<OwnedRepr<T>, IxDyn>(name).map_err(|error| match error {
-                ReadNpzError::Npy(error) => error,
-                ReadNpzError::Zip(error) => ReadNpyError::Io(std::io::Error::other(error.to_string())),
-            }),
+            ArrayPlace::Array(bytes) => ArrayD::read_npy(*bytes),
+            ArrayPlace::Entry(archive, name) => {
+                archive.by_name::<OwnedRepr<T>, IxDyn>(name).map_err(|error| match error {
+                    ReadNpzError::Npy(error) => error,
+                    ReadNpzError::Zip(error) => ReadNpyError::Io(std::io::Error::other(error.to_string())),
+                })
+            }
         }
     }
 }
 
-/// The elements as doubles, from whichever of the common types they are.
-fn numbers(mut array: Held<'_>) -> Result<ArrayD<f64>, DataErrorKind> {
+/// Reads the elements, of any of the common types, as doubles.
+fn numbers(mut array: ArrayPlace<'_>) -> Result<ArrayD<f64>, DataErrorKind> {
     macro_rules! of {
         ($($element:ty),*) => {$(
             if let Ok(found) = array.read::<$element>() {

@@ -1,4 +1,4 @@
-//! A source of columns, and the columns that are asked of it.
+//! A source of columns, and the columns that are read from it.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -8,7 +8,7 @@ use super::error::{Arrays, Column, DataError, DataErrorKind};
 use super::numpy;
 use super::text::{Head, Text};
 
-/// A source of columns, opened far enough to know how many there are and what they are called.
+/// A source of columns, opened far enough to know their number and names.
 pub struct Source {
     pub(crate) file: String,
     pub(crate) head: Head,
@@ -20,16 +20,16 @@ pub(super) enum Body {
     Arrays(Vec<Column>),
 }
 
-/// The columns that were asked for, in that order, all of one length.
+/// The columns that were read, in the order of the request, all of one length.
 #[derive(Debug)]
 pub(crate) struct Columns {
     file: String,
     pub(crate) values: Vec<Vec<f64>>,
-    /// The number of each row's line, of a text.
+    /// The line number of each row of a text.
     lines: Vec<usize>,
 }
 
-/// The arrays of a file of NumPy, with their names in an archive.
+/// Reads the arrays of a file of NumPy, with their names in an archive.
 fn arrays(mut reader: impl Read, file: &str) -> Result<Arrays, DataError> {
     let mut bytes = Vec::new();
     let read = reader.read_to_end(&mut bytes).map_err(|error| DataErrorKind::Unreadable(error.to_string()));
@@ -37,14 +37,14 @@ fn arrays(mut reader: impl Read, file: &str) -> Result<Arrays, DataError> {
     read.and_then(|_| numpy::read(bytes, is_array)).map_err(|kind| kind.at(file, None))
 }
 
-/// What an array of NumPy begins with.
+/// The first bytes of an array of NumPy.
 const ARRAY: &[u8] = b"\x93NUMPY";
-/// What an archive of them begins with.
+/// The first bytes of an archive of arrays.
 const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 impl Source {
-    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. Of a folder
-    /// each `.npy` is a quantity, called as the file is.
+    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. In a folder, each
+    /// `.npy` is a quantity with the name of the file.
     ///
     /// **Errors**: [`DataError`], for an empty file too.
     pub fn open(path: &Path) -> Result<Self, DataError> {
@@ -60,7 +60,7 @@ impl Source {
         let start = reader.fill_buf().map_err(read)?;
         if start.starts_with(ARRAY) || start.starts_with(ARCHIVE) {
             let found = arrays(reader, &file)?;
-            return Ok(Self::of(&file, found));
+            return Ok(Self::from_arrays(&file, found));
         }
         let (text, head) = Text::open(reader, &file)?;
         Ok(Source { file, head, body: Body::Text(text) })
@@ -84,11 +84,11 @@ impl Source {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             all.extend(arrays(opened, &shown)?.into_iter().map(|(_, columns)| (Some(stem.to_string()), columns)));
         }
-        Ok(Self::of(&file, all))
+        Ok(Self::from_arrays(&file, all))
     }
 
-    /// The columns of arrays, called as these: `name[k]` where there are several.
-    fn of(file: &str, arrays: Arrays) -> Self {
+    /// Builds a source from arrays, whose columns have their name, or `name[k]` where there are several.
+    fn from_arrays(file: &str, arrays: Arrays) -> Self {
         let (mut names, mut all) = (Vec::new(), Vec::new());
         for (name, columns) in arrays {
             let several = columns.len() > 1;
@@ -96,17 +96,17 @@ impl Source {
             names.extend(name.into_iter().flat_map(|name| vec![name; columns.len()].into_iter().zip(0..).map(called)));
             all.extend(columns);
         }
-        Self::arrays(file, names, all)
+        Self::from_columns(file, names, all)
     }
 
-    /// Columns that are held in memory, with their names or without; one that is no column of numbers has the reason in
+    /// Builds a source from columns in memory, with names or without; a column that holds no numbers has the reason in
     /// its place.
-    pub fn arrays(file: &str, names: Vec<String>, columns: Vec<Column>) -> Self {
+    pub fn from_columns(file: &str, names: Vec<String>, columns: Vec<Column>) -> Self {
         let (width, body) = (columns.len(), Body::Arrays(columns));
         Source { file: file.into(), head: Head { names, width, misnamed: None, is_sized: false }, body }
     }
 
-    /// Reads the columns of these places, counted from 0; in that at `side` a text has words for −1, 0 and 1.
+    /// Reads the columns at these places, counted from 0. The column at `side` may hold words for −1, 0 and 1.
     pub(crate) fn columns(self, which: &[usize], side: Option<usize>) -> Result<Columns, DataError> {
         let (values, lines) = match self.body {
             Body::Text(text) => text.read(which, side, &self.file)?,
@@ -140,12 +140,12 @@ impl Columns {
         self.values.first().map_or(0, Vec::len)
     }
 
-    /// `kind`, of the file as a whole.
+    /// Builds the error of this kind for the whole file.
     pub(crate) fn whole(&self, kind: DataErrorKind) -> DataError {
         kind.at(&self.file, None)
     }
 
-    /// `kind` at a row and a column, both counted from 0.
+    /// Builds the error of this kind at a row and a column, both counted from 0.
     pub(crate) fn refuse(&self, row: usize, column: usize, kind: DataErrorKind) -> DataError {
         let place = match self.lines.get(row) {
             Some(line) => format!("line {line}, column {}", column + 1),

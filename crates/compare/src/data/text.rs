@@ -1,4 +1,4 @@
-//! Columns in text: separated by commas, semicolons, tabs or spaces, with comments and a header or without.
+//! Columns of text, separated by commas, semicolons, tabs or spaces, with comments and a header or without.
 
 use std::io::{BufRead, BufReader, Read};
 
@@ -6,17 +6,17 @@ use super::error::{DataError, DataErrorKind};
 use dalembert::number::{Number, short};
 
 /// A line that is not empty, with its number.
-type Line = Result<(usize, String), DataError>;
+type NumberedLine = Result<(usize, String), DataError>;
 
-/// The rows of a text, of so many fields each.
+/// The rows of a text, of `width` fields each.
 pub(super) struct Text {
-    lines: Box<dyn Iterator<Item = Line> + Send>,
+    lines: Box<dyn Iterator<Item = NumberedLine> + Send>,
     separator: Option<char>,
     width: usize,
 }
 
-/// The lines of a text; a `\r` before the end of one is white space.
-fn lines(reader: impl BufRead, end: u8, file: String) -> impl Iterator<Item = Line> {
+/// Returns the lines of a text; a `\r` before the end of a line is white space.
+fn lines(reader: impl BufRead, end: u8, file: String) -> impl Iterator<Item = NumberedLine> {
     reader.split(end).zip(1..).filter_map(move |(line, number)| {
         let line = match line {
             Ok(line) if line.trim_ascii().is_empty() => return None,
@@ -36,7 +36,7 @@ fn trimmed(line: &str) -> &str {
 
 const COMMENTS: [char; 3] = ['#', '%', '!'];
 
-/// The fields of a row; a separator at its end begins no other field.
+/// Returns the fields of a row; a separator at its end begins no further field.
 fn fields(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     let (separated, spaced) = match separator {
         Some(separator) => (Some(row.strip_suffix(separator).unwrap_or(row).split(separator).map(str::trim)), None),
@@ -45,7 +45,7 @@ fn fields(row: &str, separator: Option<char>) -> impl Iterator<Item = &str> {
     separated.into_iter().flatten().chain(spaced.into_iter().flatten())
 }
 
-/// A number as any language prints it: Fortran's `1.5D-3` and `1.5-103` too, in quotes, and fractions.
+/// Reads a number as any language prints it, such as Fortran's `1.5D-3` and `1.5-103`, in quotes, or as a fraction.
 fn number(text: &str) -> Option<f64> {
     text.parse().ok().or_else(|| {
         let text = text.trim_matches('"').trim();
@@ -55,14 +55,14 @@ fn number(text: &str) -> Option<f64> {
     })
 }
 
-/// `1.5-103`: beside three digits of an exponent Fortran has no room for its letter.
+/// Reads `1.5-103`: Fortran leaves out the letter before three digits of an exponent.
 fn without_letter(text: &str) -> Option<f64> {
     let (mantissa, exponent) = text.split_at_checked(text.len().checked_sub(4)?)?;
     let has_sign = exponent.starts_with(['+', '-']) && mantissa.contains('.');
     has_sign.then(|| format!("{mantissa}e{exponent}").parse().ok()).flatten()
 }
 
-/// Which limit a row holds, as a word or a number.
+/// Reads the limit that a row holds, as a word or a number.
 fn side(text: &str) -> Option<f64> {
     match text.trim_matches('"') {
         "left" => Some(-1.0),
@@ -72,8 +72,8 @@ fn side(text: &str) -> Option<f64> {
     }
 }
 
-/// What separates the fields; `None` for white space. Commas that all stand between two digits, in a row with white
-/// space, are those of decimals.
+/// Returns the separator of the fields; `None` for white space. Commas that all stand between two digits, in a row with
+/// white space, are decimal commas.
 fn separator(row: &str) -> Option<char> {
     let bytes = row.as_bytes();
     let digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
@@ -82,13 +82,13 @@ fn separator(row: &str) -> Option<char> {
     [';', ','].into_iter().find(|separator| row.contains(*separator)).filter(|found| *found == ';' || !decimals())
 }
 
-/// The columns of a line `rows columns`.
+/// Returns the number of columns in a line `rows columns`.
 fn sizes(row: &str, separator: Option<char>) -> Option<usize> {
     let whole: Vec<usize> = fields(row, separator).map(|field| field.parse().ok()).collect::<Option<_>>()?;
     whole.get(1).copied()
 }
 
-/// The names of a header; where white space separates them, a unit in brackets belongs to the name before it.
+/// Returns the names of a header; where white space separates them, a unit in brackets belongs to the name before it.
 fn names(header: &str, separator: Option<char>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let open = |name: &str| name.matches(['[', '(']).count() > name.matches([']', ')']).count();
@@ -103,12 +103,12 @@ fn names(header: &str, separator: Option<char>) -> Vec<String> {
     names
 }
 
-/// What is known of a source before its rows are read.
+/// The names and the number of the columns, known before the rows are read.
 pub(crate) struct Head {
     /// The names of the columns; empty where they have none.
     pub(crate) names: Vec<String>,
     pub(crate) width: usize,
-    /// How many names a header has, where they are not as many as the columns.
+    /// The number of names of a header, where it differs from that of the columns.
     pub(crate) misnamed: Option<usize>,
     /// Whether a first line `rows columns` was skipped.
     pub(crate) is_sized: bool,
@@ -136,7 +136,7 @@ impl Text {
             }
             let (mut width, sizes) = (fields(row, separator).count(), sizes(row, separator));
             let (mut first, mut sized) = (vec![(number, line)], false);
-            // A line `rows columns` above as many columns, as NumPy's writers and Siconos have it.
+            // Siconos writes a line `rows columns` above its rows.
             if let (None, 2, Some(columns)) = (&header, width, sizes) {
                 first.extend(lines.next().transpose()?);
                 sized = columns > 2
@@ -158,7 +158,8 @@ impl Text {
         Err(DataErrorKind::Empty.at(file, None))
     }
 
-    /// Reads all rows, of each the fields at `which`, and that at `words` as a side; and the number of each row's line.
+    /// Reads the fields at `which` of all rows, the one at `words` as a side, and returns the columns and the line number
+    /// of each row.
     pub(super) fn read(
         self,
         which: &[usize],
@@ -167,7 +168,7 @@ impl Text {
     ) -> Result<(Vec<Vec<f64>>, Vec<usize>), DataError> {
         let mut values: Vec<Vec<f64>> = vec![Vec::new(); which.len()];
         let mut numbers = Vec::new();
-        // Of each field, the columns that take it.
+        // The columns that each field goes to.
         let takers: Vec<Vec<usize>> =
             (0..self.width).map(|place| (0..which.len()).filter(|k| which[*k] == place).collect()).collect();
         for line in self.lines {

@@ -7,19 +7,19 @@ fn names(text: &str) -> Vec<String> {
 #[test]
 fn names_and_numbers() {
     let u = Quantity::EndDisplacement;
-    let map = Map::of(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
+    let map = ColumnMap::new(Some("t=0, u=2,force=lam"), &names("time lam disp"), 3, false).unwrap();
     assert_eq!(map.columns, [(Quantity::Time, 0), (u, 2), (Quantity::Force, 1)]);
     // The names of a header, and what is none of ours left alone.
-    let map = Map::of(None, &names("step t u"), 3, false).unwrap();
+    let map = ColumnMap::new(None, &names("step t u"), 3, false).unwrap();
     assert_eq!(map.columns, [(Quantity::Time, 1), (u, 2)]);
     // With points, u is that there.
-    let map = Map::of(None, &names("t x u"), 3, false).unwrap();
+    let map = ColumnMap::new(None, &names("t x u"), 3, false).unwrap();
     assert_eq!(map.columns, [(Quantity::Time, 0), (Quantity::Point, 1), (Quantity::PointDisplacement, 2)]);
 }
 
 #[test]
 fn what_is_refused() {
-    let of = |text: Option<&str>, header: &str, counted| Map::of(text, &names(header), 3, counted).unwrap_err();
+    let of = |text: Option<&str>, header: &str, counted| ColumnMap::new(text, &names(header), 3, counted).unwrap_err();
     assert_eq!(of(None, "", false), MapError::NoNames);
     assert_eq!(of(Some("u=1"), "", false), MapError::NoTime { found: String::new() });
     assert_eq!(of(Some("t=0,u=1"), "", true), MapError::TwoTimes);

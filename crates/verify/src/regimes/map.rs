@@ -95,7 +95,7 @@ impl Map {
     }
 
     /// Finds [`Map::regions`]. Between two points in different bands the edge is halved until the border is known to one
-    /// part in [`FINE`] of the picture; `done` is called after each edge.
+    /// part in `FINE` of the picture; `done` is called after each edge.
     pub fn with_regions(self, done: &(dyn Fn() + Sync)) -> Self {
         let (across, up) = (self.damping.len(), self.speed.len());
         let (dampings, speeds) = (CellAxis::new(&self.damping), CellAxis::new(&self.speed));

@@ -1,30 +1,14 @@
-//! `dalembert compare` on small contact codes: conventions, and the audit.
+//! Conventions of other codes, and the audit of what they keep.
 
-use std::path::PathBuf;
-use std::process::Command;
-
+use dalembert_compare::{Axis, Compression, Options};
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::peers::{BAR, Rod, Row, Scheme, csv};
+use crate::compare;
+use crate::peers::{BAR, Rod, Row, Scheme};
 
 const END: f64 = 7.5;
 
-/// What `compare` says of `rows`, as JSON.
-pub(crate) fn compare(scene: &str, rows: &[Row], more: &[&str]) -> Value {
-    let folder = TempDir::new().unwrap();
-    let path: PathBuf = folder.path().join("run.csv");
-    std::fs::write(&path, csv(rows)).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_dalembert"))
-        .args(["compare", scene, path.to_str().unwrap(), "--format", "json"])
-        .args(more)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
-/// Three contacts of `rod`, by `scheme`.
+/// Returns the run of `rod` by `scheme` through three contacts.
 fn bar(rod: Rod, scheme: Scheme) -> Vec<Row> {
     rod.run(scheme, END, |_| true)
 }
@@ -39,15 +23,21 @@ pub(crate) fn with(rows: &[Row], change: impl Fn(&mut Row)) -> Vec<Row> {
 #[test]
 fn conventions_are_undone() {
     let honest = bar(Rod { elements: 100, ..BAR }, Scheme::Redistribution);
-    let plain = compare("doyen-ern-piperno", &honest, &[]);
+    let plain = compare("doyen-ern-piperno", &honest, &Options::default());
     let dt = honest[1].t;
     let other = with(&honest, |row| {
         (row.u, row.v, row.h, row.h_rate) = (-row.u, -row.v, -row.h, -row.h_rate);
         (row.u_top, row.v_top) = (-row.u_top, -row.v_top);
         (row.force, row.energy, row.t) = (-row.force, 2.0 * row.energy, row.t - 4.0 * dt);
     });
-    let (shift, more) = (format!("{:e}", 4.0 * dt), ["--axis", "down", "--compression", "-", "--energy-scale", "1/2"]);
-    let undone = compare("doyen-ern-piperno", &other, &[&more[..], &["--shift", &shift]].concat());
+    let options = Options {
+        axis: Axis::Down,
+        compression: Some(Compression::Negative),
+        energy_scale: Some("1/2".parse().unwrap()),
+        shift: Some(format!("{:e}", 4.0 * dt).parse().unwrap()),
+        ..Options::default()
+    };
+    let undone = compare("doyen-ern-piperno", &other, &options);
     assert_eq!(undone["hints"], serde_json::json!([]));
     for (a, b) in plain["quantities"].as_array().unwrap().iter().zip(undone["quantities"].as_array().unwrap()) {
         let l2 = |value: &Value| value["l2"]["relative"].as_f64().unwrap();
@@ -55,10 +45,10 @@ fn conventions_are_undone() {
     }
 }
 
-/// The audit by hand: what a code keeps, it keeps.
+/// The audit of three codes against values by hand.
 #[test]
 fn the_audit_of_codes() {
-    let audit = |scheme| compare("doyen-ern-piperno", &bar(BAR, scheme), &[])["audit"].clone();
+    let audit = |scheme| compare("doyen-ern-piperno", &bar(BAR, scheme), &Options::default())["audit"].clone();
     let penalty = audit(Scheme::Penalty);
     // F = m₀/dt² u: 500 N press it in by 500 (h/c)²/(ρSh/2) = 0.0277.
     let depth = penalty["penetration"]["value"].as_f64().unwrap();

@@ -1,4 +1,4 @@
-//! Small contact codes, as others write them: what `compare` is tried on.
+//! Small contact codes as others write them, whose data are compared.
 
 /// A rod that hits the ground at `t = 0`, in `elements` of one length.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ pub(crate) struct Rod {
     pub(crate) damping: f64,
     pub(crate) speed: f64,
     pub(crate) elements: usize,
-    /// What the masses of both end nodes are multiplied with.
+    /// The factor of the masses of both end nodes.
     pub(crate) ends: f64,
 }
 
@@ -33,7 +33,7 @@ pub(crate) const BAR: Rod = Rod {
 pub(crate) const STEEL: Rod =
     Rod { length: 1.0, modulus: 2e11, density: 8000.0, area: 1e-4, gravity: 9.81, speed: 1.0, ..BAR };
 
-/// What a code writes at a time.
+/// The output of a code at a time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Row {
     pub(crate) t: f64,
@@ -47,7 +47,7 @@ pub(crate) struct Row {
     pub(crate) energy: f64,
 }
 
-/// How a code meets the ground.
+/// A scheme for motion and contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Scheme {
     /// Leapfrog at CFL = 1, with a penalty at the end of the step.
@@ -64,7 +64,7 @@ pub(crate) enum Scheme {
     Redistribution,
 }
 
-/// All of them.
+/// The schemes that faults are tried with.
 pub(crate) const SCHEMES: [Scheme; 9] = [
     Scheme::Penalty,
     Scheme::Projection,
@@ -370,11 +370,19 @@ impl Rod {
     }
 }
 
-/// The rows as a CSV file.
-pub(crate) fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("t,u,v,force,u_top,v_top,h,h_rate,E_total\n");
-    for Row { t, u, v, force, u_top, v_top, h, h_rate, energy } in rows {
-        text += &format!("{t},{u:e},{v:e},{force:e},{u_top:e},{v_top:e},{h:e},{h_rate:e},{energy:e}\n");
-    }
-    text
+/// The rows as columns of data.
+#[allow(clippy::type_complexity, reason = "names and readers of a table")]
+pub(crate) fn columns(rows: &[Row]) -> Vec<(&'static str, Vec<f64>)> {
+    let pick: [(&str, fn(&Row) -> f64); 9] = [
+        ("t", |row| row.t),
+        ("u", |row| row.u),
+        ("v", |row| row.v),
+        ("force", |row| row.force),
+        ("u_top", |row| row.u_top),
+        ("v_top", |row| row.v_top),
+        ("h", |row| row.h),
+        ("h_rate", |row| row.h_rate),
+        ("E_total", |row| row.energy),
+    ];
+    pick.map(|(name, value)| (name, rows.iter().map(value).collect())).into()
 }

@@ -1,0 +1,167 @@
+//! Symptoms that need no fit: empty columns, a lost start, an unstable energy, another mass, velocities between two
+//! steps, and fronts that are spread.
+
+use super::agreement::Agreement;
+use super::diagnosis::Hint;
+use super::norms::ComparedColumn;
+use super::reference::Reference;
+use dalembert::number::Scalar;
+use dalembert::quantity::Quantity;
+use dalembert::{Error, Side};
+
+/// Largest share of ‖e‖₂ that an explanation may leave.
+pub(super) const LEFT: f64 = 0.5;
+/// Smallest number of samples for a diagnosis.
+pub(super) const FEWEST: usize = 8;
+/// Rounding of values that are written with six digits.
+const SIX_DIGITS: f64 = 5e-6;
+
+/// Returns whether a column is zero throughout although the exact one is not.
+pub(super) fn is_empty(column: &ComparedColumn) -> bool {
+    column.theirs.iter().all(|value| *value == 0.0) && column.norms.l2.relative.is_some_and(|share| share > LEFT)
+}
+
+/// Returns the hint at an empty column.
+pub(super) fn empty_column(column: &ComparedColumn) -> Hint {
+    let quantity = column.what.name();
+    let text = format!("{quantity} is zero throughout: an empty column?");
+    Hint { quantity, ..Hint::new("empty", 0.0, text) }
+}
+
+fn energy(columns: &[ComparedColumn]) -> Option<&ComparedColumn> {
+    columns.iter().find(|column| column.what == Quantity::Energy && !is_empty(column))
+}
+
+/// Returns the hint at an initial velocity that was ignored: most of the energy is gone at the second sample.
+pub(super) fn lost_start(columns: &[ComparedColumn]) -> Option<Hint> {
+    let energy = energy(columns)?;
+    let [first, second] = energy.theirs.get(..2)?.try_into().ok()?;
+    let lost: f64 = first - second;
+    (lost > first / 2.0 && energy.ours[1] > energy.ours[0] / 2.0).then(|| {
+        let (lost, first) = (lost.decimal(4), first.decimal(4));
+        let text =
+            format!("{lost} of {first} of the energy are lost in the first step: is the initial velocity ignored?");
+        Hint::new("start_velocity", -1.0, text)
+    })
+}
+
+/// Returns the hint at a mass that is not that of the scene: the kinetic energy before the first contact, which no
+/// scheme gets wrong, has another value at the same speed.
+///
+/// **Source**: the factors of the energy and of the speed of the end that fit best, by least squares; the standard error
+/// is that of the residual of the energy.
+pub(super) fn unlike_mass(reference: &Reference<'_>, agreement: &Agreement) -> Option<Hint> {
+    let Agreement { grid, step, .. } = agreement;
+    let first = reference.history.contacts().first().map_or(f64::INFINITY, |contact| contact.impact);
+    let count = grid.times.partition_point(|time| *time < first - 2.0 * step);
+    let factor = |what: Quantity| {
+        let column = agreement.column(what)?;
+        let sum =
+            |f: &dyn Fn(f64, f64) -> f64| -> f64 { (0..count).map(|k| f(column.ours[k], column.theirs[k])).sum() };
+        let factor = sum(&|ours, theirs| ours * theirs) / sum(&|ours, _| ours * ours);
+        let left = sum(&|ours, theirs| (theirs - factor * ours).powi(2)) / sum(&|ours, _| ours * ours);
+        Some((factor, (left / count.saturating_sub(1).max(1) as f64).sqrt().max(SIX_DIGITS)))
+    };
+    let ((energy, error), (speed, _)) = (factor(Quantity::KineticEnergy)?, factor(Quantity::EndVelocity)?);
+    let (off, by_speed) = (energy - 1.0, (speed * speed - 1.0).abs());
+    let is_evident = off.abs() > 2.0 * error && by_speed < LEFT * LEFT * off.abs() && off.abs() < LEFT;
+    (count >= FEWEST && is_evident).then(|| {
+        let (percent, error_percent) = ((100.0 * off).decimal(3), (100.0 * error).decimal(1));
+        let text = format!(
+            "mass off by {percent} ± {error_percent} %, as the kinetic energy before the first contact, at the same \
+             speed: check density, area and length"
+        );
+        Hint { error, ..Hint::new("mass", off, text.replace('-', "−")) }
+    })
+}
+
+/// Returns the hint at an unstable scheme: the energy doubles.
+pub(super) fn unstable_energy(columns: &[ComparedColumn]) -> Option<Hint> {
+    let energy = energy(columns)?;
+    let first = *energy.theirs.first()?;
+    let most = energy.theirs.iter().copied().fold(first, f64::max);
+    let share = most / first - 1.0;
+    (first > 0.0 && share > 1.0).then(|| {
+        let text = format!("energy up by {} %, from nowhere: the scheme is unstable", (100.0 * share).decimal(4));
+        Hint { quantity: energy.what.name(), ..Hint::new("energy_gain", share, text) }
+    })
+}
+
+/// Returns the time over which the fronts of the data are spread: the width of a ramp that is as far from a jump.
+///
+/// **Source**: `∫ e² dt = J² W/12` for a ramp of width `W` about a jump `J`; the median over the jumps at both ends of
+/// the first contact, and at the top when the first wave arrives. The start is left out, as there are no data before it.
+pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
+    let (history, Agreement { grid, quantities, .. }) = (reference.history, agreement);
+    let trip = history.scales().time;
+    let released = history.contacts().iter().find_map(|contact| contact.release).unwrap_or(f64::INFINITY);
+    let events = history.events().iter().map(|event| event.t);
+    let events: Vec<f64> = events.filter(|time| *time > 0.0 && *time <= released).collect();
+    let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
+    let mut widths = Vec::new();
+    for column in quantities.iter().filter(|column| column.what.jumps() && column.what.measure().is_some()) {
+        let times = if column.what == Quantity::TopVelocity { vec![first + trip / 2.0] } else { events.clone() };
+        for time in times.into_iter().filter(|time| *time < *history.end()) {
+            let limit = |side| Ok::<_, Error>(history.columns(&[column.what], &[time], Some(side))?[0][0]);
+            let jump = limit(Side::Right)? - limit(Side::Left)?;
+            let near = |k: &usize| (grid.times[*k] - time).abs() < trip / 8.0;
+            let square = |k: usize| grid.weights[k] * (column.theirs[k] - column.ours[k]).powi(2);
+            let sum: f64 = (0..grid.times.len()).filter(near).map(square).sum();
+            let most = column.ours.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+            widths.extend((jump.abs() > LEFT * most).then(|| 12.0 * sum / (jump * jump)));
+        }
+    }
+    widths.sort_by(f64::total_cmp);
+    Ok(widths.get(widths.len() / 2).copied().filter(|width| *width > agreement.step))
+}
+
+/// Returns the hint at velocities that are half a step from their times, before any wave has reached the end of the rod
+/// that they are of. Velocities that are the central differences of the displacement beside them, as those of Verlet's
+/// scheme, belong to their times.
+///
+/// **Source**: every scheme has such a velocity to a rounding, so that `v − ours = ∓(Δt/2) v_tt`.
+pub(super) fn half_step(reference: &Reference<'_>, agreement: &Agreement) -> Option<Hint> {
+    let Agreement { grid, step, .. } = agreement;
+    let (trip, first) = (reference.history.scales().time, reference.history.contacts().first());
+    let first = first.map_or(f64::INFINITY, |contact| contact.impact);
+    // Schemes send waves ahead of the first one: the top is left out well before it.
+    let columns = [
+        (Quantity::EndVelocity, Quantity::EndDisplacement, first),
+        (Quantity::TopVelocity, Quantity::TopDisplacement, first + trip / 4.0),
+    ];
+    columns.into_iter().find_map(|(what, place, until)| {
+        let column = agreement.column(what)?;
+        let count = grid.times.partition_point(|time| *time < until - step);
+        let rate = |k: usize| (column.ours[k] - column.ours[k - 1]) / (grid.times[k] - grid.times[k - 1]);
+        let sum = |f: &dyn Fn(usize) -> f64| (1..count).filter(|k| rate(*k).is_finite()).map(f).sum::<f64>();
+        let error = |k: usize| column.theirs[k] - column.ours[k];
+        let (square, cross) = (sum(&|k| rate(k) * rate(k)), sum(&|k| error(k) * rate(k)));
+        let late = -cross / square;
+        let left = sum(&|k| (error(k) + late * rate(k)).powi(2));
+        let is_half = (late.abs() / step - 0.5).abs() < LEFT * 0.5;
+        let error = (left / square / (count as f64 - 2.0)).sqrt();
+        let is_evident = count > 3 && is_half && error < late.abs() / 2.0;
+        let place = agreement.column(place).map(|place| place.theirs.as_slice());
+        let is_central = place.is_some_and(|place| is_central_difference(&grid.times[..count], place, &column.theirs));
+        (is_evident && !is_central).then(|| {
+            let (quantity, side) = (what.name(), if late > 0.0 { "late" } else { "early" });
+            let steps = late.abs() / step;
+            let text = format!("{quantity} is {steps:.2} steps {side}: is it the velocity between two steps?");
+            Hint { quantity, error, ..Hint::new("half_step", late, text) }
+        })
+    })
+}
+
+/// Returns whether `velocities` are nearer to the central differences of `places` than to those of one step, all of them
+/// by a common factor that a wrong clock makes.
+fn is_central_difference(times: &[f64], places: &[f64], velocities: &[f64]) -> bool {
+    let misfit = |before: usize, after: usize| {
+        let difference = |k: usize| (places[k + after] - places[k - before]) / (times[k + after] - times[k - before]);
+        let pairs = (1..times.len().saturating_sub(1)).map(|k| (velocities[k], difference(k)));
+        let pairs: Vec<(f64, f64)> = pairs.filter(|(_, difference)| difference.is_finite()).collect();
+        let sum = |f: fn(f64, f64) -> f64| pairs.iter().map(|(v, d)| f(*v, *d)).sum::<f64>();
+        let factor = sum(|v, d| v * d) / sum(|_, d| d * d);
+        pairs.iter().map(|(v, d)| (v - factor * d).powi(2)).sum::<f64>()
+    };
+    misfit(1, 1) < misfit(1, 0).min(misfit(0, 1))
+}

@@ -1,0 +1,131 @@
+//! Causes that were once named wrongly: damping, soft contacts, causes that are alike, velocities of Verlet's scheme.
+
+use dalembert::{Quantity, Side};
+use dalembert_compare::Options;
+use serde_json::Value;
+
+use crate::conventions::with;
+use crate::peers::{self, BAR, Rod, Row, Scheme};
+use crate::{compare, compare_columns, scene};
+
+const END: f64 = 4.5;
+
+fn hints(report: &Value) -> Vec<Value> {
+    report["hints"].as_array().unwrap().clone()
+}
+
+fn kinds(hints: &[Value]) -> Vec<&str> {
+    hints.iter().map(|hint| hint["kind"].as_str().unwrap()).collect()
+}
+
+fn number(hint: &Value, key: &str) -> f64 {
+    hint[key].as_f64().unwrap()
+}
+
+/// The scene of the bar with a damping, and some columns of the exact motion of another damping.
+fn damped(in_scene: f64, in_data: f64, columns: &[Quantity]) -> Value {
+    let text = |damping: f64| {
+        format!(
+            "rod = {{ length = 10, modulus = 900, density = 1, area = 1, damping = {damping} }}\nimpact.speed = 10\n\
+             gravity.acceleration = 10\nrun.time = {END}\n"
+        )
+    };
+    let times: Vec<f64> = (0..=450).map(|k| f64::from(k) / 100.0).collect();
+    let exact = scene(&text(in_data)).problem.doubles().unwrap();
+    let values = exact.columns(columns, &times, Some(Side::Right)).unwrap();
+    let names = columns.iter().map(|column| column.name()).zip(values);
+    let data: Vec<(&str, Vec<f64>)> = std::iter::once(("t", times)).chain(names).collect();
+    compare_columns(&scene(&text(in_scene)), &data, &Options::default())
+}
+
+/// Exact data of another damping, and of none, are told their damping, whichever columns there are.
+#[test]
+fn damping_is_named() {
+    let all = [Quantity::EndDisplacement, Quantity::EndVelocity, Quantity::Force, Quantity::TopDisplacement];
+    let mut count = 0;
+    for (in_scene, in_data) in [(0.0, 0.05), (0.0, 0.3), (0.3, 0.4), (0.3, 0.0)] {
+        for columns in [&all[..], &all[..1], &all[2..3]] {
+            let found = hints(&damped(in_scene, in_data, columns));
+            let damping = found.iter().find(|hint| hint["kind"] == "damping");
+            let damping = damping.unwrap_or_else(|| panic!("{in_scene} {in_data} {columns:?}: {found:#?}"));
+            let (value, error) = (number(damping, "value"), number(damping, "error"));
+            assert!((value - in_data).abs() <= (2.0 * error).max(0.02 * in_data), "{in_data}: {found:#?}");
+            count += usize::from(damping["asserted"] == true);
+        }
+    }
+    assert!(count >= 9, "{count} of 12 asserted");
+}
+
+/// The damping of contact codes.
+#[test]
+fn damping_of_schemes_is_named() {
+    for scheme in [Scheme::Moreau(0.5), Scheme::Theta(0.5, 0.5), Scheme::Hht(4.0)] {
+        let rows = Rod { elements: 80, damping: 0.3, ..BAR }.run(scheme, END, |_| true);
+        let found = hints(&compare("doyen-ern-piperno", &rows, &Options::default()));
+        assert_eq!(kinds(&found)[0], "damping", "{scheme:?}: {found:#?}");
+        assert!((number(&found[0], "value") - 0.3).abs() <= 0.06, "{scheme:?}: {found:#?}");
+    }
+}
+
+/// Some columns of a contact code.
+fn columns_of(rows: &[Row], names: &[&str]) -> Vec<(&'static str, Vec<f64>)> {
+    peers::columns(rows).into_iter().filter(|(name, _)| names.contains(name)).collect()
+}
+
+/// A penalty of an eighth of the stiffness of an element is too soft, and is told by its penetration.
+#[test]
+fn soft_contact_is_named() {
+    let bar = scene("doyen-ern-piperno");
+    for (spring, elements) in [(0.125, 80), (0.25, 50)] {
+        let rod = Rod { elements, ..BAR };
+        let rows = rod.run(Scheme::Hht(spring), END, |_| true);
+        let softness = BAR.length / elements as f64 / spring;
+        for names in [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate", "E_total"][..], &["t", "u", "force"]] {
+            let found = hints(&compare_columns(&bar, &columns_of(&rows, names), &Options::default()));
+            assert_eq!(kinds(&found).first(), Some(&"soft_contact"), "{spring} {names:?}: {found:#?}");
+            let value = number(&found[0], "value") * BAR.length;
+            assert!((value / softness - 1.0).abs() < 0.2 && found[0]["asserted"] == true, "{softness}: {found:#?}");
+        }
+    }
+}
+
+/// The top alone does not tell a contact that is soft by an element of a coarse mesh from a longer rod: both are listed,
+/// and neither is asserted.
+#[test]
+fn causes_that_are_alike_are_both_listed() {
+    let bar = scene("rod = { length = 10, modulus = 900, density = 1, area = 1 }\nimpact.speed = 10\nrun.time = 3\n");
+    let rows = Rod { elements: 16, gravity: 0.0, ..BAR }.run(Scheme::Hht(1.0), 3.0, |_| true);
+    let found = hints(&compare_columns(&bar, &columns_of(&rows, &["t", "u_top"]), &Options::default()));
+    let kinds_found = kinds(&found);
+    assert!(kinds_found.contains(&"soft_contact") && kinds_found.contains(&"length"), "{found:#?}");
+    assert!(found.iter().all(|hint| hint["asserted"] == false), "{found:#?}");
+    // Without gravity, and by displacements alone, only L/c is known.
+    let text = |length: f64| {
+        format!("rod = {{ length = {length}, wave_speed = 30 }}\nimpact = {{ speed = 10, gap = 2 }}\nrun.time = 3\n")
+    };
+    let times: Vec<f64> = (0..=300).map(|k| f64::from(k) / 100.0).collect();
+    let exact = scene(&text(10.4)).problem.doubles().unwrap();
+    let u = exact.columns(&[Quantity::EndDisplacement], &times, Some(Side::Right)).unwrap().remove(0);
+    let found = hints(&compare_columns(&scene(&text(10.0)), &[("t", times), ("u", u)], &Options::default()));
+    let kinds = kinds(&found);
+    assert!(kinds.contains(&"length") && kinds.contains(&"wave_speed"), "{found:#?}");
+    assert!(found.iter().all(|hint| hint["asserted"] == false), "{found:#?}");
+}
+
+/// Verlet's scheme without gravity in its first step: its velocities lag by half a step, but belong to whole steps.
+#[test]
+fn velocities_at_whole_steps_are_not_between_two() {
+    let rod = Rod { elements: 80, ..BAR };
+    let right = rod.run(Scheme::Penalty, END, |_| true);
+    let dt = right[1].t;
+    let lag = rod.gravity * dt / 2.0;
+    let late = with(&right, |row| {
+        (row.u_top, row.v_top, row.h, row.h_rate) =
+            (row.u_top - lag * row.t, row.v_top - lag, row.h - lag * row.t, row.h_rate - lag);
+    });
+    let clock = with(&right, |row| row.t *= 1.03);
+    for rows in [late, clock] {
+        let found = hints(&compare("doyen-ern-piperno", &rows, &Options::default()));
+        assert!(found.iter().all(|hint| hint["kind"] != "half_step"), "{found:#?}");
+    }
+}
