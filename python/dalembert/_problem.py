@@ -108,7 +108,7 @@ class Problem(Frozen):
     --------
     >>> rod = Problem(length=1, wave_speed=1, gravity=1, impact_speed="10/3")
     >>> rod
-    Problem(length=1, wave_speed=1, gravity=1, impact_speed=Fraction(10, 3), impacts=1)
+    Problem(length=1, wave_speed=1, impact_speed=Fraction(10, 3), gravity=1, impacts=1)
     >>> rod.round_trip, rod.impact_speed
     (2.0, Fraction(10, 3))
     >>> rod.solve(exact=True).strain("1/3")

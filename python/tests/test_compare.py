@@ -159,7 +159,7 @@ def of(values, **options):
         (TypeError, r"found fit = 3, of type int, expected a name or a sequence of names", of(T, fit=3)),
         (TypeError, r"found fit = \[1\], of type list, expected a name", of(T, fit=[1])),
         (TypeError, r"found shift = \[\], of type list, expected a number", of(T, shift=[])),
-        (ValueError, "found `dampng`, expected some of length", of(T, fit="dampng")),
+        (ValueError, "found the parameter `dampng`, expected one of length.*did you mean damping", of(T, fit="dampng")),
         (TypeError, "found limits = 3, of type int, expected a mapping", lambda: of(T)().fails_above(3)),
         (TypeError, "found the limit u.l2 = 'x', of type str", lambda: of(T)().fails_above({"u": {"l2": "x"}})),
         (AttributeError, "one of files", lambda: dalembert.compare(ROD, [{"t": T, "u": T}] * 2).norms),

@@ -63,6 +63,14 @@ def test_a_problem_is_frozen():
         p.solve().end = 3
 
 
+def test_a_parameter_has_its_path_too():
+    assert rod().replace(**{"impact.speed": 4, "gravity.acceleration": 2}) == rod(impact_speed=4, gravity=2)
+    ours, theirs = (rod().solve().derivatives(name).left["t"].tolist() for name in ("impact.speed", "impact_speed"))
+    assert ours == theirs
+    with pytest.raises(TypeError, match=r"did you mean impact.speed\?"):
+        rod().replace(**{"impact.sped": 4})
+
+
 def test_a_problem_is_a_scene_file():
     compared = 0
     for name in dalembert.scenes():
@@ -525,5 +533,5 @@ def test_derivatives_are_difference_quotients():
         assert found.left_error["t"][k] < 1e-5
     exact = rod().solve(exact=True).derivatives("length", "contacts")
     assert exact.left["release"].tolist() == [2] and exact.right_error["release"].tolist() == [0]
-    with pytest.raises(ValueError, match="found `mass`, expected some of length"):
+    with pytest.raises(ValueError, match="found the parameter `mass`, expected one of length"):
         rod().solve().derivatives("mass")
