@@ -9,7 +9,7 @@ use crate::problem::{Parameters, Problem, Run};
 /// of the flights; and the maximum number of impacts in the estimate.
 const FIRST_PROOF: f64 = 28.0;
 const IMPACT: f64 = 2.2;
-const LONGER: f64 = 0.55;
+const LONGER: f64 = 0.45;
 const MOST_FORESEEN: f64 = 60.0;
 
 /// Estimates the bits that the proof of a damped march costs; `contacts` estimates the contacts by the round trip.

@@ -208,8 +208,10 @@ impl Ladder<'_> {
             let open = matches!((rung, lacks), (Rung::Confirmed(_) | Rung::Enclosures(_), Lacks::Bits(f64::INFINITY)));
             let next = self.plan.next(rung, lacks).filter(|_| reserve.is_none() || !open);
             if let Some(next) = next {
-                if let Lacks::Bits(missing) = lacks {
-                    plan = Cow::Owned(self.plan.lacking(rung, missing));
+                if let (Rung::Double, Lacks::Bits(missing)) = (rung, lacks)
+                    && missing.is_finite()
+                {
+                    plan = Cow::Owned(self.plan.lacking(missing));
                 }
                 (rung, engine) = known.next().unwrap_or((next, None));
                 continue;

@@ -53,10 +53,10 @@ pub struct Plan {
     /// Estimated cost in bits of the proof of a damped march.
     #[serde(skip)]
     proof_bits: u32,
-    /// Bits of the next run, and the bits that the series of a damped march need in it, if the run before determines
+    /// Bits that the series of a damped march need in the first numbers after doubles, if the run in doubles determines
     /// them; otherwise series are as accurate as the numbers.
     #[serde(skip)]
-    series: Option<(u32, f64)>,
+    series_bits: Option<f64>,
 }
 
 /// Required accuracy of an answer.
@@ -323,7 +323,7 @@ impl Plan {
             rung,
             foreseen_loss,
             proof_bits,
-            series: None,
+            series_bits: None,
         }
     }
 
@@ -488,7 +488,8 @@ impl Plan {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
                 let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
                 let all = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
-                let digits = self.needed(bits).map_or(all, |needed| all.min(series_digits(needed)));
+                let needed = self.series_bits.filter(|_| Some(bits) == self.climb.bits);
+                let digits = needed.map_or(all, |needed| all.min(series_digits(needed)));
                 (digits, long_cells.map_or(u64::MAX, fewer))
             }
             _ => (double_digits, double_cells),
@@ -496,14 +497,13 @@ impl Plan {
         Effort { digits, cells, until_lost: self.climb.bits.is_some() }
     }
 
-    /// Returns the plan of the run after one in `rung` that lacks this many bits.
+    /// Returns the plan after a run in doubles that lacks this many bits.
     ///
-    /// The bound of a march is roughly proportional to the truncation of its series and the roundings of its numbers.
-    /// The series of the next run are more accurate than the roundings of the last one by the missing bits.
-    pub(crate) fn lacking(&self, rung: Rung, missing: f64) -> Self {
-        let next = self.next(rung, Lacks::Bits(missing)).filter(|_| missing.is_finite());
-        let series = next.map(|next| (next.bits(), f64::from(rung.bits()) + missing.max(0.0)));
-        Plan { series, ..self.clone() }
+    /// The bound of a march is roughly proportional to the truncation of its series and the roundings of its numbers;
+    /// in doubles the roundings dominate. If this proportion fails, the rung after the next uses all terms.
+    pub(crate) fn lacking(&self, missing: f64) -> Self {
+        let bits = f64::from(f64::MANTISSA_DIGITS) + missing.max(0.0);
+        Plan { series_bits: Some(bits), ..self.clone() }
     }
 
     /// Returns the digits of the series of a proof in this many bits. The first longer numbers use the digits that the
@@ -515,15 +515,7 @@ impl Plan {
         let wanted = self.goal.digits * std::f64::consts::LOG2_10;
         let spare = if matches!(self.numbers, Numbers::Digits(_)) { self.goal.spare } else { 0.0 };
         let needed = wanted + spare * std::f64::consts::LOG2_10 + f64::from(self.proof_bits + PROOF_GUARD_BITS);
-        // The bits that a run in doubles lacks do not measure a proof.
-        let measured = self.needed(bits).filter(|_| Some(bits) != first);
-        let needed = measured.or((Some(bits) == first).then_some(needed));
-        needed.map_or(all, |needed| all.min(series_digits(needed)))
-    }
-
-    /// Returns the bits that series need in numbers of this many bits, if the run before determines them.
-    fn needed(&self, bits: u32) -> Option<f64> {
-        self.series.filter(|(next, _)| *next == bits).map(|(_, needed)| needed)
+        if Some(bits) == first { all.min(series_digits(needed)) } else { all }
     }
 
     /// Returns the task of a damped march in the numbers of `rung`.
