@@ -9,7 +9,7 @@ use super::ladder::{Engined, Target};
 use super::plan::{DEFAULT_ACCURACY, Plan, Rung};
 use super::planned::estimates;
 use super::question::Observer;
-use super::{differences, interpolated, long, rates};
+use super::{interpolated, long, rates};
 use crate::error::Error;
 use crate::first_contact::Bounce;
 use crate::motion::{Ending, Motion};
@@ -51,7 +51,7 @@ impl Target for f64 {
             }
         }
         let digits = asked.plan.goal.digits.ceil() as u32;
-        let found = differences::of(asked, digits)?;
+        let found = long::quotients(asked, digits)?;
         Ok(found
             .into_iter()
             .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())

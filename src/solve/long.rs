@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::asked::{Longer, Open, Telling, not_told};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
-use super::differences;
+pub(super) use super::differences::of as quotients;
 use super::in_floats::in_floats;
 use super::ladder::{Engined, Target, needs_bits};
 use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
@@ -66,7 +66,7 @@ impl Target for Float {
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Estimate<Float>>, Error> {
-        differences::of(asked, asked.plan.goal.digits.ceil() as u32)
+        quotients(asked, asked.plan.goal.digits.ceil() as u32)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Placeholder for long numbers and enclosures in a build without the feature `mp`: the error that names it.
 
 use super::asked::Longer;
+use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
 use super::plan::{Plan, Rung};
 use super::question::Observer;
@@ -23,4 +24,10 @@ pub(super) fn read(_: &Problem, _: &Plan, _: Rung, _: &Observer) -> Result<Engin
 /// Returns `None`: without the feature `mp`, the value of `h′` in doubles is used.
 pub(super) fn rate_after(_: &Problem, _: &Bounce<Estimate<f64>>, _: u32) -> Option<Estimate<f64>> {
     None
+}
+
+pub(super) fn quotients(asked: &Asked<'_>, _: u32) -> Result<Derivatives<Estimate<Float>>, Error> {
+    // The field is read only with the feature `mp`.
+    let _ = &asked.want;
+    Err(Error::NoMultiprecision)
 }

@@ -3,7 +3,7 @@
 mod asked;
 mod converted;
 mod derivative;
-#[cfg_attr(not(feature = "mp"), path = "differences_absent.rs")]
+#[cfg(feature = "mp")]
 mod differences;
 mod engines;
 mod foresee;

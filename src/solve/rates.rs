@@ -2,8 +2,8 @@
 //! value; in doubles, if no threshold is met, for a growing one.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
-use super::differences;
 use super::ladder::Engined;
+use super::long;
 use super::plan::{Engine, Rung};
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
@@ -18,7 +18,7 @@ type OneSide = Result<Rational, NoDerivative>;
 /// Computes the derivatives in fractions that are `asked` for; fails for damping and for a gravity or length of zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
-    let quotients = || match differences::of(asked, DOUBLE_DIGITS) {
+    let quotients = || match long::quotients(asked, DOUBLE_DIGITS) {
         Err(Error::NoMultiprecision) => Ok(None),
         quotients => quotients.map(Some),
     };

@@ -48,7 +48,7 @@ fn the_docstring_of_python_lists_all_columns() {
         .nth(1)
         .and_then(|rest| rest.split("names : str or sequence of str").nth(1))
         .unwrap();
-    let doc = doc.split("t : number").next().unwrap();
+    let doc = doc.split("or of the groups").next().unwrap();
     let mut listed: Vec<&str> = doc.split("``").skip(1).step_by(2).collect();
     let mut known: Vec<&str> = Needs::Time.quantities().map(Quantity::name).collect();
     listed.sort_unstable();

@@ -310,12 +310,13 @@ fn a_unit_is_recognised_and_other_words_are_not() {
 fn a_problem_is_written_in_the_texts_of_its_numbers() {
     let problem = rod().length("1/3").damping(0.1).build().unwrap();
     let expected = serde_json::json!({
-        "rod": { "length": "1/3", "material": { "wave_speed": "1" }, "damping": "0.1", "top": "free" },
-        "gravity": "1",
-        "start": { "uniform": { "given": "3" } },
+        "rod": { "length": "1/3", "wave_speed": "1", "damping": "0.1" },
+        "impact": { "speed": "3" },
+        "gravity": { "acceleration": "1" },
         "run": { "impacts": 1 },
     });
     assert_eq!(serde_json::to_value(&problem).unwrap(), expected);
+    assert_eq!(serde_json::from_value::<Problem>(expected).unwrap(), problem);
 }
 
 /// `R = r t₁` and `M = μ/(g t₁)`, by hand.

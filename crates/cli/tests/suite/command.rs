@@ -170,8 +170,6 @@ fn json_of_a_history_in_fractions() {
     assert_eq!(history["contacts"][1]["e_E2"], "27/23");
     assert_eq!(history["contacts"][0]["E_z_after"], "2000/27");
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn digits_are_exactly_as_many_as_asked_for() {
     let significant = |text: &str| {
@@ -194,8 +192,6 @@ fn digits_are_exactly_as_many_as_asked_for() {
         assert_eq!(history["events"][1]["t"], expected);
     }
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn proved_digits_come_with_their_bounds() {
     let history = json(&["solve", "mu-1-period-36", "--certified", "--digits", "40", "--format", "json"]);
@@ -238,8 +234,6 @@ fn an_undefined_restitution_is_null_with_its_reason() {
     assert!(history["contacts"][0]["release"].is_null() && history["contacts"][0]["E_total_after"].is_null());
     assert!(history["contacts"][0]["undefined"]["e_P"].is_string());
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn parameters_that_are_no_fractions() {
     refused(
@@ -372,7 +366,7 @@ fn a_damped_history() {
     let plan = &explained["plan"];
     assert_eq!((&plan["rung"], &plan["goal"]["digits"]), (&"double".into(), &9.0.into()));
     assert_eq!(plan["cells"]["marched_trips"], serde_json::json!([4.0, 64.0]));
-    assert_eq!(plan["climb"]["bits"], if cfg!(feature = "mp") { 128.into() } else { Value::Null });
+    assert_eq!(plan["climb"]["bits"], 128);
 }
 
 #[test]
@@ -390,7 +384,6 @@ fn no_bounce_is_an_answer() {
 }
 
 #[test]
-#[cfg(feature = "mp")]
 fn a_damped_history_in_digits() {
     let digits = json(&["solve", "figure-1-r26", "--digits", "30", "--format", "json"]);
     // `figure1_r26` in tests/reference/first_contact.json.
@@ -419,7 +412,6 @@ fn help_completions_and_version() {
 }
 
 /// What the README shows is what the command prints; `…` stands for lines left out.
-#[cfg(feature = "mp")]
 #[test]
 fn the_readme_shows_real_output() {
     let readme = include_str!("../../../../README.md");

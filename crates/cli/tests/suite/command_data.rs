@@ -1,7 +1,6 @@
 //! What the command says of its numbers: warnings, uncertainties, and how a file is to be read.
 
 use crate::command::{Run, run, run_with};
-#[cfg(feature = "mp")]
 use crate::command_samples::column;
 use serde_json::Value;
 
@@ -49,7 +48,6 @@ fn the_uncertainty_covers_the_rounding_of_the_printed_digits() {
 }
 
 /// A parameter that is no fraction is said in every format, as an event at no fraction is.
-#[cfg(feature = "mp")]
 #[test]
 fn every_format_says_where_fractions_end() {
     let sample = ["sample", "siconos-impacting-bar", "--quantity", "end", "--times", "0", "--exact", "--digits", "12"];
@@ -119,7 +117,6 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
 }
 
 /// At t = 0 nothing is lost to rounding, and no bits are spent on it: the end stands on the ground.
-#[cfg(feature = "mp")]
 #[test]
 fn the_start_in_digits() {
     let args =
@@ -148,7 +145,6 @@ fn the_last_time_of_a_damped_rod_has_its_sides() {
 }
 
 /// L = 1, c = 1/3, r = 1/300, μ = 1: t_b = t₁ = 6, where 2L/c is no finite binary number. After it the rod flies.
-#[cfg(feature = "mp")]
 #[test]
 fn a_proved_release_has_nothing_to_pull_after_it() {
     let scene = "[rod]\nlength = 1\nwave_speed = \"1/3\"\ndamping = \"1/300\"\n[impact]\nspeed = 1\n";

@@ -74,8 +74,6 @@ fn a_golden_file_is_a_sample() {
         }
     }
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn samples_in_fractions_have_two_sides() {
     let at = |side| {

@@ -199,7 +199,7 @@ fn both_limits_of_a_reference_file() {
         ("paper-strong", &["--times", "0,1/3,1,2,3"], all, 4),
     ];
     for (scene, asked, count, on_jumps) in cases {
-        let numbers = if cfg!(feature = "mp") { ["", "--exact"] } else { ["", ""] };
+        let numbers = ["", "--exact"];
         for (name, numbers) in [("a.csv", numbers[0]), ("a.npz", numbers[0]), ("a.csv", numbers[1])] {
             let numbers = if numbers.is_empty() { &[][..] } else { &[numbers] };
             text(&run(folder.path(), &[&["reference", scene, "-o", name][..], asked, numbers].concat()), 0);
@@ -357,17 +357,15 @@ fn residuals_and_pictures() {
     let csv = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--format", "csv"]), 0);
     assert!(csv.starts_with("t,u_end_ours,u_end_theirs,u_end_difference,v_end_ours,"));
     assert_eq!(csv.lines().count(), 6);
-    if cfg!(feature = "raster") {
-        let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]), 0);
-        assert!(table.contains("no hint"));
-        let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
-        assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
-        // Of two curves the later one lies above: ours, thinner than theirs.
-        let strokes = svg.split("<g class=\"curve\"").skip(1).filter_map(|curve| curve.split("stroke-width=\"").nth(1));
-        let widths: Vec<f64> = strokes.map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
-        assert!(widths[1] < 0.5 * widths[0], "{widths:?}");
-        assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
-    }
+    let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]), 0);
+    assert!(table.contains("no hint"));
+    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
+    // Of two curves the later one lies above: ours, thinner than theirs.
+    let strokes = svg.split("<g class=\"curve\"").skip(1).filter_map(|curve| curve.split("stroke-width=\"").nth(1));
+    let widths: Vec<f64> = strokes.map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+    assert!(widths[1] < 0.5 * widths[0], "{widths:?}");
+    assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 /// A force at every second step of the contact, of the height `peak`, whose impulse is that height; `u` times `size`.

@@ -31,7 +31,7 @@ fn what_data_do_not_tell() {
 #[test]
 fn the_examples() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    let args = ["compare", "bounce.toml", "bounce.csv", "--fit", "speed,gravity", "--format", "json"];
+    let args = ["compare", "bounce.toml", "bounce.csv", "--fit", "impact_speed,gravity", "--format", "json"];
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_dalembert"));
     let output = command.args(args).current_dir(folder).output().unwrap();
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();

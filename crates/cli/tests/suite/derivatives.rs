@@ -298,7 +298,7 @@ fn what_has_no_derivative_is_refused() {
     refused(exact.derivatives(Parameter::Modulus, &[EventTime]), expected);
     let expected = "found the derivative by gap asked for, expected a start above the ground";
     refused(rod.doubles().unwrap().derivatives(Parameter::Gap, &[EventTime]), expected);
-    let expected = "found the derivative by speed asked for, expected digits that need not be proved";
+    let expected = "found the derivative by impact_speed asked for, expected digits that need not be proved";
     refused(rod.certified(20).unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]), expected);
 }
 

@@ -6,7 +6,6 @@
 mod check_catalogue;
 mod command;
 mod command_data;
-#[cfg(feature = "mp")]
 mod command_ends;
 mod command_errors;
 mod command_samples;
@@ -17,15 +16,12 @@ mod compare_contacts;
 mod compare_fits;
 mod compare_reading;
 mod cost_measured;
-#[cfg(feature = "mp")]
 mod derivatives;
-#[cfg(feature = "mp")]
 mod derivatives_at;
 mod endings;
-#[cfg(all(feature = "mp", target_os = "linux"))]
+#[cfg(target_os = "linux")]
 mod guide;
 mod pictures;
-#[cfg(feature = "mp")]
 mod reference;
 mod scene_errors;
 mod schema;

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use dalembert::quantity::Table;
-#[cfg(feature = "mp")]
 use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
 
 use crate::command::{quiet, refused, run};
@@ -182,7 +181,6 @@ fn mistakes_are_answered_with_what_was_expected() {
 }
 
 /// Enclosures leave the energy open where a ray is at an end; nothing is drawn there, and all else is.
-#[cfg(feature = "mp")]
 #[test]
 fn what_is_open_is_not_drawn() {
     let said = run(&["plot", "steel-bar", "--certified", "--quantity", "energy,E_total", "-o", "-"]);
@@ -191,7 +189,6 @@ fn what_is_open_is_not_drawn() {
 }
 
 /// The number after a name in a PDF's text.
-#[cfg(feature = "raster")]
 fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
     let rest = pdf.split(name).nth(1).unwrap();
     let numbers = rest.split([' ', '[', ']', '/', '\n']).filter(|word| !word.is_empty());
@@ -200,7 +197,6 @@ fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
 
 /// The parts of a PDF are where its table says, it is one page of the size of the SVG, and its texts are texts in the
 /// embedded font. The same picture has the same bytes.
-#[cfg(feature = "raster")]
 #[test]
 fn a_pdf_is_one_page_with_texts() {
     let folder = tempfile::tempdir().unwrap();
@@ -237,7 +233,6 @@ fn a_pdf_is_one_page_with_texts() {
 }
 
 /// Letters that the embedded font does not have are named.
-#[cfg(feature = "raster")]
 #[test]
 fn letters_without_a_sign_are_said() {
     let folder = tempfile::tempdir().unwrap();
@@ -286,7 +281,6 @@ fn bessel(n: i32, x: f64) -> f64 {
 
 /// Figures 5–7 against characteristic cells from data, which share nothing with the closed form that the figures are
 /// drawn from: no formula of the contact, no bounce, no energy.
-#[cfg(feature = "mp")]
 #[test]
 fn figures_5_to_7_agree_with_cells_from_data() {
     let folder = figures("5,6,7");
@@ -318,8 +312,6 @@ fn figures_5_to_7_agree_with_cells_from_data() {
         }
     }
 }
-
-#[cfg(feature = "mp")]
 fn cells(rod: &Problem) -> TypedHistory<f64> {
     let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
     assert_eq!(plan.engine, dalembert::Engine::Cells);
@@ -362,12 +354,11 @@ fn figures_1_to_4_hold_what_the_theory_says() {
         }
     }
     assert!(four.iter().any(|row| row[0] == Some(0.3) && row[2] > Some(2.0) && row[3].is_some()));
-    #[cfg(feature = "mp")]
     no_digit_is_beyond_its_bound(folder.path());
     // All files, and an index that names them.
     let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
     for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
-        for ending in [".svg", ".csv"].into_iter().chain(cfg!(feature = "raster").then_some(".png")) {
+        for ending in [".svg", ".csv"].into_iter().chain([".png"]) {
             let file = format!("{name}{ending}");
             assert!(index.contains(&file) && folder.path().join(&file).is_file(), "{file}");
         }
@@ -378,7 +369,6 @@ fn figures_1_to_4_hold_what_the_theory_says() {
 }
 
 /// The numbers of Figure 4 that doubles know worst are printed with fewer digits, and all of these are those of twenty.
-#[cfg(feature = "mp")]
 fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
     let rows = texts(folder, "figure-4.csv").into_iter();
     let few = rows.filter(|row| !row[3].is_empty() && row[0] != "0" && unit(&row[3]) > 1e-12).collect::<Vec<_>>();

@@ -528,7 +528,6 @@ fn a_damped_rod_has_rows() {
 
 /// Each column of numbers in digits says how far it may be off, the rounding of the last digit included: doubles read
 /// from both files are as near to each other as that and the doubles allow.
-#[cfg(feature = "mp")]
 #[test]
 fn columns_in_digits_have_their_bounds() {
     let of =

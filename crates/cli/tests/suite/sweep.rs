@@ -51,8 +51,6 @@ fn undamped_points_are_those_of_corollary_1() {
         }
     }
 }
-
-#[cfg(feature = "mp")]
 #[test]
 fn what_follows_the_first_bounce_of_a_damped_rod_is_proved() {
     let args = ["figure-4-r02", "--quantity", "last_event,bounce_time", "--certified", "--format", "json"];
@@ -160,7 +158,6 @@ fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
     for ending in ["csv", "npz", "svg"] {
         assert_eq!(map("1", ending), map("3", ending), "{ending}");
     }
-    #[cfg(feature = "raster")]
     assert!(map("2", "png").starts_with(b"\x89PNG"));
     let curve = dalembert(&["regimes", "--curve", "--damping-ratio", "0..2:3"]).unwrap();
     // (I₀(1) + I₁(1))/(2 − I₀(1)) = (1.2660658777520084 + 0.5651591039924851)/0.7339341222479916.
@@ -220,7 +217,6 @@ fn numbers_are_in_the_units_of_the_material() {
 }
 
 /// c = L = g = 1: μ = 1 lands first at 3 + √2, which is no fraction.
-#[cfg(feature = "mp")]
 #[test]
 fn notes_say_where_exactness_ends_and_a_time_must_be_of_use() {
     let vary = ["paper-weak", "--vary", "impact.speed=1,4", "--vary", "run.impacts=2", "--format", "json"];

@@ -73,9 +73,7 @@ fn tables_fit_eighty_columns() {
     };
     for scene in ["doyen-ern-piperno", "siconos-impacting-bar", "getfem-dynamic-contact", "figure-1-r26", "steel-bar"] {
         narrow(&["solve", scene]);
-        if cfg!(feature = "mp") {
-            narrow(&["solve", scene, "--digits", "30"]);
-        }
+        narrow(&["solve", scene, "--digits", "30"]);
     }
     for scene in ["doyen-ern-piperno", "steel-bar", "ansys-vm265", "mu-3-2-chaotic"] {
         narrow(&["explain", scene]);

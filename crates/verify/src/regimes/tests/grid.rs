@@ -15,7 +15,9 @@ fn values_are_spelt_as_a_person_would() {
 #[test]
 fn what_is_no_axis_is_said() {
     let said = |text: &str| text.parse::<Axis>().unwrap_err().to_string();
-    assert!(said("rod.dampin=1").starts_with("found the path `rod.dampin`, expected a number of a scene: rod.length"));
+    let unknown = said("rod.dampin=1");
+    assert!(unknown.starts_with("found the parameter `rod.dampin`, expected one of"), "{unknown}");
+    assert!(unknown.ends_with("(did you mean rod.damping?)"), "{unknown}");
     assert!(said("rod.damping").contains("expected PATH=V1,V2"));
     assert!(said("rod.damping=0..1:1").contains("a count of 2"));
     assert!(said("rod.damping=0..1:5:log").contains("above zero"));
