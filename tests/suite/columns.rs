@@ -1,7 +1,8 @@
 //! The columns of a table over time, each against a route of its own: integrals of the field over the rod, momentum
 //! balance, and what pencil and paper give.
 
-use crate::common::{Random, cuts};
+use crate::common::Random;
+use crate::cuts::cuts;
 use dalembert::quantity::Needs;
 use dalembert::{Number, Problem, Quantity, Rational, Run, Scene, Side};
 

@@ -14,6 +14,7 @@ mod columns;
 mod common;
 mod conformance;
 mod conformance_long;
+mod cuts;
 mod damped_bounce;
 mod damped_history;
 mod damped_properties;

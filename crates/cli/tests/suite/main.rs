@@ -16,6 +16,8 @@ mod compare_contacts;
 mod compare_fits;
 mod compare_reading;
 mod cost_measured;
+#[path = "../../../../tests/suite/cuts.rs"]
+mod cuts;
 mod derivatives;
 mod derivatives_at;
 mod endings;

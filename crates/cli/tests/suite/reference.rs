@@ -10,7 +10,7 @@ use ndarray_npy::NpzReader;
 use serde_json::Value;
 
 use crate::command::{json, quiet, refused, refused_with, run_with};
-use crate::common::cuts;
+use crate::cuts::cuts;
 
 fn scene(name: &str) -> Problem {
     Scene::parse(dalembert::builtin::get(name).unwrap().source).unwrap().problem
