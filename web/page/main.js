@@ -449,13 +449,21 @@ async function open() {
   mark();
   await solve(true);
   if (!shot) {
-    // The scene of the link cannot be shown: the first story takes its place, and the mistake stays.
-    const mistake = $("doubt").textContent;
+    // The scene of the link cannot be shown: the first story takes its place, and the mistake stays. For a scene beyond
+    // doubles the fields and the command, which settles it, stay too.
+    const [mistake, beyond, asked] = [$("doubt").textContent, !$("beyond").hidden, { ...scene }];
     Object.assign(scene, PRESETS[0].scene);
     sliders.refit();
     mark();
     await solve(true);
+    if (beyond) {
+      Object.assign(scene, asked);
+      sliders.refit();
+      mark();
+      $("command").textContent = command();
+    }
     say(`The scene of the link is not shown: ${mistake}`, []);
+    $("beyond").hidden = !beyond;
   }
   if (shot) await moveTo(time ?? rounded(0.3 * (view.to < shot.end ? view.to : shot.round)));
   performance.mark("shown");

@@ -124,8 +124,16 @@ impl Run {
             .then(|| format!("the bound of the error is {} of the natural scales", bound_of_log2(bound.log2())));
         let undecided =
             matches!(self.history.ending(), Ending::Undecided(_)).then(|| self.history.ending().to_string());
-        let settled =
-            |warning: &Warning| matches!(warning, Warning::DragNeglected { .. } | Warning::Coincidence { .. });
+        // These are about the problem, and not about the accuracy of its answer.
+        let settled = |warning: &Warning| {
+            matches!(
+                warning,
+                Warning::DragNeglected { .. }
+                    | Warning::DragDominates { .. }
+                    | Warning::StrainAboveOne { .. }
+                    | Warning::Coincidence { .. }
+            )
+        };
         let warnings = self.history.warnings().into_iter().filter(|warning| !settled(warning));
         wide.into_iter().chain(undecided).chain(warnings.map(|warning| warning.to_string())).collect()
     }
