@@ -70,7 +70,7 @@ fn events_are_those_of_twice_the_bits() {
 /// Prints times of a march beside those of MPFR: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
 #[cfg(feature = "mp")]
 #[test]
-#[ignore = "a measurement"]
+#[ignore = "prints times: cargo test --release --features mp --lib cells::wide -- --ignored --nocapture"]
 fn timings() {
     use std::time::Instant;
     fn timed<T>(name: &str, run: impl Fn() -> T) {

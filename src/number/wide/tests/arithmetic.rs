@@ -301,7 +301,7 @@ mod mpfr {
 
     /// `cargo test --release --lib number::wide -- --ignored`: some minutes.
     #[test]
-    #[ignore = "some minutes"]
+    #[ignore = "minutes: make explore"]
     fn ten_million_operations_are_those_of_mpfr() {
         beside::<2>(10_000_000, 5);
         beside::<3>(10_000_000, 6);

@@ -145,7 +145,7 @@ fn functions_are_those_of_mpfr() {
 /// `cargo test --release --lib number::wide -- --ignored`: some minutes.
 #[cfg(feature = "mp")]
 #[test]
-#[ignore = "some minutes"]
+#[ignore = "minutes: make explore"]
 fn a_million_functions_are_those_of_mpfr() {
     beside_mpfr::<2>(1_000_000);
     beside_mpfr::<3>(1_000_000);
