@@ -40,9 +40,9 @@
 //! # Ok::<(), dalembert::Error>(())
 //! ```
 //!
-//! [`Problem::doubles`], [`Problem::exact`], [`Problem::digits`] and [`Problem::certified`] answer in one number system:
-//! a [`TypedHistory`] in fractions is asked at fractions, `exact.at("1/2".parse()?, "1".parse()?)?`. An [`Interval`] has
-//! its ends, `lo()` and `hi()`, and `{}` prints the digits that both prove.
+//! [`Problem::doubles`], [`Problem::exact`], [`Problem::digits`] and [`Problem::certified`] answer in one number
+//! system: a [`TypedHistory`] in fractions is asked at fractions, `exact.at("1/2".parse()?, "1".parse()?)?`. An
+//! [`Interval`] has its ends, `lo()` and `hi()`, and `{}` prints the digits that both prove.
 //!
 //! The types in daily use stand at the root. The rest of each subject is in its module: [`problem`], [`solve`],
 //! [`quantity`], [`reason`] (reasons for the end of a run, and warnings). [`engine`] has the engines by themselves,

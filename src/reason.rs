@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use crate::number::Scalar;
 
-/// The reason why nothing follows the end of a history, or why it is not known what follows. Times, speeds and heights are in the
-/// units of the problem.
+/// The reason why nothing follows the end of a history, or why it is not known what follows. Times, speeds and heights
+/// are in the units of the problem.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Reason {
     /// The first contact has no bounce.

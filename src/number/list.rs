@@ -138,7 +138,8 @@ impl List {
         }
     }
 
-    /// Returns `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below 2⁵³.
+    /// Returns `a`, `b`, `q` for which the k-th of `last + 1` numbers is `(a (last − k) + b k)/q`, where all are below
+    /// 2⁵³.
     fn integers(&self) -> Option<[i64; 3]> {
         let last = self.len() as i128 - 1;
         let (from, to, divisor) = match self {

@@ -15,8 +15,8 @@ pub struct Builder {
     base: Draft,
 }
 
-/// Groups of parameters that exclude each other: a value that is set replaces those of the problem before in each of its
-/// groups.
+/// Groups of parameters that exclude each other: a value that is set replaces those of the problem before in each of
+/// its groups.
 const EXCLUSIVE: [&[Parameter]; 4] = [
     &[Parameter::WaveSpeed, Parameter::Modulus, Parameter::Density, Parameter::Area],
     &[Parameter::ImpactSpeed, Parameter::DropHeight],
@@ -88,8 +88,8 @@ impl Builder {
         self
     }
 
-    /// Sets the velocity at `t = 0` as points `(x, v_t)`, like the [`displacement`](Builder::displacement). It may jump: the
-    /// same `x` twice.
+    /// Sets the velocity at `t = 0` as points `(x, v_t)`, like the [`displacement`](Builder::displacement). It may
+    /// jump: the same `x` twice.
     #[must_use]
     pub fn velocity<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
         self.draft.profiles.insert(Parameter::Velocity(None), written(points));

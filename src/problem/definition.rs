@@ -188,7 +188,8 @@ impl Problem {
         .build()
     }
 
-    /// Returns the height of the undeformed rod above the ground at the start; `None` where it starts on it, or by a profile.
+    /// Returns the height of the undeformed rod above the ground at the start; `None` where it starts on it, or by a
+    /// profile.
     ///
     /// ```
     /// use dalembert::Problem;

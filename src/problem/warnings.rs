@@ -6,8 +6,8 @@ use crate::number::Number;
 use crate::reason::Warning;
 
 impl Problem {
-    /// Returns the warnings that hold for any answer: drag that a fall from `drop_height` leaves out, or that governs the
-    /// flights, and strains of a material above 1.
+    /// Returns the warnings that hold for any answer: drag that a fall from `drop_height` leaves out, or that governs
+    /// the flights, and strains of a material above 1.
     ///
     /// ```
     /// use dalembert::{Problem, Warning};

@@ -246,8 +246,8 @@ impl<S: Scalar> Pushes<S> {
         Pushes { pieces, stiffness, most }
     }
 
-    /// Returns the impulse up to `time`. Near a break of two pieces that the bound of `time` covers, it is widened by the
-    /// distance from the break times the greatest stress.
+    /// Returns the impulse up to `time`. Near a break of two pieces that the bound of `time` covers, it is widened by
+    /// the distance from the break times the greatest stress.
     fn at(&self, time: &S) -> S {
         // A time in fewer bits than the pieces have.
         let longer = (time.log2_roundoff() > self.stiffness.log2_roundoff()).then(|| self.stiffness.zero() + time);

@@ -95,8 +95,8 @@ impl Conversion {
     /// The conversion of a number that is in its unit.
     pub const NONE: Self = Conversion { factor: 1.0, ten: 0 };
 
-    /// Returns the conversion from the unit `found` to the unit `expected`, nothing being a unit without dimension; `None` where either is not
-    /// known, or they do not measure the same.
+    /// Returns the conversion from the unit `found` to the unit `expected`, nothing being a unit without dimension;
+    /// `None` where either is not known, or they do not measure the same.
     pub fn between(found: &str, expected: &str) -> Option<Self> {
         let (from, to) = (Unit::parse(found)?, Unit::parse(if expected.is_empty() { "1" } else { expected })?);
         let conversion = Conversion { factor: from.size / to.size, ten: from.ten - to.ten };

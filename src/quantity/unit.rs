@@ -103,7 +103,8 @@ impl UnitSystem {
     }
 }
 
-/// Factors and names of units that turn the answers of a history, which are strains and values per `ρS`, into quantities with a unit.
+/// Factors and names of units that turn the answers of a history, which are strains and values per `ρS`, into
+/// quantities with a unit.
 ///
 /// **Units**: those of the problem. With a material `E`, `ρ`, `S` stress is `E v_x`, force `−E S v_x`, and impulse and
 /// energy are `ρS` times what the history answers; where no `S` is given all three are those of a unit of it, and their

@@ -49,7 +49,8 @@ impl Target {
         label
     }
 
-    /// Returns the tolerance of the published value: the one that is given, or half a unit of its last digit; zero for a fraction.
+    /// Returns the tolerance of the published value: the one that is given, or half a unit of its last digit; zero for
+    /// a fraction.
     ///
     /// ```
     /// use dalembert::Scene;

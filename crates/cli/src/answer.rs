@@ -43,8 +43,8 @@ pub(crate) fn solve(scene: &Scene, question: &Question) -> Result<Answer, Failur
     Ok(Answer { history, info, progress })
 }
 
-/// Returns the reason why the history ends, at the time `end`, and prints it as a note if the end may be before what was
-/// requested.
+/// Returns the reason why the history ends, at the time `end`, and prints it as a note if the end may be before what
+/// was requested.
 pub(crate) fn note_end(history: &History, end: &Value) -> String {
     let ending = history.ending();
     if ending.is_open() {

@@ -82,7 +82,8 @@ enum Command {
     Scenes(scenes::Scenes),
     /// Print the manual page, for `man -l -`
     Man,
-    /// Print the JSON Schema of the output that `solve`, `sample`, `reference`, `compare` and `sweep` write with --format json
+    /// Print the JSON Schema of the output that `solve`, `sample`, `reference`, `compare` and `sweep` write with
+    /// --format json
     Schema,
     /// Print a completion script for a shell
     Completions {

@@ -58,8 +58,8 @@ const LEAST_FORCE: f64 = 1e-6;
 impl Agreement {
     /// Compares `samples` with `reference`; they should go up to `until`.
     ///
-    /// **Source**: a sample on a jump is compared with the limit that its row is said to hold, otherwise with the nearer
-    /// of the two limits; its time is that of the jump within the rounding of the times.
+    /// **Source**: a sample on a jump is compared with the limit that its row is said to hold, otherwise with the
+    /// nearer of the two limits; its time is that of the jump within the rounding of the times.
     ///
     /// **Accuracy**: that of the history, in doubles.
     pub(super) fn new(

@@ -1,4 +1,5 @@
-//! The comparison of data with an exact history: options are checked, the run is planned and solved, files are compared.
+//! The comparison of data with an exact history: options are checked, the run is planned and solved, files are
+//! compared.
 
 use super::agreement::Agreement;
 use super::data::{DataError, Source};

@@ -18,8 +18,8 @@ pub(crate) struct ContactRecord {
     /// The number of short separations that were taken as part of the contact.
     #[serde(skip_serializing_if = "is_zero")]
     pub merged: usize,
-    /// Whether the contact is shorter than two steps of the samples: a scheme may begin it a step late and end it a step
-    /// early, and then no sample shows it.
+    /// Whether the contact is shorter than two steps of the samples: a scheme may begin it a step late and end it a
+    /// step early, and then no sample shows it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub below_step: bool,
 }

@@ -133,7 +133,8 @@ const LEAST_REMOVED: f64 = 0.2;
 const STEPS: usize = 12;
 /// Start of the fit of a speed or a gravity that may be missing altogether.
 const NEARLY_MISSING: f64 = -0.999;
-/// Starts of the fit of a damping in an undamped scene, per round trip: the landing after the first contact gets earlier.
+/// Starts of the fit of a damping in an undamped scene, per round trip: the landing after the first contact gets
+/// earlier.
 const DAMPED: [f64; 2] = [0.05, 0.2];
 /// Greatest additional damping that is tried, per round trip.
 const MOST_DAMPED: f64 = 1.0;

@@ -292,8 +292,8 @@ fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// Minimises `Σ r²` from `start` in at most `most` steps, by the method of Levenberg and Marquardt in unknowns divided
-/// by `scales`. `residuals` returns those of so many `columns`, one after the other, or `None` where there is no answer,
-/// and `linear` their derivatives; NaN is left out. `None` where the residuals do not determine the unknowns.
+/// by `scales`. `residuals` returns those of so many `columns`, one after the other, or `None` where there is no
+/// answer, and `linear` their derivatives; NaN is left out. `None` where the residuals do not determine the unknowns.
 ///
 /// **Accuracy**: a standard error is the greater of two: that of independent residuals of one size, from the normal
 /// matrix, and that of the means of [`BATCHES`] stretches of samples, which is right where neighbours have the same

@@ -40,7 +40,8 @@ pub enum Axis {
 /// The conventions of data, and the tasks of a comparison; messages use these names.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct Options {
-    /// Column of each quantity, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the columns
+    /// Column of each quantity, by its name or its number from 0: t=0,u=1,force=f_n; by default the names of the
+    /// columns
     #[arg(long, value_name = "NAME=COLUMN,…")]
     pub map: Option<String>,
     /// Step between rows, where no column holds the time
@@ -70,7 +71,8 @@ pub struct Options {
     /// Width of the mesh of each file, for the order of convergence; by default the step of its times
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub widths: Vec<Number>,
-    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, impact_speed, gap
+    /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, impact_speed,
+    /// gap
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub fit: Vec<Parameter>,
     /// Time to which the data are to go; by default the end of the run of the scene

@@ -21,8 +21,8 @@ pub(crate) struct Samples {
     pub(crate) sides: Vec<Option<Side>>,
 }
 
-/// The rounding of the times of a file: half a unit of the last written digit, plus the rounding of steps that are added
-/// up one by one, and at most a quarter of a step.
+/// The rounding of the times of a file: half a unit of the last written digit, plus the rounding of steps that are
+/// added up one by one, and at most a quarter of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TimeRounding {
     /// The greatest number of decimals of a time.
@@ -59,9 +59,9 @@ impl TimeRounding {
 }
 
 impl Samples {
-    /// Builds the samples in `columns` as `map` assigns them, with `shift` added to the times; times that are not in the
-    /// file are `start + k step`. Two rows at one time are the limits at a jump, the earlier first; a field needs the
-    /// column of sides for that.
+    /// Builds the samples in `columns` as `map` assigns them, with `shift` added to the times; times that are not in
+    /// the file are `start + k step`. Two rows at one time are the limits at a jump, the earlier first; a field needs
+    /// the column of sides for that.
     pub(crate) fn new(
         mut columns: Columns,
         map: &ColumnMap,

@@ -48,8 +48,8 @@ pub(super) fn lost_start(columns: &[ComparedColumn]) -> Option<Hint> {
 /// Returns the hint at a mass that is not that of the scene: the kinetic energy before the first contact, which no
 /// scheme gets wrong, has another value at the same speed.
 ///
-/// **Source**: the factors of the energy and of the speed of the end that fit best, by least squares; the standard error
-/// is that of the residual of the energy.
+/// **Source**: the factors of the energy and of the speed of the end that fit best, by least squares; the standard
+/// error is that of the residual of the energy.
 pub(super) fn unlike_mass(reference: &Reference<'_>, agreement: &Agreement) -> Option<Hint> {
     let Agreement { grid, step, .. } = agreement;
     let first = reference.history.contacts().first().map_or(f64::INFINITY, |contact| contact.impact);
@@ -90,7 +90,8 @@ pub(super) fn unstable_energy(columns: &[ComparedColumn]) -> Option<Hint> {
 /// Returns the time over which the fronts of the data are spread: the width of a ramp that is as far from a jump.
 ///
 /// **Source**: `∫ e² dt = J² W/12` for a ramp of width `W` about a jump `J`; the median over the jumps at both ends of
-/// the first contact, and at the top when the first wave arrives. The start is left out, as there are no data before it.
+/// the first contact, and at the top when the first wave arrives. The start is left out, as there are no data before
+/// it.
 pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
     let (history, Agreement { grid, quantities, .. }) = (reference.history, agreement);
     let trip = history.scales().time;
@@ -152,8 +153,8 @@ pub(super) fn half_step(reference: &Reference<'_>, agreement: &Agreement) -> Opt
     })
 }
 
-/// Returns whether `velocities` are nearer to the central differences of `places` than to those of one step, all of them
-/// by a common factor that a wrong clock makes.
+/// Returns whether `velocities` are nearer to the central differences of `places` than to those of one step, all of
+/// them by a common factor that a wrong clock makes.
 fn is_central_difference(times: &[f64], places: &[f64], velocities: &[f64]) -> bool {
     let misfit = |before: usize, after: usize| {
         let difference = |k: usize| (places[k + after] - places[k - before]) / (times[k + after] - times[k - before]);

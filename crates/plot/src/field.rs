@@ -93,7 +93,8 @@ impl FieldMap {
     }
 }
 
-/// Returns the least number with one digit, or 1.2, 1.5 or 2.5, times a power of ten, that is not below a value; 0 for 0.
+/// Returns the least number with one digit, or 1.2, 1.5 or 2.5, times a power of ten, that is not below a value; 0 for
+/// 0.
 fn round_above(value: f64) -> f64 {
     if value == 0.0 {
         return 0.0;

@@ -5,8 +5,8 @@
 //! - [`RodPicture`] draws the rod at one time.
 //! - [`draw`] has panels, axes and layers for other data.
 //!
-//! A rod of length 1 hits the ground with the speed μ = 3. Its wave runs up and back in `t₁ = 2`, while gravity compresses
-//! the lower end further.
+//! A rod of length 1 hits the ground with the speed μ = 3. Its wave runs up and back in `t₁ = 2`, while gravity
+//! compresses the lower end further.
 //!
 //! ```
 //! use dalembert::{Problem, Units};

@@ -118,9 +118,9 @@ impl<const N: usize> Wide<N> {
     /// The root of a finite positive number within `2³²` units of the last limb.
     ///
     /// Newton's method for `1/√x` squares the relative error ε of a step to `3ε²/2` and adds less than six roundings,
-    /// twice in 128 bits from the double and then in all; the last step, for the root, leaves `ε²/2` and three roundings.
-    /// A double is within `2^{−50}`, 128 bits are within `2^{−98}`, and the square of what the steps in all bits are
-    /// counted by is below a rounding.
+    /// twice in 128 bits from the double and then in all; the last step, for the root, leaves `ε²/2` and three
+    /// roundings. A double is within `2^{−50}`, 128 bits are within `2^{−98}`, and the square of what the steps in all
+    /// bits are counted by is below a rounding.
     fn near_root(&self) -> Self {
         let half = self.exponent.div_euclid(2);
         let x = Wide { exponent: self.exponent - 2 * half, ..*self };

@@ -46,8 +46,8 @@ const FALLING: [i64; 21] = {
 const ODD: i64 = 6_332_659_870_762_850_625;
 
 impl<const M: usize> Wide<M> {
-    /// Halvings after which 20 terms are enough, for arguments up to `π/4`: at `x ≤ 2^{−3M − 0.3}` the term `x²⁰/21!` is
-    /// below `2^{−60M − 72}`, which is below `2^{−64M − 12}` up to `M = 15`.
+    /// Halvings after which 20 terms are enough, for arguments up to `π/4`: at `x ≤ 2^{−3M − 0.3}` the term `x²⁰/21!`
+    /// is below `2^{−60M − 72}`, which is below `2^{−64M − 12}` up to `M = 15`.
     const HALVINGS: i32 = 3 * M as i32;
 
     /// `x⁰ c₀ + x¹ c₁ + …`, by Horner.
@@ -57,8 +57,8 @@ impl<const M: usize> Wide<M> {
 
     /// `(eˣ − 1)/x` for `|x| ≤ 2^{−3M − 0.3}`, within `2⁴ v`.
     ///
-    /// In Horner's form the last step has two roundings and weighs 1, those before weigh less than `2^{−6}` together; one
-    /// for the quotient, and less than one for the rest.
+    /// In Horner's form the last step has two roundings and weighs 1, those before weigh less than `2^{−6}` together;
+    /// one for the quotient, and less than one for the rest.
     fn short_exp(x: Self) -> Self {
         // The first term left out is below 2^{exponent · terms}/(terms + 1)!.
         let fall = x.exponent.min(0).unsigned_abs() as usize;
@@ -98,8 +98,8 @@ impl<const M: usize> Wide<M> {
 
     /// `eˣ − 1`, within `2⁵⁵ v`.
     ///
-    /// From `|x| = 2^{−20}/2` on the difference is more than `2^{−22}`, which multiplies the `2³⁰ v` of `eˣ`. Below, the
-    /// series has 20 terms of `x < 2^{−20}`, and its rest is below `2^{−400−65}`.
+    /// From `|x| = 2^{−20}/2` on the difference is more than `2^{−22}`, which multiplies the `2³⁰ v` of `eˣ`. Below,
+    /// the series has 20 terms of `x < 2^{−20}`, and its rest is below `2^{−400−65}`.
     pub(super) fn raw_exp_m1(self) -> Self {
         if self.exponent > -20 {
             return self.raw_exp() - Wide::ONE;
@@ -116,9 +116,9 @@ impl<const M: usize> Wide<M> {
     /// `ln x`, within `2⁵⁵ v`.
     ///
     /// `x = 2ᵏ m` with `m` between `√½` and `√2`. Within `2^{−17}` of 1 the difference from 1 is exact. Elsewhere
-    /// `ln m = y + ln(m e^{−y})` with the logarithm y in doubles: `m e^{−y}` is within `2^{−50}` of 1, off by `2³⁰ v` and
-    /// one rounding because `|y| < 1` there, and the sum is at least `2^{−18}`: `2⁴⁹ v`, which sums with `k ln 2`, at least
-    /// `½ ln 2` in all, do not make more than a few greater.
+    /// `ln m = y + ln(m e^{−y})` with the logarithm y in doubles: `m e^{−y}` is within `2^{−50}` of 1, off by `2³⁰ v`
+    /// and one rounding because `|y| < 1` there, and the sum is at least `2^{−18}`: `2⁴⁹ v`, which sums with `k ln 2`,
+    /// at least `½ ln 2` in all, do not make more than a few greater.
     pub(super) fn raw_ln(self) -> Self {
         if self.is_zero() || self.is_nan() || self.negative || !self.finite() {
             return match self.is_zero() {
@@ -154,9 +154,10 @@ impl<const M: usize> Wide<M> {
 
     /// `sin x` and `cos x` for `|x| ≤ π/4`, within `2¹⁰ v`.
     ///
-    /// With `c = cos − 1`, `sin 2θ = 2 sin θ (1 + c)` and `c(2θ) = 2c (2 + c)` have no cancellation, since `1 + c ≥ 0.7`:
-    /// a doubling adds four roundings to each and to what c passes on to the sine, `|c|/(1 + c) < 0.42`, which falls by
-    /// four with each halving. Both series have fewer than eight at the start: `3M` doublings have less than `2⁸ v`.
+    /// With `c = cos − 1`, `sin 2θ = 2 sin θ (1 + c)` and `c(2θ) = 2c (2 + c)` have no cancellation, since `1 + c ≥
+    /// 0.7`: a doubling adds four roundings to each and to what c passes on to the sine, `|c|/(1 + c) < 0.42`, which
+    /// falls by four with each halving. Both series have fewer than eight at the start: `3M` doublings have less than
+    /// `2⁸ v`.
     fn near_zero(self) -> (Self, Self) {
         let x = self.scaled(-Self::HALVINGS);
         let square = x * x;

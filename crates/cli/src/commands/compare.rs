@@ -41,7 +41,8 @@ pub(crate) struct Compare {
     /// energy=0.02 and impulse=0.05 (relative), momentum, penetration, tension, missed=0, invented=0
     #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
     fail_above: Vec<Limit>,
-    /// Exit with code 1 where something is below a bound: order.u=0.9 or order.force.l1=0.4 of several files, coverage=0.99
+    /// Exit with code 1 where something is below a bound: order.u=0.9 or order.force.l1=0.4 of several files,
+    /// coverage=0.99
     #[arg(long, value_name = "NAME=BOUND,…", value_delimiter = ',')]
     fail_below: Vec<Limit>,
     /// Bounds in a file: tables [above] and [below] of names such as "u.l2" with their bounds

@@ -25,8 +25,8 @@ pub(crate) struct Cost {
     /// or the last event of a scene with several impacts
     #[arg(long, value_parser = NameParser::new(&[Scope::SingleNumber], []))]
     quantity: Option<String>,
-    /// The time of a quantity over time; by default three quarters of a round trip, or, if the quantity is zero then, the
-    /// middle of the first contact or flight in which it is not
+    /// The time of a quantity over time; by default three quarters of a round trip, or, if the quantity is zero then,
+    /// the middle of the first contact or flight in which it is not
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     /// Instead: the cost of each effect of the scene, and that effects which it does not call for cost nothing

@@ -54,8 +54,8 @@ pub(crate) struct Reference {
 struct SampleArgs {
     /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
     scene: String,
-    /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a golden
-    /// file has the columns as they are listed, by default all
+    /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
+    /// golden file has the columns as they are listed, by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []))]
     quantity: Vec<String>,
@@ -71,8 +71,8 @@ struct SampleArgs {
     /// The last time of --dt
     #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
     to: Option<Number>,
-    /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is both
-    /// ends and the middle
+    /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is
+    /// both ends and the middle
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
     /// Meaning of the field on the grid of the points

@@ -52,7 +52,8 @@ pub(crate) struct Solve {
     /// as impact.speed; all others stay as they are
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     derivatives: Vec<Parameter>,
-    /// The Chebyshev coefficients of curved pieces, with --part stress; otherwise straight lines within 1e-6 of the peak
+    /// The Chebyshev coefficients of curved pieces, with --part stress; otherwise straight lines within 1e-6 of the
+    /// peak
     #[arg(long)]
     coefficients: bool,
 }

@@ -177,9 +177,9 @@ fn whole_ticks(from: f64, to: f64, text: impl Fn(f64) -> String) -> Vec<(f64, St
     (from.ceil() as i32..=to.floor() as i32).map(|place| (place.into(), text(place.into()))).collect()
 }
 
-/// Returns the work–precision diagram: error against time, both by decades, a line for each route and a star on the plan's
-/// choice. Answers without any error stand on the lowest line, which says so; beyond double precision the scale of
-/// the error is compressed, as the ticks state.
+/// Returns the work–precision diagram: error against time, both by decades, a line for each route and a star on the
+/// plan's choice. Answers without any error stand on the lowest line, which says so; beyond double precision the scale
+/// of the error is compressed, as the ticks state.
 pub(crate) fn cost_svg(cost: &CostTable, title: Option<&str>) -> String {
     let finite = |row: &&CostRow| row.log10_error.is_finite();
     let digits = cost.rows.iter().filter(finite).map(|row| -row.log10_error);

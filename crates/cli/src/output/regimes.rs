@@ -66,8 +66,8 @@ pub(crate) fn regimes_text(map: &Map) -> String {
     )
 }
 
-/// Returns the arrays `damping_ratio`, `speed_ratio`, `bounce_ratio` (a row for each `M`; infinite without a bounce, NaN
-/// if it is not decided) and `threshold` at each `R`.
+/// Returns the arrays `damping_ratio`, `speed_ratio`, `bounce_ratio` (a row for each `M`; infinite without a bounce,
+/// NaN if it is not decided) and `threshold` at each `R`.
 pub(crate) fn regimes_npz(map: &Map) -> io::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     let mut npz = Npz::new(&mut bytes, true);

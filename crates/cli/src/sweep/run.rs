@@ -115,8 +115,8 @@ impl Request {
 }
 
 /// Returns the numbers of many problems, computed on all cores: for each of `count` problems one for each quantity.
-/// Quantities over time are taken at `time`, or at the end of the first contact; impulses and energies are per `ρS` where a
-/// problem has no material. `go_on` is asked before each problem.
+/// Quantities over time are taken at `time`, or at the end of the first contact; impulses and energies are per `ρS`
+/// where a problem has no material. `go_on` is asked before each problem.
 ///
 /// **Accuracy**: that of the numbers asked for, with the bound in each cell; the same for any number of cores.
 ///

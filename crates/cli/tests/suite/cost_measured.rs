@@ -77,7 +77,8 @@ fn schema() {
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }
 
-/// The end of the rod is on the ground after three quarters of a round trip; in the fall before, v(0,t) = gap − μt − gt²/2.
+/// The end of the rod is on the ground after three quarters of a round trip; in the fall before, v(0,t) = gap − μt −
+/// gt²/2.
 #[test]
 fn a_quantity_is_asked_at_a_time_at_which_it_is_not_zero() {
     let found = json(&["../../examples/bounce.toml", "--quantity", "u_end", "--seconds", "0.2"]);

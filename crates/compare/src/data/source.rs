@@ -43,8 +43,8 @@ const ARRAY: &[u8] = b"\x93NUMPY";
 const ARCHIVE: &[u8] = b"PK\x03\x04";
 
 impl Source {
-    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. In a folder, each
-    /// `.npy` is a quantity with the name of the file.
+    /// Opens a file, or standard input for `-`: `.npy` and `.npz` by their first bytes, text otherwise. In a folder,
+    /// each `.npy` is a quantity with the name of the file.
     ///
     /// **Errors**: [`DataError`], for an empty file too.
     pub fn open(path: &Path) -> Result<Self, DataError> {

@@ -158,8 +158,8 @@ impl Text {
         Err(DataErrorKind::Empty.at(file, None))
     }
 
-    /// Reads the fields at `which` of all rows, the one at `words` as a side, and returns the columns and the line number
-    /// of each row.
+    /// Reads the fields at `which` of all rows, the one at `words` as a side, and returns the columns and the line
+    /// number of each row.
     pub(super) fn read(
         self,
         which: &[usize],

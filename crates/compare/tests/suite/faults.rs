@@ -89,8 +89,8 @@ fn soft_contact_is_named() {
     }
 }
 
-/// The top alone does not tell a contact that is soft by an element of a coarse mesh from a longer rod: both are listed,
-/// and neither is asserted.
+/// The top alone does not tell a contact that is soft by an element of a coarse mesh from a longer rod: both are
+/// listed, and neither is asserted.
 #[test]
 fn causes_that_are_alike_are_both_listed() {
     let bar = scene("rod = { length = 10, modulus = 900, density = 1, area = 1 }\nimpact.speed = 10\nrun.time = 3\n");

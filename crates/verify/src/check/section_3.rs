@@ -38,8 +38,8 @@ fn height_of_top() -> f64 {
     formulas::top_height(0.2, 1.0, printed.centre(2.0), printed.momentum(2.0))
 }
 
-/// Computes `E(0) − 2r ∫₀ᵗ∫ v_t² dx dt`, c = L = g = 1, t₁/2 < t < t₁, cut where the ray runs. **Source**: (3.55), integrated;
-/// v_t by the closed form.
+/// Computes `E(0) − 2r ∫₀ᵗ∫ v_t² dx dt`, c = L = g = 1, t₁/2 < t < t₁, cut where the ray runs. **Source**: (3.55),
+/// integrated; v_t by the closed form.
 fn energy_left(damping: f64, speed: f64, time: f64) -> f64 {
     let rod = Parameters { length: 1.0, wave_speed: 1.0, damping, gravity: 1.0, speed };
     let contact = FirstContact::new(&rod.carry());

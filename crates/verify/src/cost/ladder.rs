@@ -163,8 +163,8 @@ fn by_plan(family: Family, question: &RouteQuestion, system: Numbers) -> Ladder 
     if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
         ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
     }
-    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice costs hardly
-    // more in long numbers.
+    // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice costs
+    // hardly more in long numbers.
     let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
     let others = in_digits(family, growths, 8, Route::Planned);
     ladder.extend(others.filter(|other| system != Numbers::Digits(other.digits - 8)));

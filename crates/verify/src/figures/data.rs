@@ -19,10 +19,11 @@ pub const DAMPINGS: [&str; 4] = ["0", "0.1", "0.2", "0.3"];
 pub const HELD_DAMPINGS: [&str; 3] = ["2.6", "2.9", "3.0"];
 /// Number of points of Figure 1 in each round trip.
 const PER_TRIP: i32 = 100;
-/// Accuracy of the figures, relative to a number or to 1. The last digit printed is at most twenty times the bound, so that
-/// a printed number is right to 1e-12.
+/// Accuracy of the figures, relative to a number or to 1. The last digit printed is at most twenty times the bound, so
+/// that a printed number is right to 1e-12.
 const ACCURACY: f64 = 9e-14;
-/// Accuracy of Figure 4: the bound of doubles is some 1e-11 at the later bounces, and the CSV prints no digit beyond it.
+/// Accuracy of Figure 4: the bound of doubles is some 1e-11 at the later bounces, and the CSV prints no digit beyond
+/// it.
 const RESTITUTION_ACCURACY: f64 = 1e-10;
 
 /// The numbers of a figure: columns by name and rows in order, or a map.
@@ -101,7 +102,8 @@ fn restitutions() -> Result<Columns, VerifyError> {
     Ok((vec!["damping", "speed", "bounce_time", "restitution_squared"], rows.collect()))
 }
 
-/// Computes Figures 5 to 7: a share of the energy at `t₁`, its limit for `μ → ∞`, and the limit that the paper supposes.
+/// Computes Figures 5 to 7: a share of the energy at `t₁`, its limit for `μ → ∞`, and the limit that the paper
+/// supposes.
 fn shares(kind: FigureKind) -> Result<Columns, VerifyError> {
     let grid = grid(&DAMPINGS.join(","), "3.2..12.5:373")?;
     let bounces = bounces(&grid, SHARES, ACCURACY)?;
@@ -171,8 +173,8 @@ const SHARES: Values<2> = |motion, [from, to]| Ok(energy_shares(motion, (from, S
 const ENERGIES: Values<2> =
     |motion, [_, to]| motion.energy(to).map(|energy| [energy.translational, energy.vibrational].map(Some));
 
-/// Computes the first bounces of a grid over `impact.speed` and `rod.damping`, to `accuracy` of the numbers, or of 1 where
-/// they are less.
+/// Computes the first bounces of a grid over `impact.speed` and `rod.damping`, to `accuracy` of the numbers, or of 1
+/// where they are less.
 fn bounces<const N: usize>(grid: &Grid, values: Values<N>, accuracy: f64) -> Result<Vec<Bounce<N>>, VerifyError> {
     (0..grid.len()).into_par_iter().map(|index| bounce(&grid.problem(index)?, values, accuracy)).collect()
 }
@@ -229,8 +231,8 @@ pub fn threshold_speed(damping: &str) -> f64 {
     2.0 * threshold_near(2.0 * damping.parse().unwrap_or(f64::NAN))
 }
 
-/// Computes Figure 1: `r`, `t`, the side of the limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. A whole `t` has
-/// two rows, one for each limit.
+/// Computes Figure 1: `r`, `t`, the side of the limit, `Ψ_r(t)` for `g = 0`, `t₁ = μ = c = 1`, and `t_b`. A whole `t`
+/// has two rows, one for each limit.
 fn held_stresses() -> Result<Columns, VerifyError> {
     let rows = HELD_DAMPINGS.into_iter().map(held_stress).collect::<Result<Vec<_>, _>>()?;
     Ok((vec!["damping", "t", "side", "psi", "bounce_time"], rows.concat()))

@@ -108,7 +108,8 @@ impl<S: RoundedSpecial> Modal<S> {
             } else {
                 (self.rotating(&omega, trips), none)
             };
-            // Re(D e^{iα}) for each function of time: the phase turns a difference, which is small where it is not well known.
+            // Re(D e^{iα}) for each function of time: the phase turns a difference, which is small where it is not well
+            // known.
             let mut rests = [None, None, None];
             for (m, [re, im]) in exact.into_iter().enumerate().filter(|(m, _)| used[*m]) {
                 let head = polynomial(&expansion.powers[m], &step);
@@ -289,7 +290,8 @@ fn euler<S: Rounded>(like: &Estimate<S>, count: usize) -> Vec<Estimate<S>> {
     list
 }
 
-/// Computes `U_m(α) = 4 Σ Re((−i)^m e^{iωα})/ω^m = (−1)^{⌊α⌋} E_{m−1}(α − ⌊α⌋)/(m−1)!`, m = 0 … (the first is a placeholder).
+/// Computes `U_m(α) = 4 Σ Re((−i)^m e^{iωα})/ω^m = (−1)^{⌊α⌋} E_{m−1}(α − ⌊α⌋)/(m−1)!`, m = 0 … (the first is a
+/// placeholder).
 ///
 /// `U_1` is the square wave, `U_m′ = U_{m−1}`, and each changes its sign over a round trip, which fixes the constant:
 /// Euler's polynomials, here by their expansion about 1/2.
@@ -311,7 +313,8 @@ fn lattice<S: Rounded>(alpha: &Estimate<S>, side: Side, numbers: &[Estimate<S>])
     Some(list)
 }
 
-/// Returns `value` with a bound that includes the tail `e^log_tail`; the bound of a value that is no number is infinite.
+/// Returns `value` with a bound that includes the tail `e^log_tail`; the bound of a value that is no number is
+/// infinite.
 pub(super) fn within<S: Rounded>(value: Estimate<S>, log_tail: f64) -> Estimate<S> {
     let error = value.error() + (log_tail - value.log2_roundoff() * std::f64::consts::LN_2).exp();
     let known = value.is_finite() && !error.is_nan();

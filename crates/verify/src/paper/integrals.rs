@@ -1,7 +1,7 @@
 //! The paper's integrals as printed, by adaptive quadrature: the program that a reader would write from the page.
 //!
-//! The closed forms share no code with it: I₀ is the integral (2.16), not a series; the extended data are a square wave;
-//! integrals nest as deep as in print, three for an energy.
+//! The closed forms share no code with it: I₀ is the integral (2.16), not a series; the extended data are a square
+//! wave; integrals nest as deep as in print, three for an energy.
 
 use super::quadrature::Quadrature;
 use dalembert::problem::Parameters;

@@ -50,8 +50,8 @@ impl Quadrature {
         self.late.get()
     }
 
-    /// Computes `∫ f` over `[a,b]`, cut at `cuts`, to the tolerance times `∫|f|`, or to `noise`, the rounding error of f,
-    /// where that is more.
+    /// Computes `∫ f` over `[a,b]`, cut at `cuts`, to the tolerance times `∫|f|`, or to `noise`, the rounding error of
+    /// f, where that is more.
     pub(super) fn integral(&self, [a, b]: [f64; 2], cuts: &[f64], noise: f64, f: &dyn Fn(f64) -> f64) -> f64 {
         // A cut within rounding of an end would leave a sliver on which f is noise.
         let (least, blur) = (a.min(b), 1e-13 * (a.abs() + b.abs()));

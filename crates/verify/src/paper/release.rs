@@ -7,8 +7,8 @@ use dalembert::Side;
 const MOST_TRIPS: i64 = 64;
 
 /// Returns the first time at which a stress is tensile: just after a lattice time, or at a rise through zero between
-/// two, provided that one of `looks` samples in each round trip shows it; `None` after 64 round trips. The search proves
-/// nothing.
+/// two, provided that one of `looks` samples in each round trip shows it; `None` after 64 round trips. The search
+/// proves nothing.
 pub(crate) fn first_release(round_trip: f64, looks: i64, stress: impl Fn(f64, Side) -> f64) -> Option<f64> {
     for k in 1..=MOST_TRIPS {
         let start = k as f64 * round_trip;
@@ -29,8 +29,8 @@ pub(crate) fn first_release(round_trip: f64, looks: i64, stress: impl Fn(f64, Si
     None
 }
 
-/// Returns the root between `low` and `high`, points (t, f), by the Illinois rule: regula falsi that halves the value at
-/// an end that stays.
+/// Returns the root between `low` and `high`, points (t, f), by the Illinois rule: regula falsi that halves the value
+/// at an end that stays.
 fn root(mut low: (f64, f64), mut high: (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..60 {
         let time = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);

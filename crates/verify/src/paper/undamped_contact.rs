@@ -91,7 +91,8 @@ impl<S: Scalar + PartialOrd> UndampedContact<S> {
         four + mu.square() * c / (n(2) * g) - (mu.clone() + &gt) * l
     }
 
-    /// Computes `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the ground.
+    /// Computes `h(t)` and `h′(t) = P/L`: the centre of mass, relative to its place in the undeformed rod on the
+    /// ground.
     ///
     /// **Source**: (3.51), (3.53).
     pub fn centre(&self, time: &S) -> (S, S) {

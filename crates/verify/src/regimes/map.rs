@@ -54,8 +54,8 @@ impl Regime {
 }
 
 impl Map {
-    /// Computes the map for the ranges `damping` of R and `speed` of M, in the grammar of [`Axis`]. It is the same for any
-    /// number of threads; `done` is called after each point.
+    /// Computes the map for the ranges `damping` of R and `speed` of M, in the grammar of [`Axis`]. It is the same for
+    /// any number of threads; `done` is called after each point.
     ///
     /// ```
     /// use dalembert_verify::regimes::{Map, Regime};
@@ -94,8 +94,8 @@ impl Map {
         Ok(Map { regimes, damping: dampings, speed: speeds, regions: Vec::new() })
     }
 
-    /// Finds [`Map::regions`]. Between two points in different bands the edge is halved until the border is known to one
-    /// part in `FINE` of the picture; `done` is called after each edge.
+    /// Finds [`Map::regions`]. Between two points in different bands the edge is halved until the border is known to
+    /// one part in `FINE` of the picture; `done` is called after each edge.
     pub fn with_regions(self, done: &(dyn Fn() + Sync)) -> Self {
         let (across, up) = (self.damping.len(), self.speed.len());
         let (dampings, speeds) = (CellAxis::new(&self.damping), CellAxis::new(&self.speed));

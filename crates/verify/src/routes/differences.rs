@@ -1,8 +1,8 @@
 //! Finite differences at CFL = 1: the Riemann invariants on a grid, carried along the characteristics, with damping by
 //! the trapezoidal rule, as a careful programmer without a closed form would write it.
 //!
-//! The unknowns stand in the middles of N cells, so that the rays of the lattice run along the edges of cells and no jump
-//! is smeared; damping sees a jump a quarter of a step early or late. Events are found between two steps by linear
+//! The unknowns stand in the middles of N cells, so that the rays of the lattice run along the edges of cells and no
+//! jump is smeared; damping sees a jump a quarter of a step early or late. Events are found between two steps by linear
 //! interpolation, and act from the next step on.
 
 use glam::DVec2;
@@ -137,8 +137,8 @@ pub(super) fn march(problem: &Problem, cells: usize) -> Result<March, Error> {
     Ok(marched)
 }
 
-/// Returns the strain at `time` from those at the two half steps around it; from one alone where the rod leaves or lands
-/// between.
+/// Returns the strain at `time` from those at the two half steps around it; from one alone where the rod leaves or
+/// lands between.
 fn interpolated([DVec2 { x: t0, y: s0 }, DVec2 { x: t1, y: s1 }]: [DVec2; 2], time: f64) -> f64 {
     if s0 == 0.0 || s1 == 0.0 || t1 <= t0 {
         return if 2.0 * time < t0 + t1 { s0 } else { s1 };
@@ -188,7 +188,8 @@ impl Grid {
         let Parameters { wave_speed: c, damping: r, gravity: g, .. } = self.rod;
         let (dt, n, rate) = (self.step, self.waves.len(), self.velocity());
         let (fall, half) = (g * dt, 0.5 * r * dt);
-        // A wave after a share of a step that begins with `p + q = sum`, without the final term of the trapezoidal rule.
+        // A wave after a share of a step that begins with `p + q = sum`, without the final term of the trapezoidal
+        // rule.
         let after = |share: f64, wave: f64, sum: f64| wave - share * fall - share * half * sum;
         // The wave that an end reflects half a step later: p + q is 0 at a fixed end, and twice the wave at a free one.
         let reflected = |held: bool, arriving: f64| match held {

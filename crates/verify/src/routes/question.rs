@@ -35,9 +35,9 @@ pub struct RouteQuestion {
 impl RouteQuestion {
     /// Builds the question for `quantity` of `scene` at `time`.
     ///
-    /// The default quantity is the bounce time or, for a scene of more than one contact, the time of the last event. The
-    /// default time is three quarters of a round trip; where the quantity is zero then, it is the middle of the first
-    /// contact or flight of the scene in which it is not.
+    /// The default quantity is the bounce time or, for a scene of more than one contact, the time of the last event.
+    /// The default time is three quarters of a round trip; where the quantity is zero then, it is the middle of the
+    /// first contact or flight of the scene in which it is not.
     ///
     /// **Errors**: [`VerifyError::Time`] for a time below zero, or one for a quantity that has no time.
     ///

@@ -88,9 +88,9 @@ impl Truth {
         self.log10_scale().floor() - self.log10_half_width
     }
 
-    /// Returns the number of right digits of `value`: `−log₁₀` of the relative error, as far as the truth is known. Those
-    /// of an enclosure are the digits that both ends share with the truth, none where it lies outside. The truth itself
-    /// has infinitely many.
+    /// Returns the number of right digits of `value`: `−log₁₀` of the relative error, as far as the truth is known.
+    /// Those of an enclosure are the digits that both ends share with the truth, none where it lies outside. The truth
+    /// itself has infinitely many.
     pub(crate) fn right_digits(&self, value: &Value) -> f64 {
         let log10_error = match log10_radius(value) {
             None => self.log10_error(value),

@@ -57,8 +57,8 @@ pub(super) fn log10_radius(value: &Value) -> Option<f64> {
     value.as_interval().map(|value| value.log2_error() * std::f64::consts::LOG10_2)
 }
 
-/// Returns `log₁₀ |a − b|`, between the middles of enclosures: −∞ for equal numbers, ∞ where one is not finite. An error
-/// of a thousand digits has no double.
+/// Returns `log₁₀ |a − b|`, between the middles of enclosures: −∞ for equal numbers, ∞ where one is not finite. An
+/// error of a thousand digits has no double.
 pub(super) fn log10_distance(a: &Value, b: &Value) -> f64 {
     let (Some(a), Some(b)) = (fraction(a), fraction(b)) else { return f64::INFINITY };
     log10((a - b).magnitude())
