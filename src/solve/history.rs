@@ -90,7 +90,7 @@ pub enum StressForm {
 }
 
 impl History {
-    pub(super) fn new(solution: Solution, units: Units) -> Self {
+    fn new(solution: Solution, units: Units) -> Self {
         History { solution, units }
     }
 
@@ -470,6 +470,13 @@ impl History {
 fn written(quantity: &'static str, text: impl Into<Written>) -> Result<Number, Error> {
     let text = text.into();
     text.number().cloned().map_err(|error| Error::Spelling { quantity, error: error.clone() })
+}
+
+impl Plan {
+    /// Solves `problem`: see [`Plan::solve_typed`].
+    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
+        Ok(History::new(self.solve_typed(problem, observe)?, Units::of(problem, UnitSystem::default())))
+    }
 }
 
 impl Problem {

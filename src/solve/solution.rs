@@ -1,6 +1,5 @@
 //! The answer in the requested numbers.
 
-use super::history::History;
 use super::ladder::Target;
 use super::plan::Plan;
 use super::question::{Numbers, Observer};
@@ -9,7 +8,6 @@ use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Float, Interval, Rational};
 use crate::problem::Problem;
-use crate::quantity::{UnitSystem, Units};
 
 /// A history in the numbers of its plan. All variants exist in every build; a build without the feature `mp` yields
 /// only doubles and fractions.
@@ -90,11 +88,6 @@ impl std::fmt::Display for ExactnessEnd {
 }
 
 impl Plan {
-    /// Solves `problem`: see [`Plan::solve_typed`].
-    pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
-        Ok(History::new(self.solve_typed(problem, observe)?, Units::of(problem, UnitSystem::default())))
-    }
-
     /// Solves `problem`; see [`Observer`] for what `observe` receives.
     ///
     /// **Accuracy**: that of [`Plan::numbers`].
