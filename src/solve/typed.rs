@@ -543,14 +543,14 @@ impl Problem {
     /// Solves the problem in decimal digits. **Accuracy**: this many digits of each number, rounded once, as
     /// [`TypedHistory::text`] prints them; the `Float` itself carries more, without a guarantee.
     ///
-    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`].
     pub fn digits(&self, digits: u32) -> Result<TypedHistory<crate::number::Float>, Error> {
         self.answer(&Question::run(Numbers::Digits(digits)))
     }
 
     /// Solves the problem in proved decimal digits. **Accuracy**: *enclosure*.
     ///
-    /// **Errors**: [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::Undecided`].
     pub fn certified(&self, digits: u32) -> Result<TypedHistory<crate::number::Interval>, Error> {
         self.answer(&Question::run(Numbers::Certified(digits)))
     }

@@ -28,8 +28,7 @@ impl<S: Target> TypedHistory<S> {
     /// the step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] if the problem has no such value, in fractions for damping, and for
-    /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, except for
-    /// fractions; the errors of the runs.
+    /// enclosures; [`Error::Digits`] for more than 60; the errors of the runs.
     ///
     /// ```
     /// # #[cfg(feature = "mp")] {

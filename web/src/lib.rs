@@ -42,7 +42,6 @@ fn beyond(error: impl std::fmt::Display) -> JsError {
 /// Builds the error of a question that a history does not answer.
 fn failed(error: Error) -> JsError {
     match error {
-        Error::NoMultiprecision => beyond("some of its numbers need more digits than doubles have"),
         Error::NotDecided { .. } | Error::Open(_) => beyond(error),
         error => refuse(error),
     }
