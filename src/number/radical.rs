@@ -289,6 +289,6 @@ fn square_factor(n: &Integer) -> Integer {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/radical.rs"]
 mod tests;

@@ -178,13 +178,11 @@ impl<S: Target> TypedHistory<S> {
     /// **Accuracy**: *correctly rounded* to the requested digits; the shortest text of a double; a fraction in full.
     ///
     /// ```
-    /// # #[cfg(feature = "mp")] {
     /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
     /// let history = rod.digits(50)?;
     /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
     /// assert_eq!(history.text(history.contacts()[0].release.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
     /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
-    /// # }
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn text(&self, number: &S) -> String {

@@ -122,6 +122,6 @@ fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {
     (rounded(node), rounded(weight))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/enclosed.rs"]
 mod tests;

@@ -167,6 +167,6 @@ fn descend<const K: usize>(
     (sums, value, reached)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
 mod tests;

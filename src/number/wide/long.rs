@@ -60,6 +60,6 @@ impl<const N: usize> Reads<Estimate<Wide<N>>> for Interval {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
 mod tests;
