@@ -388,7 +388,9 @@ impl Float {
             let (sign, size) = mantissa.clone().into_parts();
             let (whole, rest) = (size * above).div_rem(&below);
             let away = match round {
-                Round::Nearest => (&rest << 1usize).cmp(&below).then(whole.bit(0).cmp(&true)).is_ge() && !rest.is_zero(),
+                Round::Nearest => {
+                    (&rest << 1usize).cmp(&below).then(whole.bit(0).cmp(&true)).is_ge() && !rest.is_zero()
+                }
                 Round::Down => sign == Sign::Negative && !rest.is_zero(),
                 Round::Up => sign == Sign::Positive && !rest.is_zero(),
                 Round::AwayZero => !rest.is_zero(),
@@ -684,7 +686,8 @@ impl Unrounded for Rational {
 
 impl Unrounded for Constant {
     fn rounded(self, bits: u32, round: Round) -> Float {
-        let (mantissa, exponent) = Context::<Zero>::new(bits as usize + 2).pi::<2>(None).value().into_repr().into_parts();
+        let (mantissa, exponent) =
+            Context::<Zero>::new(bits as usize + 2).pi::<2>(None).value().into_repr().into_parts();
         Cut { more: true, ..Cut::exact(mantissa, exponent as i64) }.round(bits, round)
     }
 }

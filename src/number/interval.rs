@@ -211,8 +211,7 @@ impl Add<&Interval> for Interval {
     type Output = Interval;
     fn add(self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::add);
-        let (lo, hi) =
-            (float::sum(self.lo, &other.lo, Round::Down), float::sum(self.hi, &other.hi, Round::Up));
+        let (lo, hi) = (float::sum(self.lo, &other.lo, Round::Down), float::sum(self.hi, &other.hi, Round::Up));
         Interval::checked(lo, hi, inside)
     }
 }

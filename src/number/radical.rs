@@ -246,7 +246,8 @@ impl Radical {
             lcm / common * denominator
         });
         let whole = self.scaled(&Rational::from(square(&below)))?;
-        let content = whole.terms.iter().fold(Integer::from(0), |gcd, (_, c)| rational::gcd(rational::parts(c).0, &gcd));
+        let content =
+            whole.terms.iter().fold(Integer::from(0), |gcd, (_, c)| rational::gcd(rational::parts(c).0, &gcd));
         let factor = square_factor(&content);
         let radicand = whole.scaled(&rational::quotient(Integer::from(1), square(&factor)))?;
         let scale = rational::quotient(factor, below);

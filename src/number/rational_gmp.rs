@@ -2,9 +2,9 @@
 
 use std::cmp::Ordering;
 
+use rug::Float;
 pub(crate) use rug::Integer;
 pub use rug::Rational;
-use rug::Float;
 use rug::float::Round;
 use rug::integer::Order;
 use rug::ops::DivRounding;

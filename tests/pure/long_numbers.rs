@@ -69,7 +69,9 @@ fn undamped_references_are_proved_to_fifty_digits() {
         let history = problem.certified(50).unwrap();
         assert_eq!(history.events().len(), events.len(), "{}", case["name"]);
         for (event, truth) in history.events().iter().zip(events) {
-            for (found, text) in [(&event.t, &truth["time"]), (&event.h, &truth["h"]), (&event.h_rate, &truth["h_rate"])] {
+            for (found, text) in
+                [(&event.t, &truth["time"]), (&event.h, &truth["h"]), (&event.h_rate, &truth["h_rate"])]
+            {
                 let scale = 1.0 + found.to_f64().abs();
                 let apart = found.mid().to_rational().unwrap() - number(text).to_rational();
                 assert!(found.radius().to_f64() <= scale * 1e-49, "{found}");

@@ -14,6 +14,7 @@ mod damped_reference;
 mod first_contact_paper;
 #[path = "../suite/first_contact_undamped.rs"]
 mod first_contact_undamped;
+mod long_numbers;
 #[path = "../suite/paper_claims.rs"]
 mod paper_claims;
 #[path = "../suite/rates.rs"]
@@ -26,4 +27,3 @@ mod snapshots_stress;
 mod stripped;
 #[path = "../suite/values.rs"]
 mod values;
-mod long_numbers;

@@ -86,7 +86,9 @@ fn timings() {
         timed("3 limbs", || march::<Wide<3>>(&(), digits, |x| x.to_rational().unwrap()));
         timed("4 limbs", || march::<Wide<4>>(&(), digits, |x| x.to_rational().unwrap()));
         for bits in [128, 192, 256] {
-            timed(&format!("long, {bits}"), || march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap()));
+            timed(&format!("long, {bits}"), || {
+                march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap())
+            });
         }
     }
     println!("digits of the bits");
