@@ -6,7 +6,7 @@ use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
-use super::plan::{DEFAULT_ACCURACY, Plan, Rung};
+use super::plan::{DEFAULT_ACCURACY, LONG, Plan, Rung};
 use super::planned::estimates;
 use super::question::Observer;
 use super::{interpolated, long, rates};
@@ -31,11 +31,15 @@ impl Target for f64 {
                 let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
                 return confirmed(problem, plan, exact, longer, observe);
             }
-            rung => return long::in_doubles(problem, plan, (rung, longer), observe),
+            rung if LONG => return long::in_doubles(problem, plan, (rung, longer), observe),
+            _ => return Err(not_in_doubles()),
         }
         let problem = &*plan.reaching(problem);
         let task = plan.task::<f64>(problem, &(), rung, observe);
-        let rate = |bounce: &Bounce<_>| plan.rate_bits.and_then(|bits| long::rate_after(problem, bounce, bits));
+        let rate = |bounce: &Bounce<_>| {
+            let bits = if LONG { plan.rate_bits } else { return None };
+            bits.and_then(|bits| long::rate_after(problem, bounce, bits))
+        };
         let engine = estimates(plan, &task, rung.bits(), rate, |march| march())?;
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
@@ -59,6 +63,11 @@ impl Target for f64 {
     }
 }
 
+/// Returns the error of a build without longer numbers.
+fn not_in_doubles() -> Error {
+    Error::NotDecided { what: "what the answer is", bits: f64::MANTISSA_DIGITS }
+}
+
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
         Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
@@ -79,7 +88,8 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
             let exact: Engined<Rational> = Arc::new(plan.lattice(&problem, &(), &observe)?);
             Ok(Arc::new(Converted::new(exact)) as Engined<f64>)
         }
-        rung => long::read(&problem, &plan, rung, &observe),
+        rung if LONG => long::read(&problem, &plan, rung, &observe),
+        _ => Err(not_in_doubles()),
     };
     Longer { rungs, exact_contacts, run: Box::new(run) }
 }

@@ -214,6 +214,9 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 /// Maximum bits of a damped march that is proved: its error account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
+/// Whether answers in doubles may take longer numbers.
+pub(super) const LONG: bool = cfg!(feature = "long");
+
 /// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.
 fn size(bits: u32) -> u32 {
     SIZES.into_iter().find(|size| bits <= size + SHORTER).unwrap_or(bits)
@@ -313,7 +316,7 @@ impl Plan {
             climb,
             goal,
             cells: marched.then_some(cells),
-            rate_bits: (then_cells && doubles).then_some(FEWEST_BITS),
+            rate_bits: (then_cells && doubles && LONG).then_some(FEWEST_BITS),
             engine,
             numbers,
             reach,
@@ -339,6 +342,9 @@ impl Plan {
     /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
+        if !LONG && rung == Rung::Double {
+            return matches!(lacks, Lacks::Exactness).then_some(Rung::Fractions);
+        }
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end early if they do not apply; more bits distinguish a near miss from a meeting.
             return match rung {
@@ -375,7 +381,7 @@ impl Plan {
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let longer = [1, 2, 4].map(|times| times * self.climb.bits).into_iter();
-        let longer = longer.filter(|bits| *bits > rung.bits()).map(Rung::Bits);
+        let longer = longer.filter(|bits| LONG && *bits > rung.bits()).map(Rung::Bits);
         exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
     }
 
@@ -488,7 +494,7 @@ impl Plan {
             }
             _ => (double_digits, double_cells),
         };
-        Effort { digits, cells, until_lost: true }
+        Effort { digits, cells, until_lost: LONG }
     }
 
     /// Returns the plan after a run in doubles that lacks this many bits.

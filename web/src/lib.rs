@@ -6,8 +6,8 @@ use std::sync::Arc;
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
 use dalembert::quantity::restitution;
 use dalembert::{
-    Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, Solution,
-    TypedHistory, Units, Warning,
+    Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, TypedHistory, Units,
+    Warning,
 };
 use dalembert_plot::{Canvas, Drawing, DrawnSvg, RodPicture, RunExtremes};
 use wasm_bindgen::prelude::*;
@@ -42,7 +42,7 @@ fn beyond(error: impl std::fmt::Display) -> JsError {
 /// Builds the error of a question that a history does not answer.
 fn failed(error: Error) -> JsError {
     match error {
-        Error::NotDecided { .. } | Error::Open(_) => beyond(error),
+        Error::NotDecided { .. } | Error::Open(_) | Error::Unsettled { .. } => beyond(error),
         error => refuse(error),
     }
 }
@@ -66,7 +66,7 @@ pub struct Run {
 
 #[wasm_bindgen]
 impl Run {
-    /// Solves the scene of `toml`, in longer numbers where doubles do not settle it, within a limit of milliseconds.
+    /// Solves the scene of `toml` in doubles, within a limit of milliseconds.
     #[wasm_bindgen(constructor)]
     pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
         // Line and column are left out: the page does not show the text.
@@ -79,12 +79,11 @@ impl Run {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         });
-        match plan.solve_typed(&scene.problem, observe) {
-            Ok(Solution::Double(history)) => {
+        match TypedHistory::solve(&scene.problem, &plan, observe) {
+            Ok(history) => {
                 let extremes = RunExtremes::new(&history).map_err(failed)?;
                 Ok(Run { scene, history, extremes })
             }
-            Ok(_) => Err(refuse("found numbers other than doubles")),
             Err(Error::Interrupted) => Err(beyond(format!("no answer within {milliseconds} ms"))),
             Err(error) => Err(failed(error)),
         }
