@@ -129,6 +129,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower.held = Some(held);
         follower.landed = 1;
         follower.budget.add(error);
+        follower.budget.rays = time_error;
         follower.let_go(&velocity, off, None);
         if let Some(flight) = follower.flying() {
             let off = (flight.rate.clone() - rate.value()).to_f64().abs() + rate.bound();

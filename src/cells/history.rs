@@ -133,17 +133,21 @@ impl<S: RoundedSpecial> Damped<S> {
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
             found.proved(&medium, &data)?;
         warnings.extend(unresolved);
-        let end = match &task.problem.run {
+        let (end, late) = match &task.problem.run {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
-                S::from_number(time, task.precision)
+                (S::from_number(time, task.precision), 0.0)
             }
             _ => {
                 let start = || held.as_ref().map_or_else(|| data.slope.zero(), |held| held.release.clone());
-                pieces.last().map_or_else(start, Piece::to) * &data.units.time
+                let end = pieces.last().map_or_else(start, Piece::to);
+                // Other ends than impacts are at rays, or where the run stops.
+                let rays = marks.last().map_or(&before, |mark| &mark.after).rays;
+                let at_ray = rays + 16.0 * end.unit() * (1.0 + end.to_f64());
+                (end * &data.units.time, if ending == Ending::NextImpact { end_error } else { at_ray })
             }
         };
         let mut history = Damped {
-            course: Course { warnings, ..Course::new(within(&end, end_error * data.units.time.to_f64()), ending) },
+            course: Course { warnings, ..Course::new(within(&end, late * data.units.time.to_f64()), ending) },
             scales: data.units.clone().map(|scale| scale.to_f64()),
             rebound: None,
             medium,
