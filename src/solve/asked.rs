@@ -205,7 +205,8 @@ impl<S: Rounded> Telling<S> {
         locked(&self.covered).push(time.to_f64());
         let mut found: Option<T> = None;
         for met in met {
-            let late = met.double(met.bound() + time.bound());
+            // The spelled time is within its bound of `time`, which is within both bounds of `met`.
+            let late = met.double(met.bound() + 2.0 * time.bound());
             let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
             let [before, after] = [exactly(met.clone() - &late), exactly(met.clone() + &late)];
             for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)]
