@@ -69,7 +69,7 @@ pub(crate) use float::{down, up};
 pub(crate) use fraction::spelled_as;
 #[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
-pub use list::List;
+pub use list::{List, ListError};
 pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;

@@ -36,7 +36,7 @@ impl Truth {
     /// without long numbers computes doubles where fractions end.
     pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
-        if question.problem.rod.damping.is_none()
+        if question.problem.damping().is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
         {
             return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });
