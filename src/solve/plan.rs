@@ -191,7 +191,7 @@ const EXACT_ROOT: u32 = 4;
 /// Minimum bits of a number with an error bound that follows doubles.
 const FEWEST_BITS: u32 = 128;
 /// Bits of the numbers on the stack.
-const SIZES: [u32; 3] = [128, 192, 384];
+const SIZES: [u32; 3] = [128, 256, 384];
 /// Bits by which such numbers may be shorter than planned; guard bits are several times as many.
 const SHORTER: u32 = 8;
 /// Bits of the series of a damped march beyond the estimated need of its answer.
