@@ -66,7 +66,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         precision: &S::Precision,
         bounce: Bounce<Estimate<S>>,
     ) -> Result<Self, Error> {
-        let asked = match &problem.run {
+        let asked = match problem.run() {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,
         };

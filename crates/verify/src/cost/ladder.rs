@@ -79,7 +79,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
         Engine::ClosedForm => Family::ClosedForm,
         Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
-    let damped = question.problem.rod.damping.is_some();
+    let damped = question.problem.damping().is_some();
     if damped {
         take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
@@ -198,7 +198,7 @@ fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReas
     if !question.problem.has_closed_form() {
         return Err(OmissionReason::NoClosedForm);
     }
-    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+    if question.one.quantity == Quantity::LastEvent && *question.problem.run() != Run::Impacts(1) {
         return Err(OmissionReason::LaterEvent);
     }
     let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
