@@ -52,7 +52,7 @@
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of
 //! Minnesota, August 2016: "the paper" throughout.
 //!
-//! The feature `mp` adds digits, proved or not, and faster fractions, with GMP and MPFR.
+//! The feature `mp` computes fractions and long numbers with GMP and MPFR: faster, above all in hundreds of digits.
 
 mod cells;
 pub mod engine;
@@ -75,7 +75,7 @@ pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
 pub use names::{UnknownName, nearest};
 pub use number::{Bound, Estimate, Float, Interval, Number, Rational, Value};
-pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
+pub use problem::{Material, Parameter, Parameters, Problem, Profile, Run, Speed, Start, Top};
 pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]

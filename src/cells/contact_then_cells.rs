@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Field, Motion, Pair, Scales, Side, StressPiece, unobserved};
-use crate::number::{Answer, Estimate, Rounded, Scalar};
+use crate::number::{Answer, Estimate, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
 use crate::special::RoundedSpecial;
@@ -32,13 +32,8 @@ pub struct ContactThenCells<S> {
     strain: f64,
 }
 
-/// The solution valid at a time, and the time to query it at.
+/// The solution valid at a time, and the time to query: the closed form takes the stored time as exact.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
-
-/// Returns a time or a point within its bound, and at least within one rounding.
-fn rounded<S: Rounded>(x: &Estimate<S>) -> Estimate<S> {
-    if x.spelled_as().is_some() || x.error() < x.value().carry().error() { x.value().carry() } else { x.clone() }
-}
 
 impl<S: RoundedSpecial> ContactThenCells<S> {
     /// Solves `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
@@ -71,7 +66,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         precision: &S::Precision,
         bounce: Bounce<Estimate<S>>,
     ) -> Result<Self, Error> {
-        let asked = match &problem.run {
+        let asked = match problem.run() {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,
         };
@@ -131,12 +126,12 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(self.march.as_ref().filter(|_| self.bounce().is_some_and(|bounce| time > bounce)))
     }
 
-    /// Returns the solution valid at a time, and the time to query it at.
+    /// Returns the solution valid at a time, and the time to query: the closed form takes the stored time as exact.
     fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
             Some(march) => (march, time.clone()),
-            None => (&self.contact, rounded(time)),
+            None => (&self.contact, time.value().carry()),
         })
     }
 }
@@ -186,7 +181,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let (part, time) = self.part(time)?;
-        part.field(&rounded(point), &time, side)
+        part.field(&point.value().carry(), &time, side)
     }
 
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
@@ -194,8 +189,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         match self.later(time)? {
             Some(march) => march.moments(time, points),
             None => {
-                let points: Vec<_> = points.iter().map(rounded).collect();
-                self.contact.moments(&rounded(time), &points)
+                let points: Vec<_> = points.iter().map(|x| x.value().carry()).collect();
+                self.contact.moments(&time.value().carry(), &points)
             }
         }
     }
@@ -206,7 +201,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;
         }
-        let contact: Vec<_> = times[..first].iter().map(rounded).collect();
+        let contact: Vec<_> = times[..first].iter().map(|x| x.value().carry()).collect();
         let mut rates = self.contact.rates(points, &contact)?;
         if let Some(march) = self.march.as_ref().filter(|_| first < times.len()) {
             rates.extend(march.rates(points, &times[first..])?);

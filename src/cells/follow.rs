@@ -33,7 +33,7 @@ pub(super) enum Goal<S> {
 impl<S: RoundedSpecial> Goal<S> {
     /// Reads the goal from the run of the problem.
     fn of(task: &Task<'_, S>, data: &Data<S>) -> Self {
-        match &task.problem.run {
+        match task.problem.run() {
             Run::Impacts(count) => Goal::Impacts(*count),
             Run::Time(time) => Goal::Time(S::from_number(time, task.precision) / &data.units.time),
         }

@@ -38,7 +38,7 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// use dalembert::{Number, Problem};
 /// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
 /// let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
-/// problem.rod.damping = "1e-300".parse().ok();
+/// problem = problem.to_builder().damping("1e-300").build()?;
 /// let history = Damped::<f64>::solve(&problem, &(), 12.0)?;
 /// let release = &history.events()[1];
 /// assert!((release.t.value() - 2.0).abs() <= release.t.bound() && release.t.bound() < 1e-12);
@@ -133,7 +133,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
             found.proved(&medium, &data)?;
         warnings.extend(unresolved);
-        let (end, late) = match &task.problem.run {
+        let (end, late) = match task.problem.run() {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
                 (S::from_number(time, task.precision), 0.0)
             }

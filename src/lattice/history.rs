@@ -71,7 +71,7 @@ impl<N: Bounded> Undamped<N> {
         limits: Limits,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        Self::solve_scaled(Scaled::of(problem, precision)?, &problem.run, limits, observe)
+        Self::solve_scaled(Scaled::of(problem, precision)?, problem.run(), limits, observe)
     }
 
     /// Computes the history as [`Undamped::solve_within`] does, for a problem in lattice units.

@@ -27,7 +27,7 @@ impl Problem {
     }
 
     fn drag_neglected(&self) -> Option<Warning> {
-        let (damping, gravity) = (self.rod.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());
+        let (damping, gravity) = (self.damping.as_ref()?.to_f64(), self.gravity.as_ref()?.to_f64());
         let Start::Uniform(speed @ Speed::DropHeight(_)) = &self.start else { return None };
         let (speed, terminal) = (speed.value(gravity), gravity / (2.0 * damping));
         (terminal < speed).then_some(Warning::DragNeglected { speed, terminal })
@@ -35,7 +35,7 @@ impl Problem {
 
     /// Drag in flights: `h″ + 2r h′ = −g` with `2r μ > g`, where a flight is part of the run that was asked for.
     fn drag_dominates(&self) -> Option<Warning> {
-        let damping = self.rod.damping.as_ref()?.to_f64();
+        let damping = self.damping.as_ref()?.to_f64();
         if self.run == Run::Impacts(1) && self.gap().is_none() {
             return None;
         }
@@ -49,7 +49,7 @@ impl Problem {
     /// A warning where a strain of a material is above 1: one that is `known`, that of the impact, `μ/c`, or one of the
     /// start.
     pub(crate) fn strain_warning(&self, known: f64) -> Option<Warning> {
-        if !matches!(self.rod.material, Material::Elastic { .. }) {
+        if !matches!(self.material, Material::Elastic { .. }) {
             return None;
         }
         let rod = Parameters::<f64>::of(self, &()).ok()?;

@@ -58,12 +58,12 @@ struct StartRays {
 
 impl StartRays {
     fn of(problem: &Problem) -> Self {
-        let length = problem.rod.length.to_rational();
+        let length = problem.length().to_rational();
         let mut corners = vec![length.zero(), length.clone()];
-        if let Start::Profile(profile) = &problem.start {
+        if let Start::Profile(profile) = problem.start() {
             corners.extend(profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_rational()));
         }
-        let wave_speed = match &problem.rod.material {
+        let wave_speed = match problem.material() {
             Material::WaveSpeed(speed) => Some(speed.to_rational()),
             Material::Elastic { modulus, density, .. } => (modulus.to_rational() / density.to_rational()).try_sqrt(),
         };
@@ -108,10 +108,8 @@ pub(super) enum Open<S: Answer> {
     /// Longer runs are queried; if none decides, the answer covers both sides.
     Ask(Longer<S>),
     /// The same, for an engine in another number system, which reports undecided times itself.
-    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Says(Longer<S>),
     /// Spelled times yield this error; computed times stand for the event or the ray.
-    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Refuse(Error),
 }
 

@@ -1,5 +1,4 @@
 //! The answer in `Value`s, for every number system.
-#![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
 use super::ladder::Target;
@@ -406,7 +405,7 @@ impl History {
     /// Returns one number, or the reason of its absence.
     pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
         typed!(self, history => {
-            let run = &self.problem().run;
+            let run = self.problem().run();
             let found = history.ask(
                 |motion| one.of(motion, &self.units, run),
                 |found| found.iter().map(|[_, plain]| plain).collect(),

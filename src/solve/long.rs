@@ -29,8 +29,8 @@ macro_rules! in_numbers {
     ($bits:expr, |$s:ident, $precision:ident| $stack:expr, $any:expr) => {
         match $bits {
             ..=128 => in_numbers!(@ Wide<2>, &(), $s, $precision, $stack),
-            129..=192 => in_numbers!(@ Wide<3>, &(), $s, $precision, $stack),
-            193..=384 => in_numbers!(@ Wide<6>, &(), $s, $precision, $stack),
+            129..=256 => in_numbers!(@ Wide<4>, &(), $s, $precision, $stack),
+            257..=384 => in_numbers!(@ Wide<6>, &(), $s, $precision, $stack),
             385.. => in_numbers!(@ Float, &$bits, $s, $precision, $any),
         }
     };
@@ -210,7 +210,7 @@ fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resu
     })
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
 #[allow(clippy::unwrap_used)]
 mod tests;

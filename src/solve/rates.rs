@@ -18,11 +18,7 @@ type OneSide = Result<Rational, NoDerivative>;
 /// Computes the derivatives in fractions that are `asked` for; fails for damping and for a gravity or length of zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
-    let quotients = || match long::quotients(asked, DOUBLE_DIGITS) {
-        Err(Error::NoMultiprecision) => Ok(None),
-        quotients => quotients.map(Some),
-    };
-    let quotients = if settled { None } else { quotients()? };
+    let quotients = if settled { None } else { Some(long::quotients(asked, DOUBLE_DIGITS)?) };
     Ok(of_each(&rates, |place, sides| {
         derivative(match &quotients {
             Some(quotients) => confirmed(sides.clone(), at(quotients, place)),
@@ -177,11 +173,11 @@ fn with_rates<S: Bounded>(
     let data = AtStart::with(problem, &given, &datum);
     let scaled = Scaled::with(problem, &given, data)?;
     let limits = asked.plan.lattice_limits(problem);
-    let history = Undamped::<Dual<S>>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
+    let history = Undamped::<Dual<S>>::solve_scaled(scaled, problem.run(), limits, &**asked.observe)?;
     let mut rows = asked.values(problem, &history)?;
     for row in &mut rows {
         for (number, quantity) in row.iter_mut().zip(asked.quantities) {
-            let power = unit_power(asked.by, *quantity, &problem.rod.material);
+            let power = unit_power(asked.by, *quantity, problem.material());
             if let Some(number) = number.as_mut().filter(|_| power != 0) {
                 *number = number.clone() * Dual::new(value.one(), sign.clone() * value.int(power) / value);
             }

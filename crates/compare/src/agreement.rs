@@ -148,7 +148,7 @@ impl Agreement {
             let is_later = |contact: &ContactRecord| contact.from > last - 2.0 * self.step;
             contacts.retain(|pair| pair.theirs.is_some() || !pair.ours.as_ref().is_some_and(is_later));
         }
-        let momentum = (reference.history.problem().rod.top == Top::Free).then(|| {
+        let momentum = (reference.history.problem().top() == Top::Free).then(|| {
             let rod = reference.rod();
             MomentumTerms { mass: reference.mass(), gravity: rod.gravity, damping: rod.damping }
         });

@@ -57,7 +57,7 @@ impl<'a> Reference<'a> {
     pub(super) fn new(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
-        let (modulus, density, area) = match &problem.rod.material {
+        let (modulus, density, area) = match problem.material() {
             Material::WaveSpeed(_) => (rod.wave_speed * rod.wave_speed, 1.0, 1.0),
             Material::Elastic { modulus, density, area } => {
                 (modulus.to_f64(), density.to_f64(), area.as_ref().map_or(1.0, Number::to_f64))

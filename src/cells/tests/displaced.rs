@@ -50,7 +50,7 @@ fn both(case: &Displaced) -> Result<Option<(History, History)>, Error> {
     let number = |x: f64| format!("{x:.5}").parse::<Number>().unwrap_or_else(|error| unreachable!("{error}"));
     let one = Number::from(1);
     let mut problem = Problem::uniform(one.clone(), one.clone(), one, number(case.speed));
-    (problem.rod.damping, problem.run) = (Some(number(case.damping)), Run::Impacts(case.impacts));
+    problem = problem.to_builder().damping(number(case.damping)).run(Run::Impacts(case.impacts)).build().unwrap();
     let contact = ContactHistory::<Estimate<f64>>::solve(&problem, &())?;
     let Some(release) = contact.events().get(1) else { return Ok(None) };
     let run = |size: f64| -> Result<History, Error> {

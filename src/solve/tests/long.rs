@@ -1,14 +1,11 @@
 use super::*;
 use crate::motion::{Pair, Side};
-use crate::problem::Run;
 use crate::solve::question::{Question, unobserved};
 
 /// A rod that bounces three times, damped or not.
 fn rod(damping: Option<&str>) -> Problem {
-    let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    problem.rod.damping = damping.and_then(|damping| damping.parse().ok());
-    problem.run = Run::Impacts(3);
-    problem
+    let problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+    problem.to_builder().damping(damping.unwrap_or("0")).impacts(3).build().unwrap()
 }
 
 fn meets(a: &Estimate<Float>, b: &Estimate<Float>) {
@@ -23,13 +20,13 @@ fn both_kinds_of_long_numbers_answer_alike() {
     for damping in [None, Some("1/10")] {
         let problem = rod(damping);
         let plan = Plan::of(&problem, &Question::run(Numbers::Digits(20))).unwrap();
-        let ours = Float::run(&problem, &plan, Rung::Bits(192), &unobserved()).unwrap();
-        let other = estimates::<Float>(&problem, &plan, (192, &192), &unobserved()).unwrap();
+        let ours = Float::run(&problem, &plan, Rung::Bits(256), &unobserved()).unwrap();
+        let other = estimates::<Float>(&problem, &plan, (256, &256), &unobserved()).unwrap();
         assert_eq!(ours.ending(), other.ending());
         assert_eq!(ours.events().len(), other.events().len());
         meets(&ours.end(), &other.end());
         for (a, b) in ours.events().iter().zip(other.events()) {
-            assert_eq!(a.t.value().prec(), 192);
+            assert_eq!(a.t.value().prec(), 256);
             a.numbers().into_iter().zip(b.numbers()).for_each(|(a, b)| meets(a, b));
             // Each is asked about its own time of the event.
             for side in [Side::Left, Side::Right] {
@@ -54,7 +51,7 @@ fn both_kinds_of_long_numbers_answer_alike() {
 #[test]
 fn plans_take_whole_sizes() {
     let problem = rod(Some("1/10"));
-    for (digits, bits) in [(1, 128), (15, 192), (30, 192), (50, 384), (80, 384)] {
+    for (digits, bits) in [(1, 128), (15, 256), (30, 256), (50, 256), (80, 384)] {
         let plan = Plan::of(&problem, &Question::run(Numbers::Digits(digits))).unwrap();
         assert_eq!(plan.rung, Rung::Bits(bits), "{digits}");
     }

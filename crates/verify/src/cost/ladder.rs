@@ -2,7 +2,7 @@
 
 use super::work_precision::OmissionReason;
 use crate::error::VerifyError;
-use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion};
+use crate::routes::{Route, RouteQuestion};
 use dalembert::Ending;
 use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
@@ -79,7 +79,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
         Engine::ClosedForm => Family::ClosedForm,
         Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
-    let damped = question.problem.rod.damping.is_some();
+    let damped = question.problem.damping().is_some();
     if damped {
         take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
@@ -112,9 +112,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
     take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
-    if HAS_LONG_NUMBERS {
-        take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
-    }
+    take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
     (ladders, left_out)
 }
 
@@ -131,14 +129,14 @@ fn in_doubles(
     settings.into_iter().enumerate().map(step).collect()
 }
 
-/// Returns settings in long numbers, with `spare` digits more; none in a build without such numbers.
+/// Returns settings in long numbers, with `spare` digits more.
 fn in_digits(
     family: Family,
     growths: [f64; 4],
     spare: u32,
     route: fn(Numbers) -> Route,
 ) -> impl Iterator<Item = Candidate> {
-    LONG.into_iter().zip(growths).filter(|_| HAS_LONG_NUMBERS).map(move |(digits, expected)| {
+    LONG.into_iter().zip(growths).map(move |(digits, expected)| {
         let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
         Candidate { family, route, setting, digits: digits + spare, expected, chosen: false }
     })
@@ -200,7 +198,7 @@ fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReas
     if !question.problem.has_closed_form() {
         return Err(OmissionReason::NoClosedForm);
     }
-    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+    if question.one.quantity == Quantity::LastEvent && *question.problem.run() != Run::Impacts(1) {
         return Err(OmissionReason::LaterEvent);
     }
     let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };
