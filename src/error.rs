@@ -119,12 +119,6 @@ pub enum Error {
         /// The most that is given.
         most: u32,
     },
-    /// Digits, proved or not, and answers that doubles do not settle need GMP and MPFR.
-    #[error(
-        "found a build without arbitrary precision, expected one with the feature `mp` for digits, and for answers that \
-         doubles do not settle"
-    )]
-    NoMultiprecision,
     /// Comparisons of enclosures stay open.
     #[error(
         "{digits} digits are not proved with {bits} bits: two events cannot be told apart, or a landing from a graze; \

@@ -52,7 +52,7 @@
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of
 //! Minnesota, August 2016: "the paper" throughout.
 //!
-//! The feature `mp` adds digits, proved or not, and faster fractions, with GMP and MPFR.
+//! The feature `mp` computes fractions and long numbers with GMP and MPFR: faster, above all in hundreds of digits.
 
 mod cells;
 pub mod engine;

@@ -212,11 +212,7 @@ pub enum Warning {
         from: f64,
     },
     /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
-    #[error(
-        "from t = {} on, an event and a ray that coincide within their error bounds are taken for one{}",
-        short(.from),
-        if cfg!(feature = "mp") { "" } else { ": a build with long numbers decides" }
-    )]
+    #[error("from t = {} on, an event and a ray that coincide within their error bounds are taken for one", short(.from))]
     Coincidence {
         /// The first time at which it holds.
         from: f64,

@@ -8,13 +8,9 @@ mod system;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use rug::float::{Round, Special};
-use rug::ops::{AddAssignRound, SubAssignRound};
-use rug::{Float, Rational};
-
-use super::Estimate;
-use super::float::{down, up};
+use super::float::{self, Float, Round, Special, down, rounded, up};
 use super::radical::Radical;
+use super::{Estimate, Rational};
 
 /// Precision of an [`Interval`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,7 +85,7 @@ impl Interval {
             return Interval { inside, ..Interval::everything(lo.prec()) };
         }
         if matches!(&inside, Inside::Known(number) if number.vanishes()) {
-            let zero = Float::with_val(lo.prec(), 0);
+            let zero = Float::new(lo.prec());
             return Interval { lo: zero.clone(), hi: zero, inside };
         }
         Interval { lo, hi, inside }
@@ -164,7 +160,7 @@ impl Interval {
     /// Returns the middle in this many bits, with a bound of its distance from the true number.
     pub(crate) fn estimate(&self, bits: u32) -> Estimate<Float> {
         let middle = Float::with_val(bits, self.mid());
-        let far = |end: &Float| Float::with_val_round(64, end - &middle, Round::AwayZero).0.abs();
+        let far = |end: &Float| rounded(64, end - &middle, Round::AwayZero).abs();
         let radius = far(&self.lo).max(&far(&self.hi)) << bits;
         let error = if radius.is_finite() { radius.to_f64_round(Round::Up) } else { f64::INFINITY };
         Estimate::new(middle, error)
@@ -199,7 +195,8 @@ impl Interval {
         if lo.is_nan() || hi.is_nan() {
             return Interval { lo: -one.clone(), hi: one, inside };
         }
-        Interval { lo: lo.clamp(&-1, &1), hi: hi.clamp(&-1, &1), inside }
+        let within = |end: Float| end.max(&-one.clone()).min(&one);
+        Interval { lo: within(lo), hi: within(hi), inside }
     }
 }
 
@@ -212,21 +209,20 @@ impl Neg for Interval {
 
 impl Add<&Interval> for Interval {
     type Output = Interval;
-    fn add(mut self, other: &Interval) -> Interval {
+    fn add(self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::add);
-        self.lo.add_assign_round(&other.lo, Round::Down);
-        self.hi.add_assign_round(&other.hi, Round::Up);
-        Interval::checked(self.lo, self.hi, inside)
+        let (lo, hi) = (float::sum(self.lo, &other.lo, Round::Down), float::sum(self.hi, &other.hi, Round::Up));
+        Interval::checked(lo, hi, inside)
     }
 }
 
 impl Sub<&Interval> for Interval {
     type Output = Interval;
-    fn sub(mut self, other: &Interval) -> Interval {
+    fn sub(self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::sub);
-        self.lo.sub_assign_round(&other.hi, Round::Down);
-        self.hi.sub_assign_round(&other.lo, Round::Up);
-        Interval::checked(self.lo, self.hi, inside)
+        let (lo, hi) =
+            (float::difference(self.lo, &other.hi, Round::Down), float::difference(self.hi, &other.lo, Round::Up));
+        Interval::checked(lo, hi, inside)
     }
 }
 
@@ -272,7 +268,7 @@ impl Div<&Interval> for Interval {
         if !(positive(c) || negative(d)) || [a, b, c, d].iter().any(|end| end.is_infinite()) {
             return Interval { inside, ..Interval::everything(bits) };
         }
-        let over = |x: &Float, y: &Float, round| Float::with_val_round(bits, x / y, round).0;
+        let over = |x: &Float, y: &Float, round| rounded(bits, x / y, round);
         let (lo, hi) = if positive(c) {
             let least = over(a, if negative(a) { c } else { d }, Round::Down);
             (least, over(b, if negative(b) { d } else { c }, Round::Up))

@@ -4,9 +4,9 @@
 //! |---|---|---|
 //! | `f64` | double precision | each operation correctly rounded |
 //! | [`Wide`] | two to six machine words | each operation correctly rounded; elementary functions within 0.51 ulp |
-//! | `rug::Float` (feature `mp`) | any number of bits | each operation correctly rounded |
+//! | [`Float`] (`rug::Float`, without the feature `mp` our own) | any number of bits | each operation correctly rounded |
 //! | [`Rational`] (`rug::Rational`, without the feature `mp` `dashu_ratio::RBig`) | fractions | exact; square roots only where they are rational |
-//! | [`Interval`] (feature `mp`) | enclosures | ends rounded outwards, with the exact number where it has a root form |
+//! | [`Interval`] | enclosures | ends rounded outwards, with the exact number where it has a root form |
 //! | [`Estimate`] | a rounded number and its error | the bound is carried through every operation |
 //!
 //! `Dual`, a number with a derivative, is for internal computations.
@@ -33,50 +33,55 @@ macro_rules! by_value {
     };
 }
 
-#[cfg(not(feature = "mp"))]
-mod absent;
 mod bounded;
 mod decimal;
 mod double;
 mod dual;
 mod estimate;
-#[cfg(feature = "mp")]
-mod float;
+#[cfg_attr(feature = "mp", path = "float_gmp.rs")]
+#[cfg_attr(not(feature = "mp"), path = "float_dashu.rs")]
+pub(crate) mod float;
+mod float_system;
 mod fraction;
-#[cfg(feature = "mp")]
 mod interval;
 mod list;
 mod literal;
-#[cfg(feature = "mp")]
 mod radical;
 #[cfg_attr(feature = "mp", path = "rational_gmp.rs")]
 #[cfg_attr(not(feature = "mp"), path = "rational_dashu.rs")]
-mod rational;
+pub(crate) mod rational;
 mod scalar;
 mod text;
 mod value;
 mod wide;
 
-#[cfg(not(feature = "mp"))]
-pub use absent::{Float, Interval};
 pub use bounded::{Answer, Bounded};
 pub use decimal::decimal;
 pub(crate) use double::shortest;
 pub(crate) use dual::Dual;
 pub use estimate::Estimate;
-#[cfg(feature = "mp")]
-pub(crate) use float::{down, up};
+pub use float::Float;
 pub(crate) use fraction::spelled_as;
-#[cfg(feature = "mp")]
 pub use interval::{Interval, IntervalPrecision};
 pub use list::{List, ListError};
 pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;
-#[cfg(feature = "mp")]
-pub use rug::Float;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, shown_bound};
 pub use value::{Bound, IntoValue, Value};
 pub use wide::Wide;
 pub(crate) use wide::guarded;
+
+/// The numbers of the build in pure Rust, held against those of MPFR.
+#[cfg(all(test, feature = "mp"))]
+#[allow(dead_code, clippy::panic, clippy::unwrap_used)]
+#[path = "tests"]
+mod pure {
+    #[path = "../float_dashu.rs"]
+    mod float;
+    #[path = "../rational_dashu.rs"]
+    mod rational;
+    #[path = "float.rs"]
+    mod tests;
+}

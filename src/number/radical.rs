@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 use std::sync::atomic::{self, AtomicU64};
 
-use rug::{Assign, Float, Integer, Rational};
-
-use super::float::{down, up};
+use super::Scalar;
+use super::float::{Float, down, up};
+use super::rational::{self, Integer, Rational};
 
 /// A positive square root, or a named number that equals only itself. Roots are ordered by depth first, so that a
 /// radicand contains only roots that precede its own.
@@ -60,8 +60,8 @@ impl Radical {
     }
 
     fn checked(mut terms: Vec<(Product, Rational)>) -> Option<Self> {
-        terms.retain(|(_, c)| !c.is_zero());
-        let long = |c: &Rational| c.numer().significant_bits() + c.denom().significant_bits() > MOST_BITS;
+        terms.retain(|(_, c)| rational::sign(c).is_ne());
+        let long = |c: &Rational| rational::size(c) > MOST_BITS;
         (terms.len() <= MOST_TERMS && !terms.iter().any(|(_, c)| long(c))).then_some(Radical { terms })
     }
 
@@ -77,18 +77,18 @@ impl Radical {
     /// Returns the number if it has no roots.
     fn as_rational(&self) -> Option<Rational> {
         match self.terms.as_slice() {
-            [] => Some(Rational::new()),
+            [] => Some(Rational::from(0)),
             [(product, c)] if product.is_empty() => Some(c.clone()),
             _ => None,
         }
     }
 
     pub(super) fn scaled(&self, by: &Rational) -> Option<Self> {
-        Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(c * by))).collect())
+        Radical::checked(self.terms.iter().map(|(p, c)| (p.clone(), c.clone() * by)).collect())
     }
 
     pub(super) fn neg(&self) -> Self {
-        Radical { terms: self.terms.iter().map(|(p, c)| (p.clone(), Rational::from(-c))).collect() }
+        Radical { terms: self.terms.iter().map(|(p, c)| (p.clone(), -c.clone())).collect() }
     }
 
     pub(super) fn add(&self, other: &Self) -> Option<Self> {
@@ -140,7 +140,7 @@ impl Radical {
                     }
                 }
                 product.extend(rest.cloned());
-                let mut term = Radical::checked(vec![(product, Rational::from(c * d))])?;
+                let mut term = Radical::checked(vec![(product, c.clone() * d)])?;
                 for radicand in radicands {
                     term = radicand.mul(&term)?;
                 }
@@ -174,7 +174,7 @@ impl Radical {
 
     fn inverse(&self) -> Option<Self> {
         if let Some(c) = self.as_rational() {
-            return if c.is_zero() { None } else { Radical::rational(c.recip()) };
+            return if rational::sign(&c).is_eq() { None } else { Radical::rational(Rational::from(1) / c) };
         }
         let (a, b, root) = self.split()?;
         let conjugate = a.sub(&b.mul(&Radical::root(root.clone()))?)?;
@@ -184,7 +184,7 @@ impl Radical {
     /// Returns the sign; `None` if [`MOST_SIGN_BITS`] bits do not decide it.
     pub(super) fn sign(&self) -> Option<Ordering> {
         if let Some(c) = self.as_rational() {
-            return Some(c.cmp0());
+            return Some(rational::sign(&c));
         }
         let mut bits = 64;
         while bits <= MOST_SIGN_BITS {
@@ -199,21 +199,22 @@ impl Radical {
 
     /// Encloses the number between two numbers of this precision; `None` if it contains a named number.
     fn enclosed(&self, bits: u32) -> Option<[Float; 2]> {
-        let [mut lo, mut hi] = [0, 0].map(|zero| Float::with_val(bits, zero));
+        let (mut lo, mut hi) = (Float::new(bits), Float::new(bits));
         for (product, c) in &self.terms {
             // The magnitude of the term is enclosed first; all its roots are positive.
-            let size = Rational::from(c.abs_ref());
+            let negative = rational::sign(c).is_lt();
+            let size = if negative { -c.clone() } else { c.clone() };
             let (mut least, mut most) = (down(bits, &size), up(bits, &size));
             for root in product {
                 let [below, above] = root.radicand.as_ref()?.enclosed(bits)?;
                 if below.cmp0() == Some(Ordering::Greater) {
                     least = down(bits, &least * &down(bits, below.sqrt_ref()));
                 } else {
-                    least.assign(0);
+                    least = Float::new(bits);
                 }
                 most = up(bits, &most * &up(bits, above.sqrt_ref()));
             }
-            if c.cmp0().is_lt() {
+            if negative {
                 (least, most) = (-most, -least);
             }
             (lo, hi) = (down(bits, &lo + &least), up(bits, &hi + &most));
@@ -225,9 +226,9 @@ impl Radical {
         self.sub(other)?.sign()
     }
 
-    /// Returns `⌊self⌋` of a fraction.
-    pub(super) fn floor(&self) -> Option<Integer> {
-        self.as_rational().map(|c| Integer::from(c.floor_ref()))
+    /// Returns `⌊self⌋` of a fraction; `None` if it does not fit.
+    pub(super) fn floor(&self) -> Option<i64> {
+        self.as_rational().and_then(|c| rational::floor(&c))
     }
 
     /// Returns `√self ≥ 0` of a number known to be nonnegative.
@@ -238,12 +239,18 @@ impl Radical {
             return Some(if sign == Ordering::Less { root.neg() } else { root });
         }
         // √x = s √(x/s²) with integer coefficients under the root that have no easily detected common square.
-        let below = self.terms.iter().fold(Integer::from(1), |lcm, (_, c)| lcm.lcm(c.denom()));
-        let whole = self.scaled(&Rational::from(Integer::from(below.square_ref())))?;
-        let content = whole.terms.iter().fold(Integer::new(), |gcd, (_, c)| gcd.gcd(c.numer()));
+        let square = |n: &Integer| n.clone() * n;
+        let below = self.terms.iter().fold(Integer::from(1), |lcm, (_, c)| {
+            let (_, denominator) = rational::parts(c);
+            let common = rational::gcd(lcm.clone(), &denominator);
+            lcm / common * denominator
+        });
+        let whole = self.scaled(&Rational::from(square(&below)))?;
+        let content =
+            whole.terms.iter().fold(Integer::from(0), |gcd, (_, c)| rational::gcd(rational::parts(c).0, &gcd));
         let factor = square_factor(&content);
-        let radicand = whole.scaled(&Rational::from(Integer::from(factor.square_ref())).recip())?;
-        let scale = Rational::from((factor, below));
+        let radicand = whole.scaled(&rational::quotient(Integer::from(1), square(&factor)))?;
+        let scale = rational::quotient(factor, below);
         let root = Root { depth: radicand.depth() + 1, radicand: Some(radicand), name: 0 };
         if root.depth > MOST_DEPTH { None } else { Radical::checked(vec![(vec![Arc::new(root)], scale)]) }
     }
@@ -253,16 +260,11 @@ impl Radical {
     /// `(u + vρ)² = A + Bρ` requires `u² = (A ± n)/2` with `n² = A² − B²ρ²`, and `v = B/2u`.
     fn root_within(&self) -> Option<Self> {
         if let Some(c) = self.as_rational() {
-            let square = c.cmp0().is_ge() && c.numer().is_perfect_square() && c.denom().is_perfect_square();
-            return if square {
-                Radical::rational(Rational::from((c.numer().clone().sqrt(), c.denom().clone().sqrt())))
-            } else {
-                None
-            };
+            return c.try_sqrt().and_then(Radical::rational);
         }
         let (a, b, root) = self.split()?;
         let n = Radical::norm(&a, &b, &root)?.root_within()?;
-        let half = Rational::from((1, 2));
+        let half = rational::half(Rational::from(1));
         [a.add(&n)?, a.sub(&n)?].into_iter().find_map(|twice| {
             let u = twice.scaled(&half)?.root_within()?;
             let v = b.scaled(&half)?.div(&u)?;
@@ -274,16 +276,20 @@ impl Radical {
 /// Returns a factor `s` with `s² | n`, for `n > 0`: squares of small primes, and the cofactor if it is a square.
 fn square_factor(n: &Integer) -> Integer {
     let (mut rest, mut factor) = (n.clone(), Integer::from(1));
+    let zero = Integer::from(0);
     for prime in 2..SMALL_FACTOR {
-        let square = prime * prime;
-        while !rest.is_zero() && rest.is_divisible_u(square) {
-            rest.div_exact_u_mut(square);
+        let square = Integer::from(prime * prime);
+        while rest != zero && rest.clone() % &square == zero {
+            rest /= &square;
             factor *= prime;
         }
     }
-    if rest.is_perfect_square() { factor * rest.sqrt() } else { factor }
+    match rational::exact_root(&rest) {
+        Some(root) => factor * root,
+        None => factor,
+    }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/radical.rs"]
 mod tests;

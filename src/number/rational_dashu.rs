@@ -2,8 +2,8 @@
 
 use std::cmp::Ordering;
 
-pub(super) use dashu_int::IBig as Integer;
-use dashu_int::ops::SquareRootRem;
+pub(crate) use dashu_int::IBig as Integer;
+use dashu_int::ops::{BitTest, Gcd, SquareRootRem};
 use dashu_int::{Sign, UBig};
 pub use dashu_ratio::RBig as Rational;
 
@@ -33,6 +33,22 @@ pub(super) fn sign(x: &Rational) -> Ordering {
 
 pub(super) fn half(x: Rational) -> Rational {
     x / Rational::from(2)
+}
+
+pub(super) fn size(x: &Rational) -> u32 {
+    (x.numerator().bit_len() + x.denominator().bit_len()) as u32
+}
+
+pub(crate) fn bits(n: &Integer) -> u32 {
+    n.bit_len() as u32
+}
+
+pub(crate) fn trailing_zeros(n: &Integer) -> u32 {
+    n.trailing_zeros().unwrap_or(0) as u32
+}
+
+pub(super) fn gcd(a: Integer, b: &Integer) -> Integer {
+    a.gcd(b).into()
 }
 
 pub(super) fn exact_root(n: &Integer) -> Option<Integer> {

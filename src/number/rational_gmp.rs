@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use rug::Float;
-pub(super) use rug::Integer;
+pub(crate) use rug::Integer;
 pub use rug::Rational;
 use rug::float::Round;
 use rug::integer::Order;
@@ -35,6 +35,26 @@ pub(super) fn sign(x: &Rational) -> Ordering {
 /// Returns `x/2`.
 pub(super) fn half(x: Rational) -> Rational {
     x >> 1u32
+}
+
+/// Returns the number of bits of numerator and denominator together.
+pub(super) fn size(x: &Rational) -> u32 {
+    x.numer().significant_bits() + x.denom().significant_bits()
+}
+
+/// Returns the number of bits of the magnitude.
+pub(crate) fn bits(n: &Integer) -> u32 {
+    n.significant_bits()
+}
+
+/// Returns the number of zeros at the end; zero for zero.
+pub(crate) fn trailing_zeros(n: &Integer) -> u32 {
+    n.find_one(0).unwrap_or(0)
+}
+
+/// Returns the greatest common divisor.
+pub(super) fn gcd(a: Integer, b: &Integer) -> Integer {
+    a.gcd(b)
 }
 
 /// Returns `√n` of a perfect square; `None` for any other integer.

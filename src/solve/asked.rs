@@ -108,10 +108,8 @@ pub(super) enum Open<S: Answer> {
     /// Longer runs are queried; if none decides, the answer covers both sides.
     Ask(Longer<S>),
     /// The same, for an engine in another number system, which reports undecided times itself.
-    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Says(Longer<S>),
     /// Spelled times yield this error; computed times stand for the event or the ray.
-    #[cfg_attr(not(feature = "mp"), expect(dead_code, reason = "longer numbers are not built in"))]
     Refuse(Error),
 }
 

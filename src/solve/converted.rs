@@ -12,9 +12,7 @@ use crate::lattice::Undamped;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
-#[cfg(feature = "mp")]
-use crate::problem::Parameters;
-use crate::problem::Problem;
+use crate::problem::{Parameters, Problem};
 
 /// The history of an engine in numbers `N`, converted to numbers `M`.
 pub(super) struct Converted<N: Scalar, M> {
@@ -53,7 +51,6 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 
     /// Replaces the scales of the rod by those of `rod` in numbers `M`.
-    #[cfg(feature = "mp")]
     pub(super) fn of_rod(self, rod: &Parameters<M>) -> Self {
         let Parameters { length, wave_speed, gravity, .. } = rod.clone();
         let scales = Scales { time: rod.round_trip(), length, wave_speed, gravity, ..self.scales };

@@ -1,5 +1,4 @@
 //! The answer in `Value`s, for every number system.
-#![cfg_attr(not(feature = "mp"), allow(unreachable_code, unused_variables, reason = "no values of two systems"))]
 
 use super::derivative::{Derivative, Derivatives};
 use super::ladder::Target;

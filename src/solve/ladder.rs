@@ -46,24 +46,17 @@ impl Plan {
 /// An engine that has run.
 pub(crate) type Engined<S> = Arc<dyn Motion<<S as Answer>::Carried>>;
 
-/// A number system of answers, with the conversion of a run in the numbers of a rung. A system that is not built in
-/// returns [`Error::NoMultiprecision`] from both methods.
+/// A number system of answers, with the conversion of a run in the numbers of a rung.
 pub trait Target: Answer<Carried: IntoValue> {
     /// Runs the planned engine in the numbers of `rung`.
     ///
     /// **Errors**: the errors of the engine; [`Error::NotDecided`] if these numbers do not decide a comparison.
-    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error> {
-        let _ = (problem, plan, rung, observe);
-        Err(Error::NoMultiprecision)
-    }
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Self>, Error>;
 
     /// Computes the requested derivatives of a history with the engine `run`, by the method of this number system.
     ///
     /// **Errors**: the errors of runs with other values; [`Error::Derivative`].
-    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error> {
-        let _ = (asked, run);
-        Err(Error::NoMultiprecision)
-    }
+    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error>;
 }
 
 /// A problem and its plan, for a sequence of attempts.
@@ -227,8 +220,7 @@ impl Ladder<'_> {
         let digits = self.plan.goal.digits as u32;
         match rung {
             Rung::Confirmed(bits) | Rung::Enclosures(bits) => Error::Undecided { digits, bits },
-            Rung::Bits(bits) => Error::Unsettled { digits, bits },
-            Rung::Double | Rung::Fractions => Error::NoMultiprecision,
+            rung => Error::Unsettled { digits, bits: rung.bits() },
         }
     }
 

@@ -3,16 +3,13 @@
 mod asked;
 mod converted;
 mod derivative;
-#[cfg(feature = "mp")]
 mod differences;
 mod engines;
 mod foresee;
 mod history;
-#[cfg(feature = "mp")]
 mod in_floats;
 mod interpolated;
 mod ladder;
-#[cfg_attr(not(feature = "mp"), path = "long_absent.rs")]
 mod long;
 mod places;
 mod plan;

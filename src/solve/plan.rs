@@ -73,8 +73,8 @@ pub struct Goal {
 /// Number systems that follow if those of an attempt do not settle an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Climb {
-    /// Bits of the first attempt after doubles or fractions; `None` if longer numbers are not built in.
-    pub bits: Option<u32>,
+    /// Bits of the first attempt after doubles or fractions.
+    pub bits: u32,
     /// Maximum bits of numbers with an error bound.
     pub most_bits: u32,
     /// Maximum bits that are tried to distinguish two events that may coincide.
@@ -222,8 +222,7 @@ fn size(bits: u32) -> u32 {
 impl Plan {
     /// Chooses the plan for `question` of `problem`.
     ///
-    /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for no digits or absurdly many;
-    /// [`Error::NoMultiprecision`] for digits in a build without the feature `mp`.
+    /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for no digits or absurdly many.
     pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
         let numbers = question.numbers;
         check(problem, numbers)?;
@@ -261,7 +260,7 @@ impl Plan {
         reach: Reach,
         (keep_from, settles_events): (Option<f64>, bool),
     ) -> Self {
-        let (long, doubles) = (cfg!(feature = "mp"), matches!(numbers, Numbers::Double(_)));
+        let doubles = matches!(numbers, Numbers::Double(_));
         let then_cells = engine == Engine::ClosedFormThenCells;
         let marched = then_cells || engine == Engine::Cells;
         let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
@@ -300,7 +299,7 @@ impl Plan {
         let goal = Goal::of(numbers);
         let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
         let climb = Climb {
-            bits: long.then_some(size(wanted + GUARD_BITS)),
+            bits: size(wanted + GUARD_BITS),
             most_bits: MOST_BITS,
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
@@ -314,7 +313,7 @@ impl Plan {
             climb,
             goal,
             cells: marched.then_some(cells),
-            rate_bits: (then_cells && doubles && long).then_some(FEWEST_BITS),
+            rate_bits: (then_cells && doubles).then_some(FEWEST_BITS),
             engine,
             numbers,
             reach,
@@ -339,10 +338,7 @@ impl Plan {
 
     /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
-        let Climb { bits, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
-        let Some(after) = bits else {
-            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
-        };
+        let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end early if they do not apply; more bits distinguish a near miss from a meeting.
             return match rung {
@@ -378,7 +374,7 @@ impl Plan {
     /// Returns the rungs to query, in order, if those of `rung` cannot distinguish a time from an event or a ray.
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
-        let longer = self.climb.bits.into_iter().flat_map(|bits| [bits, 2 * bits, 4 * bits]);
+        let longer = [1, 2, 4].map(|times| times * self.climb.bits).into_iter();
         let longer = longer.filter(|bits| *bits > rung.bits()).map(Rung::Bits);
         exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
     }
@@ -403,7 +399,7 @@ impl Plan {
             Numbers::Double(accuracy) => {
                 let exactly = match self.engine {
                     Engine::Lattice => "; exact ones where an event and a ray coincide within their bounds",
-                    _ if self.cells.is_some() && self.climb.bits.is_some() => {
+                    _ if self.cells.is_some() => {
                         "; those and a proof where bounds leave open what happens at the ground"
                     }
                     _ => "",
@@ -454,9 +450,7 @@ impl Plan {
         if let Some(contacts) = exact_contacts.filter(|_| matches!(self.numbers, Numbers::Double(_))) {
             limits.push(format!("exact numbers decide meetings of events through {contacts} contacts"));
         }
-        limits.push(bits.map_or("no longer numbers are built in".into(), |bits| {
-            format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}")
-        }));
+        limits.push(format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}"));
         if let Some(CellLimits { double_digits, double_cells, long_cells, most_digits, marched_trips }) = self.cells {
             let long = long_cells.map_or(String::new(), |cells| format!(", {cells} in {FEWEST_BITS} bits"));
             let [surely, most] = marched_trips;
@@ -488,13 +482,13 @@ impl Plan {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
                 let fewer = |cells: u64| (cells as f64 * (f64::from(FEWEST_BITS) / f64::from(bits)).powi(2)) as u64;
                 let all = f64::from(bits) * std::f64::consts::LOG10_2 - 19.0;
-                let needed = self.series_bits.filter(|_| Some(bits) == self.climb.bits);
+                let needed = self.series_bits.filter(|_| bits == self.climb.bits);
                 let digits = needed.map_or(all, |needed| all.min(series_digits(needed)));
                 (digits, long_cells.map_or(u64::MAX, fewer))
             }
             _ => (double_digits, double_cells),
         };
-        Effort { digits, cells, until_lost: self.climb.bits.is_some() }
+        Effort { digits, cells, until_lost: true }
     }
 
     /// Returns the plan after a run in doubles that lacks this many bits.
@@ -508,14 +502,13 @@ impl Plan {
 
     /// Returns the digits of the series of a proof in this many bits. The first longer numbers use the digits that the
     /// answer needs plus the estimated cost of the proof; later ones use all.
-    #[cfg(feature = "mp")]
     pub(super) fn proved_digits(&self, bits: u32) -> f64 {
         let all = f64::from(bits) * std::f64::consts::LOG10_2;
-        let first = if self.rung == Rung::Double { self.climb.bits } else { Some(self.rung.bits()) };
+        let first = if self.rung == Rung::Double { self.climb.bits } else { self.rung.bits() };
         let wanted = self.goal.digits * std::f64::consts::LOG2_10;
         let spare = if matches!(self.numbers, Numbers::Digits(_)) { self.goal.spare } else { 0.0 };
         let needed = wanted + spare * std::f64::consts::LOG2_10 + f64::from(self.proof_bits + PROOF_GUARD_BITS);
-        if Some(bits) == first { all.min(series_digits(needed)) } else { all }
+        if bits == first { all.min(series_digits(needed)) } else { all }
     }
 
     /// Returns the task of a damped march in the numbers of `rung`.
@@ -601,7 +594,7 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
     if let Some(found) = digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
         return Err(Error::Digits { found, most: MAX_DIGITS });
     }
-    if cfg!(feature = "mp") || digits.is_none() { Ok(()) } else { Err(Error::NoMultiprecision) }
+    Ok(())
 }
 
 impl Rung {

@@ -30,7 +30,7 @@ pub(super) fn estimates<S: RoundedSpecial>(
         Engine::Lattice => {
             let limits = plan.lattice_limits(problem);
             let history = Undamped::<Estimate<S>>::solve_within(problem, precision, limits, task.observe)?;
-            if plan.climb.bits.is_some() && history.undetermined_from().is_some() {
+            if history.undetermined_from().is_some() {
                 return Err(undecided("in which order the events come"));
             }
             Arc::new(history)

@@ -18,11 +18,7 @@ type OneSide = Result<Rational, NoDerivative>;
 /// Computes the derivatives in fractions that are `asked` for; fails for damping and for a gravity or length of zero.
 pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
-    let quotients = || match long::quotients(asked, DOUBLE_DIGITS) {
-        Err(Error::NoMultiprecision) => Ok(None),
-        quotients => quotients.map(Some),
-    };
-    let quotients = if settled { None } else { quotients()? };
+    let quotients = if settled { None } else { Some(long::quotients(asked, DOUBLE_DIGITS)?) };
     Ok(of_each(&rates, |place, sides| {
         derivative(match &quotients {
             Some(quotients) => confirmed(sides.clone(), at(quotients, place)),

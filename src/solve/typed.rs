@@ -178,13 +178,11 @@ impl<S: Target> TypedHistory<S> {
     /// **Accuracy**: *correctly rounded* to the requested digits; the shortest text of a double; a fraction in full.
     ///
     /// ```
-    /// # #[cfg(feature = "mp")] {
     /// let rod = dalembert::Problem::builder().length(12).wave_speed(30).gravity(10).impact_speed(40).build()?;
     /// let history = rod.digits(50)?;
     /// // t_b = t₁ = 2L/c = 4/5, and the peak is −(μ + g t₁)/c = −8/5.
     /// assert_eq!(history.text(history.contacts()[0].release.as_ref().unwrap()), format!("0.8{}", "0".repeat(49)));
     /// assert_eq!(rod.certified(5)?.text(&rod.certified(5)?.contacts()[0].peak_strain), "-1.6000");
-    /// # }
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn text(&self, number: &S) -> String {
@@ -543,14 +541,14 @@ impl Problem {
     /// Solves the problem in decimal digits. **Accuracy**: this many digits of each number, rounded once, as
     /// [`TypedHistory::text`] prints them; the `Float` itself carries more, without a guarantee.
     ///
-    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::Digits`]; [`Error::Unsettled`].
     pub fn digits(&self, digits: u32) -> Result<TypedHistory<crate::number::Float>, Error> {
         self.answer(&Question::run(Numbers::Digits(digits)))
     }
 
     /// Solves the problem in proved decimal digits. **Accuracy**: *enclosure*.
     ///
-    /// **Errors**: [`Error::Undecided`]; [`Error::NoMultiprecision`] without the feature `mp`.
+    /// **Errors**: [`Error::Undecided`].
     pub fn certified(&self, digits: u32) -> Result<TypedHistory<crate::number::Interval>, Error> {
         self.answer(&Question::run(Numbers::Certified(digits)))
     }

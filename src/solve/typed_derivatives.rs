@@ -28,11 +28,9 @@ impl<S: Target> TypedHistory<S> {
     /// the step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] if the problem has no such value, in fractions for damping, and for
-    /// enclosures; [`Error::Digits`] for more than 60; [`Error::NoMultiprecision`] without the feature `mp`, except for
-    /// fractions; the errors of the runs.
+    /// enclosures; [`Error::Digits`] for more than 60; the errors of the runs.
     ///
     /// ```
-    /// # #[cfg(feature = "mp")] {
     /// use dalembert::{Derivative, Parameter, Problem, Quantity};
     /// // Doyen, Ern and Piperno's rod lands for the second time as a wave arrives: a faster one lands after it, and
     /// // g ∂t₂/∂μ is 6 for slower rods and 6/5 for faster ones.
@@ -40,7 +38,6 @@ impl<S: Target> TypedHistory<S> {
     /// let times = rod.exact()?.derivatives(Parameter::ImpactSpeed, &[Quantity::EventTime])?;
     /// let Some(Derivative::Sides { left: Ok(slower), right: Ok(faster) }) = &times[2][0] else { unreachable!() };
     /// assert_eq!((slower.to_string(), faster.to_string()), ("3/5".into(), "3/25".into()));
-    /// # }
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {

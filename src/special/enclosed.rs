@@ -1,13 +1,11 @@
 //! Special functions of enclosures: the function of the middle, with its proved bound as the width.
 
-use rug::Float;
-use rug::float::Round;
-
 use super::bessel::Special;
 use super::estimated::BoundedSpecial;
 use super::gauss::{gauss_legendre, step};
 use super::ray::{Ray, RaySums};
-use crate::number::{Estimate, Interval, Scalar, down, up};
+use crate::number::float::{Round, down, rounded, up};
+use crate::number::{Estimate, Float, Interval, Scalar};
 
 /// Returns the middle with the radius as its bound.
 fn estimate(x: &Interval) -> Estimate<Float> {
@@ -45,7 +43,8 @@ impl BoundedSpecial for Interval {
 
     fn near(&self) -> (f64, f64) {
         let value = self.mid().to_f64();
-        let far = |end: &Float| Float::with_val_round(64, end - value, Round::AwayZero).0.abs().to_f64_round(Round::Up);
+        let middle = Float::with_val(64, value);
+        let far = |end: &Float| rounded(64, end - &middle, Round::AwayZero).abs().to_f64_round(Round::Up);
         (value, far(self.lo()).max(far(self.hi())))
     }
 
@@ -80,9 +79,9 @@ fn enclosed_rule(bits: u32, n: usize) -> Vec<(Interval, Interval)> {
         for digits in ladder.iter().rev() {
             let q = digits + grown(n) + 2 * size;
             let (value, before) = step(&x, n, q);
-            let square = Float::with_val(q, 1 - Float::with_val(q, x.square_ref()));
+            let square = Float::with_val(q, 1) - Float::with_val(q, x.square_ref());
             let slope = (before - Float::with_val(q, &value * &x)) * n as u32 / square;
-            x = Float::with_val(q, &x - value / slope);
+            x = Float::with_val(q, &x - &(value / slope));
             x.set_prec(*digits);
         }
         if n % 2 == 1 && x.to_f64().abs() < 1e-9 {
@@ -123,6 +122,6 @@ fn prove(x: &Float, n: usize, bits: u32) -> (Interval, Interval) {
     (rounded(node), rounded(weight))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/enclosed.rs"]
 mod tests;

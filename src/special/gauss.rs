@@ -1,7 +1,7 @@
 //! Gauss–Legendre nodes and weights in any precision.
 
 use super::bits;
-use crate::number::Analytic;
+use crate::number::{Analytic, Float};
 
 /// Computes the `n` nodes of Gauss–Legendre quadrature on `[−1,1]`, ascending, each with its weight.
 ///
@@ -59,9 +59,7 @@ fn legendre<S: Analytic>(x: &S, n: usize) -> (S, S) {
 }
 
 /// Computes `P_n(x)` and `P_{n−1}(x)` in q bits, n ≥ 1, with one long product per step.
-#[cfg(feature = "mp")]
-pub(super) fn step(x: &rug::Float, n: usize, q: u32) -> (rug::Float, rug::Float) {
-    use rug::Float;
+pub(super) fn step(x: &Float, n: usize, q: u32) -> (Float, Float) {
     let (mut before, mut value) = (Float::with_val(q, 1), Float::with_val(q, x));
     for k in 2..=n as u32 {
         before *= k - 1;

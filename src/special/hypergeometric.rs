@@ -1,10 +1,9 @@
 //! Bessel functions of long numbers with few long multiplications; the rest is arithmetic with machine words.
 
-use rug::float::Round;
-use rug::ops::Pow;
-use rug::{Float, Integer};
-
 use super::bessel::expansion;
+use crate::number::Float;
+use crate::number::float::{Pow, Special, down};
+use crate::number::rational::{self, Integer};
 
 /// Bits of precision beyond the requested ones.
 const GUARD_BITS: u32 = 16;
@@ -27,7 +26,7 @@ impl Spare {
 
 /// Rounds to p bits and returns the roundings; infinitely many if there is no value.
 pub(super) fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
-    value.map_or_else(|| (Float::with_val(p, rug::float::Special::Nan), f64::INFINITY), |value| value.rounded(p))
+    value.map_or_else(|| (Float::with_val(p, Special::Nan), f64::INFINITY), |value| value.rounded(p))
 }
 
 /// Computes `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, where p
@@ -45,9 +44,9 @@ pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
         let long = expansion(&Float::with_val(p + 64, z), i64::from(n));
         return finish(Some(Spare { long, small: 0.25 }), p);
     }
-    let half = Float::with_val(p, z >> 1u32);
+    let half = z.clone() >> 1u32;
     let y = Float::with_val(2 * p, half.square_ref());
-    finish(with_power(&half, &y, n, &Float::with_val(p, -z)), p)
+    finish(with_power(&half, &y, n, &-z.clone()), p)
 }
 
 /// Computes `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` with 16 bits more than base, and its roundings there: one each for
@@ -81,7 +80,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
         let lag = |bits: u32| {
             let root = Float::with_val(bits, product.sqrt_ref());
             let apart = Float::with_val(bits, eta - xi);
-            let both = Float::with_val(bits, eta + xi) + Float::with_val(bits, &root * 2u32);
+            let both = Float::with_val(bits, eta + xi) + (root.clone() << 1u32);
             let square = Float::with_val(bits, apart.square_ref());
             let lag = Float::with_val(bits, half * &square) / both;
             (root, lag)
@@ -89,7 +88,7 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
         let (_, size) = lag(64);
         let bits = p + 64 + size.get_exp().unwrap_or(0).clamp(0, 64) as u32;
         let (root, lag) = lag(bits);
-        let z = Float::with_val(bits, half * 2u32) * root;
+        let z = Float::with_val(bits, half) * 2u32 * root;
         let value = expansion(&z, 0) * (-lag).exp();
         return Some(Spare { long: value, small: 1.0 });
     }
@@ -115,11 +114,11 @@ impl Factor {
     /// Rounds y down to a multiple of `2^{−scale}`; `None` for infinity and NaN.
     fn of(y: &Float, scale: u32) -> Option<Self> {
         let (mut mantissa, exponent) = y.to_integer_exp()?;
-        let zeros = mantissa.find_one(0).unwrap_or(0);
-        mantissa >>= zeros;
+        let zeros = rational::trailing_zeros(&mantissa);
+        mantissa >>= zeros as usize;
         let exponent = i64::from(exponent) + i64::from(zeros);
         if exponent >= 0 {
-            return Some(Factor { mantissa: mantissa << u32::try_from(exponent).ok()?, shift: 0 });
+            return Some(Factor { mantissa: mantissa << usize::try_from(exponent).ok()?, shift: 0 });
         }
         let mut factor = Factor { mantissa, shift: u32::try_from(-exponent).ok()? };
         factor.cut(scale);
@@ -128,14 +127,14 @@ impl Factor {
 
     fn cut(&mut self, scale: u32) {
         if self.shift > scale {
-            self.mantissa >>= self.shift - scale;
+            self.mantissa >>= (self.shift - scale) as usize;
             self.shift = scale;
         }
     }
 
     /// Returns the product, rounded down.
     fn times(&self, other: &Factor, scale: u32) -> Self {
-        let mantissa = Integer::from(&self.mantissa * &other.mantissa);
+        let mantissa = self.mantissa.clone() * &other.mantissa;
         let mut result = Factor { mantissa, shift: self.shift + other.shift };
         result.cut(scale);
         result
@@ -155,13 +154,13 @@ impl Factor {
 
     /// Replaces t by `⌊t y⌋` within two units; only the bits of the mantissa that matter enter.
     fn apply(&self, t: &mut Integer) {
-        let skip = self.shift.saturating_sub(t.significant_bits());
+        let skip = self.shift.saturating_sub(rational::bits(t));
         if skip < 64 {
             *t *= &self.mantissa;
-            *t >>= self.shift;
+            *t >>= self.shift as usize;
         } else {
-            *t *= Integer::from(&self.mantissa >> skip);
-            *t >>= self.shift - skip;
+            *t *= self.mantissa.clone() >> skip as usize;
+            *t >>= (self.shift - skip) as usize;
         }
     }
 }
@@ -194,15 +193,15 @@ fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
     let expected = expected_terms(y, n, bits);
     let short = y
         .to_integer_exp()
-        .is_some_and(|(mantissa, _)| mantissa.significant_bits() - mantissa.find_one(0).unwrap_or(0) <= 24);
+        .is_some_and(|(mantissa, _)| rational::bits(&mantissa) - rational::trailing_zeros(&mantissa) <= 24);
     let block = if short { 8 } else { ((0.45 * expected).sqrt() as u32).clamp(1, 64) };
     let lost = 67.0 + expected.log2() + f64::from(block - 1) * size;
     let scale = bits + lost.ceil() as u32 + 1;
     let first = Factor::of(y, scale)?;
     let step = first.power(block, scale);
 
-    let mut term = Integer::from(1) << scale;
-    let mut sums = vec![Integer::new(); block as usize];
+    let mut term = Integer::from(1) << scale as usize;
+    let mut sums = vec![Integer::from(0); block as usize];
     sums[0].clone_from(&term);
     let (mut m, mut at) = (0u64, 1usize);
     loop {
@@ -228,15 +227,15 @@ fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
         step.apply(&mut term);
         at = 0;
     }
-    let mut value = Integer::new();
+    let mut value = Integer::from(0);
     for sum in sums.iter().rev() {
         value *= &first.mantissa;
-        value >>= first.shift;
+        value >>= first.shift as usize;
         value += sum;
     }
     // The error before the value is rounded to the bits that are returned.
     let error = 67.0 + (m as f64 + 1.0).log2() + f64::from(block - 1) * size - f64::from(scale);
-    let (value, _) = Float::with_val_round(bits + 8, &value, Round::Down);
+    let value = down(bits + 8, &value);
     Some((value >> scale, (error + f64::from(bits)).exp2() + 2f64.powi(-7)))
 }
 

@@ -1,10 +1,10 @@
 //! Special functions of long numbers; the sums of a ray by the backward three-term recurrence without divisions.
 
-use rug::Float;
-
 use super::bessel::{RoundedSpecial, by_ratios};
 use super::hypergeometric::{Spare, damped_start, finish, in_scaled_bounded};
 use super::ray::{Ray, RaySums, RoundedSums, bits};
+use crate::number::Float;
+use crate::number::float::Pow;
 
 /// Upper bound on the roundings of [`backward`].
 const SUM_ROUNDINGS: f64 = 2.0;
@@ -107,7 +107,7 @@ fn backward<const K: usize>(
         let factor = Float::with_val(full, &start.long / &zeroth);
         let mut k = 0;
         let sums = sums.map(|sum| {
-            let power = Float::with_val(full, rug::ops::Pow::pow(half, first[k] as u32));
+            let power = Float::with_val(full, half.pow(first[k] as u32));
             k += 1;
             Float::with_val(p, sum * &factor / power)
         });
@@ -143,7 +143,7 @@ fn descend<const K: usize>(
             let weights = weight(n);
             for k in 0..K {
                 if n >= first[k] && weights[k] != 0 {
-                    sums[k] += Float::with_val(precision, &value * weights[k]);
+                    sums[k] += Float::with_val(precision, &value) * weights[k];
                 }
             }
         }
@@ -167,6 +167,6 @@ fn descend<const K: usize>(
     (sums, value, reached)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
 mod tests;

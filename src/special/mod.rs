@@ -2,13 +2,10 @@
 //! sums over `ψ_n` along a ray, `φ` functions, Gauss–Legendre.
 
 mod bessel;
-#[cfg(feature = "mp")]
 mod enclosed;
 mod estimated;
 mod gauss;
-#[cfg(feature = "mp")]
 mod hypergeometric;
-#[cfg(feature = "mp")]
 mod long;
 mod phi;
 mod ray;

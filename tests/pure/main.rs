@@ -1,4 +1,4 @@
-//! The tests of `tests/suite` that need no long numbers, for the library in pure Rust.
+//! The tests of `tests/suite` that need no MPFR, and digits and proofs, for the library in pure Rust.
 //!
 //! `cargo test --package dalembert --test pure` builds neither GMP nor MPFR.
 #![allow(dead_code, reason = "a part of what the files share is used")]
@@ -14,6 +14,7 @@ mod damped_reference;
 mod first_contact_paper;
 #[path = "../suite/first_contact_undamped.rs"]
 mod first_contact_undamped;
+mod long_numbers;
 #[path = "../suite/paper_claims.rs"]
 mod paper_claims;
 #[path = "../suite/rates.rs"]
@@ -26,4 +27,3 @@ mod snapshots_stress;
 mod stripped;
 #[path = "../suite/values.rs"]
 mod values;
-mod without_long_numbers;

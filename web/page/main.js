@@ -92,7 +92,7 @@ async function solved({ text, ...rest }) {
 
 /** Shows the reason for which there is no answer. */
 function refused(error) {
-  const [, beyond] = error.message.match(/^beyond doubles: ([^]*)/) ?? [];
+  const [, beyond] = error.message.match(/^not settled: ([^]*)/) ?? [];
   const failed = "The engine has failed at this scene; please report it, and load the page again";
   say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
 }
@@ -103,9 +103,9 @@ const withSubscripts = (text) => text.split(/_([A-Za-z])/).map((part, k) => {
   return Object.assign(document.createElement("sub"), { textContent: part });
 });
 
-/** Shows a mistake, or the doubts: sentences about results that doubles do not settle. */
+/** Shows a mistake, or the doubts: sentences about results that are not settled. */
 function say(mistake, doubts) {
-  const text = mistake || doubts.map((doubt) => `Not settled by doubles: ${doubt}.`).join(" ");
+  const text = mistake || doubts.map((doubt) => `Not settled: ${doubt}.`).join(" ");
   $("doubt").textContent = text;
   $("doubt").hidden = text === "";
   $("beyond").hidden = doubts.length === 0;

@@ -34,15 +34,14 @@ fn refuse(error: impl std::fmt::Display) -> JsError {
     JsError::new(&error.to_string())
 }
 
-/// Builds the error of a question that longer numbers or more time can settle. The page recognizes its first words.
+/// Builds the error of a question that more time or another run can settle. The page recognizes its first words.
 fn beyond(error: impl std::fmt::Display) -> JsError {
-    JsError::new(&format!("beyond doubles: {error}"))
+    JsError::new(&format!("not settled: {error}"))
 }
 
 /// Builds the error of a question that a history does not answer.
 fn failed(error: Error) -> JsError {
     match error {
-        Error::NoMultiprecision => beyond("some of its numbers need more digits than doubles have"),
         Error::NotDecided { .. } | Error::Open(_) => beyond(error),
         error => refuse(error),
     }
@@ -67,7 +66,7 @@ pub struct Run {
 
 #[wasm_bindgen]
 impl Run {
-    /// Solves the scene of `toml` in doubles, within a limit of milliseconds.
+    /// Solves the scene of `toml`, in longer numbers where doubles do not settle it, within a limit of milliseconds.
     #[wasm_bindgen(constructor)]
     pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
         // Line and column are left out: the page does not show the text.
@@ -117,7 +116,7 @@ impl Run {
         format!("ends at t = {end}: {why}; error at most {bound} of the natural scales{meeting}")
     }
 
-    /// Returns a sentence for each thing that doubles do not settle.
+    /// Returns a sentence for each thing that is not settled.
     pub fn doubts(&self) -> Vec<String> {
         let bound = self.history.error_estimate();
         let wide = (bound > ACCURACY || bound.is_nan())

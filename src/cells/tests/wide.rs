@@ -58,17 +58,15 @@ fn more_limbs_say_the_same() {
     agree(&wide::<2>(15.0), &wide::<4>(25.0), 8.0);
 }
 
-#[cfg(feature = "mp")]
 #[test]
 fn events_are_those_of_twice_the_bits() {
-    let float = |bits: u32, digits: f64| march::<rug::Float>(&bits, digits, |x| x.to_rational().unwrap());
+    let float = |bits: u32, digits: f64| march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap());
     agree(&wide::<2>(20.0), &float(256, 30.0), 12.0);
     agree(&wide::<3>(30.0), &float(384, 40.0), 22.0);
     agree(&wide::<4>(45.0), &float(512, 55.0), 37.0);
 }
 
-/// Prints times of a march beside those of MPFR: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
-#[cfg(feature = "mp")]
+/// Prints times of a march beside those of long floats: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
 #[test]
 #[ignore = "prints times: cargo test --release --features mp --lib cells::wide -- --ignored --nocapture"]
 fn timings() {
@@ -88,7 +86,9 @@ fn timings() {
         timed("3 limbs", || march::<Wide<3>>(&(), digits, |x| x.to_rational().unwrap()));
         timed("4 limbs", || march::<Wide<4>>(&(), digits, |x| x.to_rational().unwrap()));
         for bits in [128, 192, 256] {
-            timed(&format!("MPFR {bits}"), || march::<rug::Float>(&bits, digits, |x| x.to_rational().unwrap()));
+            timed(&format!("long, {bits}"), || {
+                march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap())
+            });
         }
     }
     println!("digits of the bits");
@@ -98,6 +98,6 @@ fn timings() {
     timed("6 limbs", || wide::<6>(115.0));
     for bits in [128, 192, 256, 384] {
         let digits = f64::from(bits) * std::f64::consts::LOG10_2;
-        timed(&format!("MPFR {bits}"), || march::<rug::Float>(&bits, digits, |x| x.to_rational().unwrap()));
+        timed(&format!("long, {bits}"), || march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap()));
     }
 }

@@ -3,12 +3,10 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use rug::float::{Constant, Round};
-use rug::{Assign, Float, Rational};
-
-use super::super::float::{down, up};
+use super::super::float::{self, Constant, Float, Round, down, rounded, up};
 use super::super::radical::Radical;
-use super::super::{Analytic, Bounded, Estimate, Number, Open, Reads, Scalar, show};
+use super::super::rational;
+use super::super::{Analytic, Bounded, Estimate, Number, Open, Rational, Reads, Scalar, show};
 use super::{Inside, Interval, IntervalPrecision};
 
 /// Prints the digits that both ends prove, up to the requested precision; both ends if they prove no digit.
@@ -47,7 +45,7 @@ impl Scalar for Interval {
         let bits = self.lo.prec();
         let inside = match self.inside {
             Inside::Off => Inside::Off,
-            _ => Inside::of(Rational::from_f64(x).and_then(Radical::rational)),
+            _ => Inside::of(Rational::try_from(x).ok().and_then(Radical::rational)),
         };
         Interval::checked(down(bits, x), up(bits, x), inside)
     }
@@ -127,15 +125,14 @@ impl Scalar for Interval {
     }
 
     fn floor_int(&self) -> Option<i64> {
-        let floor = |x: &Float| x.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64());
-        let (low, high) = (floor(&self.lo)?, floor(&self.hi)?);
+        let (low, high) = (float::floor(&self.lo)?, float::floor(&self.hi)?);
         if low == high {
             return Some(low);
         }
         if let Inside::Known(number) = &self.inside
             && let Some(exact) = number.floor()
         {
-            return exact.to_i64();
+            return Some(exact);
         }
         None
     }
@@ -172,7 +169,7 @@ impl Scalar for Interval {
 
     fn widened(self, by: &Self) -> Self {
         let mut by = by.clone().magnitude();
-        by.lo.assign(-&by.hi);
+        by.lo = -by.hi.clone();
         by.inside = if matches!(self.inside, Inside::Off) { Inside::Off } else { Inside::Lost };
         self + by
     }
@@ -190,12 +187,12 @@ impl Scalar for Interval {
         if self.hi.cmp0() != Some(Ordering::Greater) {
             return -self.clone();
         }
-        let low = Float::with_val(self.lo.prec(), -&self.lo);
+        let low = -self.lo.clone();
         let hi = if low > self.hi { low } else { self.hi.clone() };
         let inside = self
             .inside
             .map(|number| Some(if number.sign()? == Ordering::Less { number.neg() } else { number.clone() }));
-        Interval { lo: Float::with_val(self.lo.prec(), 0), hi, inside }
+        Interval { lo: Float::new(self.lo.prec()), hi, inside }
     }
 
     fn square(&self) -> Self {
@@ -235,7 +232,7 @@ impl Analytic for Interval {
     /// Returns the square root of a number known to be nonnegative; the part of the interval below zero is dropped.
     fn sqrt(&self) -> Self {
         let bits = self.lo.prec();
-        let zero = Float::with_val(bits, 0);
+        let zero = Float::new(bits);
         let lo = if self.lo.is_sign_negative() { zero } else { down(bits, self.lo.sqrt_ref()) };
         let known = self.lo.cmp0().is_some_and(Ordering::is_ge) || self.exact_sign().is_some_and(Ordering::is_ge);
         let inside = self.inside.map(|number| if known { number.sqrt() } else { None });
@@ -244,11 +241,11 @@ impl Analytic for Interval {
     rising!(exp: exp_ref, exp_m1: exp_m1_ref, ln: ln_ref, ln_1p: ln_1p_ref);
     fn cos(&self) -> Self {
         let bits = self.lo.prec();
-        self.lipschitz(|x, round| Float::with_val_round(bits, x.cos_ref(), round).0)
+        self.lipschitz(|x, round| rounded(bits, x.cos_ref(), round))
     }
     fn sin(&self) -> Self {
         let bits = self.lo.prec();
-        self.lipschitz(|x, round| Float::with_val_round(bits, x.sin_ref(), round).0)
+        self.lipschitz(|x, round| rounded(bits, x.sin_ref(), round))
     }
     fn pi(&self) -> Self {
         let bits = self.lo.prec();
@@ -270,7 +267,7 @@ impl Bounded for Interval {
     fn halved(mut self) -> Self {
         self.lo >>= 1;
         self.hi >>= 1;
-        let inside = self.inside.map(|number| number.scaled(&Rational::from((1, 2))));
+        let inside = self.inside.map(|number| number.scaled(&rational::half(Rational::from(1))));
         Interval { inside, ..self }
     }
 
@@ -308,7 +305,7 @@ impl Reads<Interval> for Estimate<Float> {
     }
 
     fn give(&self, precision: &IntervalPrecision) -> Interval {
-        let rational = self.value().to_rational().unwrap_or_default();
+        let rational = self.value().to_rational().unwrap_or(Rational::from(0));
         Interval::rational(&rational, *precision)
     }
 }

@@ -12,10 +12,7 @@ impl<const N: usize> Wide<N> {
     /// rounded down.
     pub(super) fn nearest(x: &Rational) -> Self {
         let (p, q) = rational::parts(x);
-        let bits = |n: &Integer| {
-            let limbs = rational::limbs(n);
-            64 * limbs.len() as i64 - limbs.last().map_or(0, |top| i64::from(top.leading_zeros()))
-        };
+        let bits = |n: &Integer| i64::from(rational::bits(n));
         let shift = 64 * (N as i64 + 1) + bits(&q) - bits(&p);
         let size = shift.unsigned_abs() as usize;
         let quotient = if shift < 0 { p / (q << size) } else { (p << size) / q };

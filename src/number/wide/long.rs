@@ -1,11 +1,8 @@
 //! The way to floats of any number of bits and to enclosures of them.
 
-use rug::Float;
-use rug::float::Round;
-
 use super::float::Wide;
 use crate::number::rational::{from_limbs, limbs};
-use crate::number::{Estimate, Interval, Reads};
+use crate::number::{Estimate, Float, Interval, Reads};
 
 /// A [`Float`] of as many bits. **Accuracy**: *exact*.
 fn to_float<const N: usize>(x: &Wide<N>) -> Float {
@@ -19,7 +16,7 @@ fn to_float<const N: usize>(x: &Wide<N>) -> Float {
 
 /// The nearest number. **Accuracy**: *exact* where it fits, otherwise *correctly rounded* to `64 N` bits.
 fn from_float<const N: usize>(x: &Float) -> Wide<N> {
-    let x = Float::with_val_round(64 * N as u32, x, Round::Nearest).0;
+    let x = Float::with_val(64 * N as u32, x);
     let Some((mantissa, exponent)) = x.to_integer_exp() else { return Wide::from(x.to_f64()) };
     // The integer has all bits of the significand.
     let found = limbs(&mantissa);
@@ -63,6 +60,6 @@ impl<const N: usize> Reads<Estimate<Wide<N>>> for Interval {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
 mod tests;

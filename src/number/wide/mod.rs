@@ -2,7 +2,7 @@
 //!
 //! `limbs` has the mantissas, `float` the number, its rounding and its order, `arithmetic` sums, products, quotients
 //! and roots, `elementary` the elementary functions, `convert` the way to fractions and back, `system` what the
-//! formulas ask of a number, `long` the way to MPFR's floats.
+//! formulas ask of a number, `long` the way to floats of any number of bits.
 
 /// Evaluates an expression for `M = N + 1`, N from 2 to 7: in a limb more than the numbers have.
 macro_rules! guarded {
@@ -29,7 +29,6 @@ mod convert;
 mod elementary;
 mod float;
 mod limbs;
-#[cfg(feature = "mp")]
 mod long;
 mod system;
 

@@ -16,15 +16,14 @@ fn degree_of_exactness() {
     }
 }
 
-#[cfg(feature = "mp")]
 #[test]
 fn many_digits() {
-    let rule = gauss_legendre(&rug::Float::with_val(400, 1), 41);
-    let mut sum = rug::Float::with_val(400, 0);
+    let rule = gauss_legendre(&Float::with_val(400, 1), 41);
+    let mut sum = Float::new(400);
     for (x, w) in rule {
         sum += w * x.exp();
     }
-    let one = rug::Float::with_val(400, 1);
-    let wrong: rug::Float = sum - (one.clone().exp() - one.exp().recip());
+    let one = Float::with_val(400, 1);
+    let wrong: Float = sum - (one.clone().exp() - (-one).exp());
     assert!(wrong.to_f64().abs() < 1e-110, "{wrong}");
 }

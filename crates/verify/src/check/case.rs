@@ -6,7 +6,7 @@ use super::verdict::{CheckedRoute, Outcome, Promise, Verdict};
 use crate::error::VerifyError;
 use crate::paper::PrintedIntegrals;
 use crate::paper::formulas::Constant;
-use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion, Transform, Truth};
+use crate::routes::{Route, RouteQuestion, Transform, Truth};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{One, Quantity, Units};
@@ -154,12 +154,11 @@ impl CaseQuestion {
         Ok(RouteQuestion { problem: self.rod.problem()?, one, units: Units::default(), transform: self.transform })
     }
 
-    /// Takes every route. A build without long numbers leaves out the routes that may need them.
+    /// Takes every route.
     pub(super) fn check(&self) -> CheckedQuestion {
         let truth = Truth::from_text(self.truth);
         let question = self.question();
         let routes = self.formulas.iter().flatten().chain(self.routes);
-        let routes = routes.filter(|(route, _)| HAS_LONG_NUMBERS || !may_need_long_numbers(*route));
         let routes = routes.map(|(route, promise)| {
             let start = Instant::now();
             let answer =
@@ -170,18 +169,6 @@ impl CaseQuestion {
             CheckedRoute { route: description(*route), answer, promise: *promise, digits, outcome, seconds }
         });
         CheckedQuestion { label: self.label, truth: self.truth, routes: routes.collect() }
-    }
-}
-
-/// Returns whether `route` may take numbers longer than doubles.
-fn may_need_long_numbers(route: Route) -> bool {
-    use Numbers::{Certified, Digits, Double};
-    match route {
-        Route::Constant(..) => true,
-        Route::ClosedForm(numbers) => matches!(numbers, Digits(_)),
-        // An accuracy may take more than doubles.
-        Route::Planned(numbers) => matches!(numbers, Double(Some(_)) | Digits(_) | Certified(_)),
-        _ => false,
     }
 }
 
@@ -290,7 +277,7 @@ pub(super) const fn claim(
 }
 
 impl Case {
-    /// Takes every route to every question. A build without long numbers takes those in doubles and fractions only.
+    /// Takes every route to every question.
     ///
     /// ```
     /// use dalembert_verify::check::{Verdict, select};

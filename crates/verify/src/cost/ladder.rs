@@ -2,7 +2,7 @@
 
 use super::family::{Family, OmissionReason};
 use crate::error::VerifyError;
-use crate::routes::{HAS_LONG_NUMBERS, Route, RouteQuestion};
+use crate::routes::{Route, RouteQuestion};
 use dalembert::Ending;
 use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
@@ -76,9 +76,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
     take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
-    if HAS_LONG_NUMBERS {
-        take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
-    }
+    take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
     (ladders, left_out)
 }
 
@@ -95,14 +93,14 @@ fn in_doubles(
     settings.into_iter().enumerate().map(step).collect()
 }
 
-/// Returns settings in long numbers, with `spare` digits more; none in a build without such numbers.
+/// Returns settings in long numbers, with `spare` digits more.
 fn in_digits(
     family: Family,
     growths: [f64; 4],
     spare: u32,
     route: fn(Numbers) -> Route,
 ) -> impl Iterator<Item = Candidate> {
-    LONG.into_iter().zip(growths).filter(|_| HAS_LONG_NUMBERS).map(move |(digits, expected)| {
+    LONG.into_iter().zip(growths).map(move |(digits, expected)| {
         let (route, setting) = (route(Numbers::Digits(digits)), format!("{digits} digits"));
         Candidate { family, route, setting, digits: digits + spare, expected, chosen: false }
     })

@@ -9,6 +9,6 @@ mod value;
 
 pub use question::RouteQuestion;
 pub(crate) use question::Transform;
-pub(crate) use route::{HAS_LONG_NUMBERS, Route, run_engine, run_planned};
+pub(crate) use route::{Route, run_engine, run_planned};
 pub use truth::Truth;
 pub(crate) use value::shown;

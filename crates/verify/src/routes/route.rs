@@ -9,7 +9,7 @@ use crate::paper::formulas::Constant;
 use crate::paper::{PrintedIntegrals, UndampedContact};
 use dalembert::Value;
 use dalembert::engine::{Damped, Undamped};
-use dalembert::number::{Estimate, Rational, Scalar};
+use dalembert::number::{Estimate, Float, Rational, Scalar};
 use dalembert::problem::{Parameters, Problem};
 use dalembert::solve::{self, Numbers, Plan, TypedHistory};
 
@@ -38,8 +38,6 @@ pub(crate) enum Route {
     Planned(Numbers),
 }
 
-/// Whether this build has numbers longer than doubles.
-pub(crate) const HAS_LONG_NUMBERS: bool = cfg!(feature = "mp");
 /// Digits of [`Route::Constant`].
 const CONSTANT_DIGITS: u32 = 36;
 
@@ -82,23 +80,14 @@ impl Route {
 }
 
 /// Answers by `route`, a constant or the closed form, in numbers of `digits` digits.
-#[cfg(feature = "mp")]
 fn in_digits(route: Route, question: &RouteQuestion, digits: u32) -> Result<Value, VerifyError> {
     // Two bytes to spare.
     let bits = dalembert::number::bits_for_digits(digits) + 16;
     if let Route::Constant(_, constant) = route {
-        return Ok(unbounded(constant.value(&rug::Float::new(bits))).into());
+        return Ok(unbounded(constant.value(&Float::new(bits))).into());
     }
-    let rod = Parameters::<Estimate<rug::Float>>::of(&question.problem, &bits)?;
+    let rod = Parameters::<Estimate<Float>>::of(&question.problem, &bits)?;
     question.ask(&rod, &ClosedForm::new(&rod))
-}
-
-#[cfg(not(feature = "mp"))]
-fn in_digits(route: Route, _: &RouteQuestion, _: u32) -> Result<Value, VerifyError> {
-    match route {
-        Route::Constant(_, constant) => Ok(unbounded(constant.value(&1.0)).into()),
-        _ => Err(dalembert::Error::NoMultiprecision.into()),
-    }
 }
 
 /// Runs `problem` in doubles by its plan and returns the end of the run, or the energy there.

@@ -1,7 +1,7 @@
 //! The truth that answers are compared with: a number that the catalogue spells, or one that the best route computes.
 
 use super::question::RouteQuestion;
-use super::route::{HAS_LONG_NUMBERS, Route};
+use super::route::Route;
 use super::value::{encloses, log10_distance, log10_radius};
 use crate::error::VerifyError;
 use dalembert::Value;
@@ -32,19 +32,13 @@ impl Truth {
     }
 
     /// Computes the answer to `question` with at least `digits` decimal digits: a fraction where the undamped run stays
-    /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine. A build
-    /// without long numbers computes doubles where fractions end.
+    /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine.
     pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
         if question.problem.damping().is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
         {
             return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });
-        }
-        if !HAS_LONG_NUMBERS {
-            let value = run(Route::Planned(Numbers::Double(None)))?;
-            let log10_half_width = (value.to_f64().abs() * 1e-13).log10();
-            return Ok(Truth { value, log10_half_width, proved: false });
         }
         if let Ok(value) = run(Route::Planned(Numbers::Certified(digits)))
             && let Some(log10_half_width) = log10_radius(&value)

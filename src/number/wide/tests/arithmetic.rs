@@ -247,16 +247,14 @@ fn units_are_those_of_the_bits() {
     assert_eq!(x.roundoff().to_f64(), x.unit());
 }
 
-#[cfg(feature = "mp")]
-mod mpfr {
-    use rug::float::Round;
-    use rug::integer::Order;
-    use rug::{Float, Integer};
-
+/// Against the long floats of the build: those of MPFR, or those in pure Rust.
+mod long {
     use super::*;
+    use crate::number::Float;
+    use crate::number::rational::from_limbs;
 
     pub(in super::super) fn float<const N: usize>(x: &Wide<N>) -> Float {
-        let size = Float::with_val(64 * N as u32, Integer::from_digits(&x.limbs, Order::Lsf));
+        let size = Float::with_val(64 * N as u32, from_limbs(&x.limbs));
         let size = if x.negative { -size } else { size };
         size << x.exponent.wrapping_sub(64 * N as i32)
     }
@@ -282,7 +280,7 @@ mod mpfr {
             same(&(a - b), Float::with_val(bits, &x - &y), || Float::with_val(2000, &x - &y));
             same(&(a * b), Float::with_val(bits, &x * &y), || Float::with_val(2000, &x * &y));
             // Quotients and roots of so many bits are never in the middle.
-            same(&(a / b), Float::with_val(bits, &x / &y), || Float::with_val_round(2000, 0, Round::Nearest).0);
+            same(&(a / b), Float::with_val(bits, &x / &y), || Float::new(2000));
             same(&a.magnitude().sqrt_of(), Float::with_val(bits, x.clone().abs().sqrt()), || Float::new(2000));
             assert_eq!(a.partial_cmp(&b), x.partial_cmp(&y));
             orders[(a.partial_cmp(&b).unwrap() as i8 + 1) as usize] += 1;
@@ -292,7 +290,7 @@ mod mpfr {
     }
 
     #[test]
-    fn operations_are_those_of_mpfr() {
+    fn operations_are_those_of_long_floats() {
         beside::<2>(25_000, 1);
         beside::<3>(25_000, 2);
         beside::<4>(25_000, 3);
@@ -302,12 +300,11 @@ mod mpfr {
     /// `cargo test --release --lib number::wide -- --ignored`: some minutes.
     #[test]
     #[ignore = "minutes: make explore"]
-    fn ten_million_operations_are_those_of_mpfr() {
+    fn ten_million_operations_are_those_of_long_floats() {
         beside::<2>(10_000_000, 5);
         beside::<3>(10_000_000, 6);
         beside::<4>(10_000_000, 7);
         beside::<6>(10_000_000, 8);
     }
 }
-#[cfg(feature = "mp")]
-pub(super) use mpfr::float;
+pub(super) use long::float;

@@ -1,4 +1,4 @@
-//! Elementary functions beside digits that are known, more limbs and MPFR.
+//! Elementary functions beside digits that are known, more limbs and long floats.
 
 use super::Wide;
 use super::arithmetic_tests::Awkward;
@@ -104,51 +104,52 @@ fn functions_are_those_of_more_limbs() {
     beside_more::<4>(400);
 }
 
-#[cfg(feature = "mp")]
-fn beside_mpfr<const N: usize>(count: usize) {
-    use rug::Float;
+/// Against the long floats of the build: those of MPFR, or those of `dashu_float`.
+mod long {
+    use super::super::arithmetic_tests::float;
+    use super::*;
+    use crate::number::Float;
 
-    use super::arithmetic_tests::float;
-
-    let bits = 64 * N as u32 + 100;
-    let mut next = Awkward(0x8765_4321 + N as u64);
-    let ours: [(_, Function<N>); 6] = functions!(exp, exp_m1, ln, ln_1p, sin, cos);
-    let theirs = [Float::exp, Float::exp_m1, Float::ln, Float::ln_1p, Float::sin, Float::cos];
-    for ((name, ours), theirs) in ours.into_iter().zip(theirs) {
-        let (mut most, mut met) = (0.0f64, 0);
-        for _ in 0..count {
-            let x = argument::<N>(&mut next, 20);
-            let sure = theirs(Float::with_val(bits, float(&x)));
-            let found = ours(&x);
-            if !sure.is_finite() || found.is_zero() {
-                assert!(!found.is_finite() || sure.is_zero(), "{name} {x:?}");
-                assert!(found.to_f64() == sure.to_f64() || found.is_nan() && sure.is_nan(), "{name} {x:?}");
-                continue;
+    fn beside_long<const N: usize>(count: usize) {
+        let bits = 64 * N as u32 + 100;
+        let mut next = Awkward(0x8765_4321 + N as u64);
+        let ours: [(_, Function<N>); 6] = functions!(exp, exp_m1, ln, ln_1p, sin, cos);
+        let theirs: [fn(&Float) -> Float; 6] =
+            [Analytic::exp, Analytic::exp_m1, Analytic::ln, Analytic::ln_1p, Analytic::sin, Analytic::cos];
+        for ((name, ours), theirs) in ours.into_iter().zip(theirs) {
+            let (mut most, mut met) = (0.0f64, 0);
+            for _ in 0..count {
+                let x = argument::<N>(&mut next, 20);
+                let sure = theirs(&Float::with_val(bits, float(&x)));
+                let found = ours(&x);
+                if !sure.is_finite() || found.is_zero() {
+                    assert!(!found.is_finite() || sure.is_zero(), "{name} {x:?}");
+                    assert!(found.to_f64() == sure.to_f64() || found.is_nan() && sure.is_nan(), "{name} {x:?}");
+                    continue;
+                }
+                let off = Float::with_val(bits, float(&found) - &sure) << (64 * N as i32 - found.exponent);
+                (most, met) = (most.max(off.to_f64().abs()), met + 1);
+                assert!(most <= 0.51, "{name} {most} {x:?}");
             }
-            let off = Float::with_val(bits, float(&found) - &sure) << (64 * N as i32 - found.exponent);
-            (most, met) = (most.max(off.to_f64().abs()), met + 1);
-            assert!(most <= 0.51, "{name} {most} {x:?}");
+            assert!(most > 0.26 && 3 * met > count, "{name} {most} {met}");
         }
-        assert!(most > 0.26 && 3 * met > count, "{name} {most} {met}");
     }
-}
 
-#[cfg(feature = "mp")]
-#[test]
-fn functions_are_those_of_mpfr() {
-    beside_mpfr::<2>(1_500);
-    beside_mpfr::<3>(1_000);
-    beside_mpfr::<4>(1_000);
-    beside_mpfr::<6>(800);
-}
+    #[test]
+    fn functions_are_those_of_long_floats() {
+        beside_long::<2>(1_500);
+        beside_long::<3>(1_000);
+        beside_long::<4>(1_000);
+        beside_long::<6>(800);
+    }
 
-/// `cargo test --release --lib number::wide -- --ignored`: some minutes.
-#[cfg(feature = "mp")]
-#[test]
-#[ignore = "minutes: make explore"]
-fn a_million_functions_are_those_of_mpfr() {
-    beside_mpfr::<2>(1_000_000);
-    beside_mpfr::<3>(1_000_000);
-    beside_mpfr::<4>(1_000_000);
-    beside_mpfr::<6>(300_000);
+    /// `cargo test --release --lib number::wide -- --ignored`: some minutes.
+    #[test]
+    #[ignore = "minutes: make explore"]
+    fn a_million_functions_are_those_of_long_floats() {
+        beside_long::<2>(1_000_000);
+        beside_long::<3>(1_000_000);
+        beside_long::<4>(1_000_000);
+        beside_long::<6>(300_000);
+    }
 }

@@ -1,7 +1,6 @@
 use super::*;
 
 /// Held against forty digits, up to where `2 − I₀` has lost all that doubles have.
-#[cfg(feature = "mp")]
 #[test]
 fn the_threshold_lies_within_its_bound() {
     use dalembert::number::Float;

@@ -1,10 +1,8 @@
-//! Floating-point numbers with any number of bits.
+//! Floats of any number of bits as a number system of formulas.
 
 use std::cmp::Ordering;
 
-use rug::Float;
-use rug::float::{Constant, Round};
-
+use super::float::{self, Constant, Float};
 use super::fraction::spelled_as;
 use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar, decimal};
 
@@ -41,7 +39,7 @@ impl Scalar for Float {
     }
 
     fn floor_int(&self) -> Option<i64> {
-        self.to_integer_round(Round::Down).and_then(|(n, _)| n.to_i64())
+        float::floor(self)
     }
 
     fn bits(&self) -> Option<u32> {
@@ -110,20 +108,4 @@ impl Reads<Estimate<Float>> for Estimate<f64> {
             None => Estimate::exact(Float::with_val(*precision, self.value())),
         }
     }
-}
-
-/// Returns `value` in this many bits, rounded down.
-pub(crate) fn down<T>(bits: u32, value: T) -> Float
-where
-    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
-{
-    Float::with_val_round(bits, value, Round::Down).0
-}
-
-/// Returns `value` in this many bits, rounded up.
-pub(crate) fn up<T>(bits: u32, value: T) -> Float
-where
-    Float: rug::ops::AssignRound<T, Round = Round, Ordering = Ordering>,
-{
-    Float::with_val_round(bits, value, Round::Up).0
 }
