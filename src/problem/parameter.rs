@@ -21,7 +21,10 @@ struct Names {
 }
 
 macro_rules! parameters {
-    ($($(#[doc = $doc:literal])+ $kind:ident $parameter:ident: $path:literal, $field:ident, $noun:literal, $synonyms:tt;)+) => {
+    ($(
+        $(#[doc = $doc:literal])+
+        $kind:ident $parameter:ident: $path:literal, $field:ident, $noun:literal, $synonyms:tt;
+    )+) => {
         /// A parameter of a problem. Derivatives are taken by it, sweeps vary it, and data are fitted with it.
         ///
         /// ```

@@ -275,7 +275,7 @@ pub(crate) fn any_rod(dice: &mut Random) -> Problem {
                 number_of(&dice.size(-1.0, 1.0)),
                 number_of(&dice.size(3.0, 3.8)),
                 number_of("9.81"),
-                0.into(),
+                1.into(),
             ),
             0.02,
         )
@@ -285,7 +285,7 @@ pub(crate) fn any_rod(dice: &mut Random) -> Problem {
                 number_of(&dice.size(-0.5, 0.5)),
                 number_of(&dice.size(-0.5, 0.5)),
                 number_of(&dice.size(-0.7, 0.3)),
-                0.into(),
+                1.into(),
             ),
             1.0,
         )

@@ -97,7 +97,7 @@ proptest! {
         // A ray of the start that is at an end of the rod, an event, a break of the profile, and a time of no note.
         let event = whole.events().last().map_or(1.0, |event| event.t);
         let mut times = vec![round_trip * (part % 20) as f64 / 2.0, event, event + round_trip, 0.123 * part as f64];
-        times.retain(|time| *time < whole.end());
+        times.retain(|time| *time > 0.0 && *time < whole.end());
         for time in times {
             let run = Run::Time(time.to_string().parse().unwrap());
             let alone = undamped::<f64>(&problem.with_run(run).unwrap(), &()).unwrap();

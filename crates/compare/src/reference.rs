@@ -255,8 +255,12 @@ impl<'a> Reference<'a> {
                 force.extend(nodes);
             }
             let record = ContactRecord::with_force(contact.impact, contact.release, force.into_iter());
-            let peak = record.peak.map(|peak| peak.max(factor * contact.peak_strain));
-            contacts.push(ContactRecord { impulse: Some(self.line_density() * contact.impulse), peak, ..record });
+            let peak = record.peak_force.map(|peak| peak.max(factor * contact.peak_strain));
+            contacts.push(ContactRecord {
+                impulse: Some(self.line_density() * contact.impulse),
+                peak_force: peak,
+                ..record
+            });
         }
         contacts
     }
