@@ -6,30 +6,22 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::engine::{Damped, Motion, Undamped};
-use dalembert::{
-    Estimate, Material, Number, Numbers, Plan, Problem, Profile, Question, Rod, Run, Solution, Start, Top,
-};
+use dalembert::{Estimate, Number, Numbers, Plan, Problem, Question, Run, Solution};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {
     let one = || Number::from(1);
     let mut problem = Problem::uniform(one(), one(), one(), speed.parse().unwrap());
-    problem.rod.damping = damping.parse().ok();
-    problem.run = run;
+    problem = problem.to_builder().damping(damping).build().unwrap();
+    problem = problem.with_run(run).unwrap();
     problem
 }
 
 /// A rod under a fixed top, pressed on the ground, without gravity: it lands and leaves every `3 t₁/2` for ever, and
 /// has as many rays after a thousand round trips as at the start.
 fn periodic(trips: i64) -> Problem {
-    let n = |k: i64| Number::from(k);
-    let displacement = vec![(n(0), "1/2".parse().unwrap()), (n(1), n(0))];
-    Problem {
-        rod: Rod { length: n(1), material: Material::WaveSpeed(n(1)), damping: "1e-300".parse().ok(), top: Top::Fixed },
-        gravity: None,
-        start: Start::Profile(Profile { displacement, velocity: Vec::new() }),
-        run: Run::Time(n(2 * trips)),
-    }
+    let rod = Problem::builder().length(1).wave_speed(1).damping("1e-300").fixed_top();
+    rod.displacement([(0, "1/2"), (1, "0")]).time(2 * trips).build().unwrap()
 }
 
 /// The events of a run in doubles, as planned, and their error.
@@ -87,7 +79,7 @@ fn undamped(c: &mut Criterion) {
     let question = Question::run(Numbers::default());
     for impacts in [1, 10] {
         let problem = rod("", "3", Run::Impacts(impacts));
-        assert!(problem.rod.damping.is_none());
+        assert!(problem.damping().is_none());
         group.bench_function(BenchmarkId::new("lattice, called directly", impacts), |b| {
             b.iter(|| Undamped::<Estimate<f64>>::solve(black_box(&problem), &()).unwrap().events().len());
         });

@@ -25,8 +25,8 @@ fn seconds(mut run: impl FnMut()) -> f64 {
 
 fn rod(damping: &str, speed: &str, impacts: u32) -> Problem {
     let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), speed.parse().unwrap());
-    problem.rod.damping = damping.parse().ok();
-    problem.run = Run::Impacts(impacts);
+    problem = problem.to_builder().damping(damping).build().unwrap();
+    problem = problem.with_run(Run::Impacts(impacts)).unwrap();
     problem
 }
 
@@ -57,8 +57,8 @@ fn main() {
         let ratio = |by: Parameter| {
             // A rod without damping or gravity is another problem than one with some.
             let other = match by {
-                Parameter::Damping => problem.rod.damping.is_none(),
-                Parameter::Gravity => problem.gravity.is_none(),
+                Parameter::Damping => problem.damping().is_none(),
+                Parameter::Gravity => problem.gravity().is_none(),
                 _ => false,
             };
             if other || history.derivatives(by, &EVENT).is_err() {

@@ -14,7 +14,7 @@ use rug::Float;
 fn rod(damping: &str, gravity: &str, length: &str, speed: &str) -> Problem {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let mut problem = Problem::uniform(number(length), 1.into(), number(gravity), number(speed));
-    problem.rod.damping = Some(number(damping)).filter(|r| !r.is_zero());
+    problem = problem.to_builder().damping(number(damping)).build().unwrap();
     problem
 }
 
@@ -22,7 +22,7 @@ fn rod(damping: &str, gravity: &str, length: &str, speed: &str) -> Problem {
 fn undamped(c: &mut Criterion) {
     let mut group = c.benchmark_group("μ = 1 to t = 36");
     let mut problem = rod("0", "1", "1", "1");
-    problem.run = Run::Time(36.into());
+    problem = problem.with_run(Run::Time(36.into())).unwrap();
     group.bench_function("doubles", |b| {
         b.iter(|| Undamped::<Estimate<f64>>::solve(black_box(&problem), &()).unwrap().events().len());
     });
@@ -73,7 +73,7 @@ fn first_contact(c: &mut Criterion) {
 fn bounces(c: &mut Criterion) {
     let mut group = c.benchmark_group("ten damped impacts");
     let mut problem = rod("0.1", "1", "1", "10");
-    problem.run = Run::Impacts(10);
+    problem = problem.with_run(Run::Impacts(10)).unwrap();
     group.sample_size(10);
     group.bench_function("doubles", |b| b.iter(|| black_box(&problem).doubles().unwrap().events().len()));
     for digits in [15, 30] {
@@ -89,7 +89,7 @@ fn bounces(c: &mut Criterion) {
 fn chaotic(c: &mut Criterion) {
     let mut group = c.benchmark_group("chaotic, a piece");
     let mut problem = rod("0", "1", "1", "3/2");
-    problem.run = Run::Time(200.into());
+    problem = problem.with_run(Run::Time(200.into())).unwrap();
     let limits = Limits::keeping_from(&problem, 200.0);
     let scaled = Scaled::<Estimate<Float>>::of(&problem, &240).unwrap();
     let until = Until::Time { trip: 100, age: Estimate::exact(Float::new(240)) };

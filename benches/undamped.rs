@@ -14,7 +14,7 @@ use dalembert::{Estimate, Numbers, Plan, Problem, Question, Run, Scene, builtin}
 fn problem(speed: &str, run: Run) -> Problem {
     let one = || "1".parse().unwrap();
     let mut problem = Problem::uniform(one(), one(), one(), speed.parse().unwrap());
-    problem.run = run;
+    problem = problem.with_run(run).unwrap();
     problem
 }
 

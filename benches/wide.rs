@@ -49,8 +49,8 @@ fn arithmetic(criterion: &mut Criterion) {
 fn march(criterion: &mut Criterion) {
     let number = Number::from;
     let mut problem = Problem::uniform(number(1), number(1), number(1), number(10));
-    problem.rod.damping = "0.1".parse().ok();
-    problem.run = Run::Impacts(10);
+    problem = problem.to_builder().damping("0.1").build().unwrap();
+    problem = problem.with_run(Run::Impacts(10)).unwrap();
     let mut group = criterion.benchmark_group("ten damped impacts to 15 digits");
     group.sample_size(10);
     fn run<S: RoundedSpecial>(group: &mut Group<'_>, name: &str, problem: &Problem, precision: &S::Precision) {

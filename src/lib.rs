@@ -75,7 +75,7 @@ pub use glam;
 pub use motion::{Contact, Ending, Energy, Event, EventKind, Field, Ray, Side, StressHistory, StressPiece};
 pub use names::{UnknownName, nearest};
 pub use number::{Bound, Estimate, Float, Interval, Number, Rational, Value};
-pub use problem::{Material, Parameter, Parameters, Problem, Profile, Rod, Run, Speed, Start, Top};
+pub use problem::{Material, Parameter, Parameters, Problem, Profile, Run, Speed, Start, Top};
 pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]

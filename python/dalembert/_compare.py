@@ -266,7 +266,7 @@ def compare(
     --------
     >>> t = [0, 1, 2, 3, 4]     # one contact of two time units, and v = t - 2 after it
     >>> c = compare(Problem(length=1, wave_speed=1, impact_speed=1), t, [0, 0, 0, 1, 2.25], quantity="u_end")
-    >>> c.difference["u_end"].tolist(), c.norms["u_end"]["linf"]["time"]
+    >>> c.difference["u_end"].tolist(), c.norms["u_end"]["linf"]["t"]
     ([0.0, 0.0, 0.0, 0.0, 0.25], 4.0)
     """
     options = {name: value for name, value in locals().items() if value is not None}

@@ -92,7 +92,7 @@ impl Problem {
         let groups = problem.dimensionless();
         Ok(Facts {
             given: given.filter(|given| given.number.is_some() || !given.points.is_empty()).collect(),
-            has_fixed_top: problem.rod.top == Top::Fixed,
+            has_fixed_top: problem.top() == Top::Fixed,
             title: self.title.clone(),
             units: UnitSystem::ALL.iter().find(|(_, system)| *system == self.units).map_or("", |(word, _)| word),
             accuracy: self.accuracy,

@@ -34,7 +34,7 @@ def test_the_report_is_that_of_the_command(command, run, tmp_path):
         asked = ("compare", SCENE, str(file), "--axis", "down", "--energy-scale", "1/2", "--window", "0.1")
         assert ours.report == json.loads(command(*asked, "--format", "json").stdout)
         assert ours.table() == repr(ours) == command(*asked).stdout
-    assert ours.contacts[0]["theirs"]["peak"] > ours.contacts[0]["ours"]["peak"]
+    assert ours.contacts[0]["theirs"]["peak_force"] > ours.contacts[0]["ours"]["peak_force"]
 
 
 def test_a_wrong_clock_is_said(run):

@@ -252,23 +252,25 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     }
 
     fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
+        let Scales { time: trip, velocity, wave_speed, .. } = self.scales;
         let piece = |piece: StressPiece<S>| {
             let found = self.uncertainty(&piece.start);
-            let Bounds { strain, .. } = self.scaled(found);
-            if !self.proved {
-                return bounded_piece(piece, strain);
-            }
-            // The strain is zero in flight; a piece that begins or ends with a ray is displaced with it.
-            let Scales { time, velocity, wave_speed, .. } = self.scales;
-            let shifted = found.slope * found.rays * velocity / wave_speed;
-            let off = if piece.chebyshev.is_empty() { 0.0 } else { strain + shifted };
-            let StressPiece { start: from, end: to, strain_start: left, strain_end: right, chebyshev } =
-                bounded_piece(piece, off);
-            let late = |at: Estimate<S>| {
-                let rounding = 16.0 * at.value().unit() * (at.to_f64() + time);
-                if at.value().is_zero() { at } else { wider(at, found.rays * time + rounding) }
+            // A piece begins and ends with an event, or with a ray that may be displaced.
+            let late = |at: &S| {
+                let rounding = 16.0 * at.unit() * (at.to_f64() + trip);
+                match self.event_at(&Estimate::exact(at.clone())) {
+                    Some(event) => self.course.events[event].t.clone(),
+                    None if at.is_zero() => Estimate::exact(at.clone()),
+                    None if at == self.course.end.value() => self.course.end.clone(),
+                    None => within(at, found.rays * trip + rounding),
+                }
             };
-            StressPiece { start: late(from), end: late(to), strain_start: left, strain_end: right, chebyshev }
+            let shifted = found.slope * found.rays * velocity / wave_speed;
+            // The strain is zero in flight.
+            let known = self.proved && piece.chebyshev.is_empty();
+            let off = if known { 0.0 } else { self.scaled(found).strain + shifted };
+            let (start, end) = (late(&piece.start), late(&piece.end));
+            StressPiece { start, end, ..bounded_piece(piece, off) }
         };
         self.pieces_of_stress().into_iter().map(piece).collect()
     }

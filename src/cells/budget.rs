@@ -72,7 +72,7 @@ pub(super) struct Budget {
     pub(super) flight: TakeOff,
     landing: Option<Landing>,
     /// Greatest time error of the rays.
-    rays: f64,
+    pub(super) rays: f64,
     /// Greatest errors since the last event.
     worst: Uncertainty,
     fixed: Fixed,
@@ -296,7 +296,7 @@ impl Budget {
     pub(super) fn since(&mut self) -> Uncertainty {
         let fixed = self.fixed.worst + self.fixed.rays;
         self.fixed.worst = self.fixed.points().max(self.fixed.height);
-        let worst = std::mem::take(&mut self.worst);
+        let worst = Uncertainty { rays: self.rays, ..std::mem::take(&mut self.worst) };
         self.note();
         if self.apart && worst.rise.max(worst.speed) < fixed {
             return worst;
@@ -310,7 +310,6 @@ impl Budget {
     pub(super) fn note_event(&mut self, off: Off) {
         self.fixed.worst = self.fixed.worst.max(off.fixed);
         self.rays = self.rays.max(self.better(off));
-        self.worst.rays = self.rays;
     }
 
     /// Adds the error of the height at the end of a piece of rest.
@@ -340,9 +339,10 @@ impl Budget {
         self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
-    /// Records bounds since the last event: of the slope of velocities between rays, of velocities and `c v_x`
-    /// (`most`), and of the invariants (`peak`).
-    pub(super) fn note_slope(&mut self, slope: f64, (most, peak): (f64, f64)) {
+    /// Records bounds since the last event: of the slope of velocities between rays and of the jumps at rays, of velocities
+    /// and `c v_x` (`most`), and of the invariants (`peak`).
+    pub(super) fn note_slope(&mut self, (slope, jumps): (f64, f64), (most, peak): (f64, f64)) {
+        self.worst.jumps = self.worst.jumps.max(jumps);
         self.worst.slope = self.worst.slope.max(slope);
         self.worst.most = self.worst.most.max(most);
         self.worst.peak = self.worst.peak.max(peak);

@@ -32,7 +32,7 @@ pub struct ContactThenCells<S> {
     strain: f64,
 }
 
-/// The solution valid at a time, and the time to query it at.
+/// The solution valid at a time, and the time to query: the closed form takes the stored time as exact.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
 
 impl<S: RoundedSpecial> ContactThenCells<S> {
@@ -66,7 +66,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         precision: &S::Precision,
         bounce: Bounce<Estimate<S>>,
     ) -> Result<Self, Error> {
-        let asked = match &problem.run {
+        let asked = match problem.run() {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,
         };
@@ -81,7 +81,7 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         let bounded =
             |found: Contact<Estimate<S>>| Contact { peak_strain: within(found.peak_strain.value(), strain), ..found };
         let contacts = known.contacts.into_iter().map(bounded).collect();
-        let course = Course { end: within(known.end.value(), 0.0), contacts, ..known };
+        let course = Course { contacts, ..known };
         Ok(ContactThenCells { error, strain, march: None, course, contact })
     }
 
@@ -152,7 +152,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
                 self.contact.strain(&time.value().carry(), side).map_or(0.0, |strain| strain.bound())
             };
             let strain = self.strain.max(own(&piece.start, Side::Right)).max(own(&piece.end, Side::Left));
-            bounded_piece(piece.map(Estimate::into_value), strain)
+            let (start, end) = (piece.start.clone(), piece.end.clone());
+            StressPiece { start, end, ..bounded_piece(piece.map(Estimate::into_value), strain) }
         };
         let mut pieces: Vec<_> = self.contact.stress_pieces().into_iter().map(bounded).collect();
         if let (Some(march), Some(bounce)) = (&self.march, self.bounce()) {
@@ -160,8 +161,9 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
             pieces.extend(march.stress_pieces().into_iter().filter(|piece| piece.end.value() > bounce));
             // The flight begins where the closed form ends, and its stress is zero, without the errors of the cells.
             if let Some(flight) = pieces.get_mut(first) {
-                *flight = bounded_piece(flight.clone().map(Estimate::into_value), self.strain);
-                flight.start = within(bounce, 0.0);
+                let (start, end) = (self.course.events[1].t.clone(), flight.end.clone());
+                *flight =
+                    StressPiece { start, end, ..bounded_piece(flight.clone().map(Estimate::into_value), self.strain) };
             }
         }
         pieces
@@ -187,7 +189,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         match self.later(time)? {
             Some(march) => march.moments(time, points),
             None => {
-                let points: Vec<_> = points.iter().map(|point| point.value().carry()).collect();
+                let points: Vec<_> = points.iter().map(|x| x.value().carry()).collect();
                 self.contact.moments(&time.value().carry(), &points)
             }
         }
@@ -199,7 +201,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;
         }
-        let contact: Vec<_> = times[..first].iter().map(|time| time.value().carry()).collect();
+        let contact: Vec<_> = times[..first].iter().map(|x| x.value().carry()).collect();
         let mut rates = self.contact.rates(points, &contact)?;
         if let Some(march) = self.march.as_ref().filter(|_| first < times.len()) {
             rates.extend(march.rates(points, &times[first..])?);

@@ -150,9 +150,10 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     pub(super) fn note_slope(&mut self) {
         let rate = self.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let moving = self.state.bound() + rate;
-        let slope = self.medium.variation(&self.state).0 + self.medium.gravity.to_f64() + 2.0 * self.damping() * moving;
+        let (slope, _, jumps) = self.medium.variation(&self.state);
+        let slope = slope + self.medium.gravity.to_f64() + 2.0 * self.damping() * moving;
         let still = self.medium.slope.to_f64().abs() + 0.5 * self.medium.gravity.to_f64();
-        self.budget.note_slope(slope, (moving + still, self.state.bound()));
+        self.budget.note_slope((slope, jumps), (moving + still, self.state.bound()));
     }
 
     pub(super) fn take_off(&mut self, velocity: &S, off: Off, slope: Option<f64>) {

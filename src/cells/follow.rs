@@ -33,7 +33,7 @@ pub(super) enum Goal<S> {
 impl<S: RoundedSpecial> Goal<S> {
     /// Reads the goal from the run of the problem.
     fn of(task: &Task<'_, S>, data: &Data<S>) -> Self {
-        match &task.problem.run {
+        match task.problem.run() {
             Run::Impacts(count) => Goal::Impacts(*count),
             Run::Time(time) => Goal::Time(S::from_number(time, task.precision) / &data.units.time),
         }
@@ -129,6 +129,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower.held = Some(held);
         follower.landed = 1;
         follower.budget.add(error);
+        follower.budget.rays = time_error;
         follower.let_go(&velocity, off, None);
         if let Some(flight) = follower.flying() {
             let off = (flight.rate.clone() - rate.value()).to_f64().abs() + rate.bound();

@@ -38,7 +38,7 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// use dalembert::{Number, Problem};
 /// // Without damping a rod with c = L = g = 1 that arrives at μ = 3 leaves after the round trip, t₁ = 2.
 /// let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(3));
-/// problem.rod.damping = "1e-300".parse().ok();
+/// problem = problem.to_builder().damping("1e-300").build()?;
 /// let history = Damped::<f64>::solve(&problem, &(), 12.0)?;
 /// let release = &history.events()[1];
 /// assert!((release.t.value() - 2.0).abs() <= release.t.bound() && release.t.bound() < 1e-12);
@@ -133,17 +133,21 @@ impl<S: RoundedSpecial> Damped<S> {
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
             found.proved(&medium, &data)?;
         warnings.extend(unresolved);
-        let end = match &task.problem.run {
+        let (end, late) = match task.problem.run() {
             Run::Time(time) if ending == Ending::Time || pieces.last().is_some_and(|piece| piece.still) => {
-                S::from_number(time, task.precision)
+                (S::from_number(time, task.precision), 0.0)
             }
             _ => {
                 let start = || held.as_ref().map_or_else(|| data.slope.zero(), |held| held.release.clone());
-                pieces.last().map_or_else(start, Piece::to) * &data.units.time
+                let end = pieces.last().map_or_else(start, Piece::to);
+                // Other ends than impacts are at rays, or where the run stops.
+                let rays = marks.last().map_or(&before, |mark| &mark.after).rays;
+                let at_ray = rays + 16.0 * end.unit() * (1.0 + end.to_f64());
+                (end * &data.units.time, if ending == Ending::NextImpact { end_error } else { at_ray })
             }
         };
         let mut history = Damped {
-            course: Course { warnings, ..Course::new(within(&end, end_error * data.units.time.to_f64()), ending) },
+            course: Course { warnings, ..Course::new(within(&end, late * data.units.time.to_f64()), ending) },
             scales: data.units.clone().map(|scale| scale.to_f64()),
             rebound: None,
             medium,

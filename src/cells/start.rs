@@ -190,7 +190,7 @@ impl<S: Rounded> Data<S> {
         let most = 2.0 * far / shortest + 2.0 * fast / shortest + gravity.to_f64() + slope.to_f64().abs();
         let damping = parameters.damping.clone() * &time;
         let units = Scales { time, velocity: scale, ..Scales::of(parameters) };
-        let rigid = !matches!(problem.start, Start::Profile(_));
+        let rigid = !matches!(problem.start(), Start::Profile(_));
         Data { units, displacement, damping, gravity, slope, given, ground, rigid, half, most, shortest }
     }
 
@@ -252,7 +252,7 @@ pub(super) fn medium<S: RoundedSpecial>(
     shorten: i64,
 ) -> Result<(Medium<S>, Data<S>), Error> {
     let parameters = Parameters::<S>::of(problem, precision)?;
-    let free_top = problem.rod.top == Top::Free;
+    let free_top = problem.top() == Top::Free;
     let data = Data::of(problem, &parameters, free_top);
     let asked = -digits.max(1.0) * std::f64::consts::LOG2_10 - 20.0;
     let log2_accuracy = asked.max(data.damping.log2_roundoff() - SPARE_BITS);

@@ -35,7 +35,7 @@ pub(super) struct Uncertainty {
     pub(super) most: f64,
     /// Greatest `|v_t ± c v_x|` about the centre of mass, in `V`: the factor from displaced rays to errors of energies.
     pub(super) peak: f64,
-    /// Sum of the jumps of `v_t ± c v_x` at rays, in `V`; only in a proof.
+    /// Sum of the jumps of `v_t ± c v_x` at rays, in `V`.
     pub(super) jumps: f64,
     /// Bound for the displacement of rays, in `t₁`; times the slope, it bounds the error of one-sided limits and peaks.
     pub(super) rays: f64,

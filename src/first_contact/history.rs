@@ -33,7 +33,7 @@ use crate::special::BoundedSpecial;
 /// use dalembert::engine::{ContactHistory, Motion};
 /// // (1.10): g = 0, R = 3: the bounce is a root in the fourth round trip.
 /// let mut problem = Problem::uniform("1/2".parse()?, Number::from(1), Number::from(0), Number::from(1));
-/// problem.rod.damping = Some(Number::from(3));
+/// problem = problem.to_builder().damping(3).build()?;
 /// let contact = ContactHistory::<Estimate<f64>>::solve(&problem, &())?;
 /// let bounce = &contact.events()[1].t;
 /// assert!((bounce.value() - 3.299026051445773).abs() < bounce.bound() && bounce.bound() < 1e-9);
@@ -91,7 +91,7 @@ impl<N: BoundedSpecial> ContactHistory<N> {
         if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
             return Err(Error::not_decided("how the contact ends", contact.round_trip().bits()));
         }
-        let asked = match &problem.run {
+        let asked = match problem.run() {
             Run::Time(asked) => Some(N::from_number(asked, precision)),
             Run::Impacts(_) => None,
         };

@@ -71,7 +71,7 @@ impl<N: Bounded> Undamped<N> {
         limits: Limits,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        Self::solve_scaled(Scaled::of(problem, precision)?, &problem.run, limits, observe)
+        Self::solve_scaled(Scaled::of(problem, precision)?, problem.run(), limits, observe)
     }
 
     /// Computes the history as [`Undamped::solve_within`] does, for a problem in lattice units.
@@ -86,7 +86,12 @@ impl<N: Bounded> Undamped<N> {
             Run::Time(time) => {
                 let end = N::from_number(time, &scaled.gravity.precision());
                 let Some((trip, age)) = trip_and_age(&end, &scaled.units) else {
-                    return Err(Error::TooManyPieces { limit: limits.pieces, time: time.to_f64() });
+                    // An enclosure that overlaps two round trips is undecided.
+                    let few = end.to_f64() / scaled.units.round_trip.to_f64() < limits.pieces as f64;
+                    return Err(match few {
+                        true => Error::not_decided("the round trip at the end of the run", end.bits()),
+                        false => Error::TooManyPieces { limit: limits.pieces, time: time.to_f64() },
+                    });
                 };
                 Until::Time { trip, age }
             }

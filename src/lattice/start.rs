@@ -54,17 +54,17 @@ impl<N: Bounded> Scaled<N> {
     /// Converts `problem` with `given` and `data` in place of its own numbers.
     pub(crate) fn with(problem: &Problem, given: &Parameters<N>, data: AtStart<N>) -> Result<Self, Error> {
         let round_trip = given.round_trip();
-        let has_gravity = problem.gravity.as_ref().is_some_and(|gravity| !gravity.is_zero());
+        let has_gravity = problem.gravity().is_some_and(|gravity| !gravity.is_zero());
         let one = given.length.one();
         let gravity = if has_gravity { one.clone() } else { one.zero() };
         let first = |list: &[(N, N)]| list.first().map_or_else(|| one.zero(), |(_, value)| value.clone());
-        let profile = matches!(problem.start, Start::Profile(_));
+        let profile = matches!(problem.start(), Start::Profile(_));
         let velocity = match profile {
             _ if has_gravity => given.critical_speed(),
             false => given.speed.clone(),
             true => greatest_speed(&data.segments, &given.wave_speed)?,
         };
-        let (length, wave_speed, top) = (given.length.clone(), given.wave_speed.clone(), problem.rod.top);
+        let (length, wave_speed, top) = (given.length.clone(), given.wave_speed.clone(), problem.top());
         let ground_start = first(&data.displacement) / &velocity / &round_trip;
         let ground_velocity = first(&data.velocity) / &velocity;
         let units = Units { round_trip, velocity, length, wave_speed };

@@ -52,7 +52,7 @@ impl<S: Scalar> AtStart<S> {
         let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {
             list.iter().enumerate().map(|(k, (x, value))| (lift(Datum::Point, x), lift(datum(k), value))).collect()
         };
-        let (displacement, velocity) = match &problem.start {
+        let (displacement, velocity) = match problem.start() {
             Start::Profile(profile) => {
                 (points(&profile.displacement, Datum::Displacement), points(&profile.velocity, Datum::Velocity))
             }
@@ -62,15 +62,15 @@ impl<S: Scalar> AtStart<S> {
             }
         };
         let (mut corners, mut segments) = (Vec::new(), Vec::new());
-        if let Start::Profile(profile) = &problem.start {
-            segments = self::segments(profile, (&problem.rod.length, &given.length), &displacement, &velocity);
+        if let Start::Profile(profile) = problem.start() {
+            segments = self::segments(profile, (problem.length(), &given.length), &displacement, &velocity);
             corners.extend(displacement.iter().chain(&velocity).map(|(x, _)| x.clone()));
             corners.extend([zero.clone(), given.length.clone()]);
         } else {
             let (ends, speed) = ([zero.clone(), given.length.clone()], -given.speed.clone());
             segments.push(Segment { ends, velocities: [speed.clone(), speed], strain: zero.clone() });
         }
-        if problem.rod.top == Top::Fixed {
+        if problem.top() == Top::Fixed {
             corners.push(given.length.clone());
         }
         AtStart { displacement, velocity, segments, corners, zero }

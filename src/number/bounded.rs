@@ -220,13 +220,13 @@ impl<S: Rounded> Bounded for Estimate<S> {
 
     #[inline]
     fn halved(self) -> Self {
-        let (two, error) = (self.value().int(2), self.error() / 2.0);
+        let (two, error) = (self.value().int(2), self.error() / 2.0 * (1.0 + f64::EPSILON));
         Estimate::new(self.into_value() / two, error)
     }
 
     #[inline]
     fn doubled(self) -> Self {
-        let error = 2.0 * self.error();
+        let error = 2.0 * self.error() * (1.0 + f64::EPSILON);
         let value = self.into_value();
         Estimate::new(value.clone() + &value, error)
     }

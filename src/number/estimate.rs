@@ -6,13 +6,14 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::fraction::spelling;
 use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
 
-/// Returns the bound, in roundings, that marks a number as spelled; its true error is at most one. Rounding operations
-/// do not produce these bounds (negation, halving and doubling keep them), so they identify spelled numbers.
+/// Returns the bound, in roundings, that marks a number as spelled; its true error is at most one. No operation on a
+/// spelled number gives such a bound, except for negation: a rounding adds at least one, halving and doubling add the
+/// least part that a double holds.
 fn roundings(spelling: Spelling) -> f64 {
     match spelling {
         Spelling::Decimal => 1.25,
         Spelling::Fraction => 1.75,
-        Spelling::Near => 2.25,
+        Spelling::Near => 1.5,
     }
 }
 

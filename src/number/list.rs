@@ -1,11 +1,48 @@
 //! Lists of numbers in the grammar of the command line: times, points and the values of a sweep.
 
+use std::borrow::Cow;
 use std::ops::Range;
+
+use thiserror::Error;
 
 use super::{Number, NumberError, Scalar, rational, short};
 
 /// Largest number of values of one range.
 const MOST: u32 = 10_000_000;
+
+/// Reason to reject a list of numbers.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ListError {
+    /// One of the numbers is none.
+    #[error(transparent)]
+    Number(#[from] NumberError),
+    /// The text has another form, or an impossible count or end.
+    #[error("found `{found}`, expected {expected}")]
+    Grammar {
+        /// The text, shortened.
+        found: String,
+        /// Description of a list that is accepted.
+        expected: Cow<'static, str>,
+    },
+    /// The step is not above 0, or the end is below 0.
+    #[error("found steps of {step} up to {to}, expected a step above 0 and an end from 0 on")]
+    Step {
+        /// The step.
+        step: Number,
+        /// The end.
+        to: Number,
+    },
+    /// The steps are too many.
+    #[error("found {count:.0} steps of {step} up to {to}, expected fewer than {MOST}")]
+    TooManySteps {
+        /// The number of steps.
+        count: f64,
+        /// The step.
+        step: Number,
+        /// The end.
+        to: Number,
+    },
+}
 
 /// Numbers as they are written, or equally spaced ones that are computed when they are needed.
 #[derive(Clone, Debug)]
@@ -21,46 +58,46 @@ pub enum List {
 impl List {
     /// Reads `0.1,1/3` or `0..2:5`.
     ///
-    /// **Errors**: a message with the grammar.
-    pub fn equally_spaced(text: &str) -> Result<List, String> {
+    /// **Errors**: [`ListError`], with the grammar.
+    pub fn equally_spaced(text: &str) -> Result<List, ListError> {
         Ok(List::read(text, false)?.0)
     }
 
     /// Reads `V1,V2,…`, `A..B:N` or, if `geometric`, `A..B:N:log`. Returns the list, and whether it is a geometric
     /// progression.
     ///
-    /// **Errors**: a message with the grammar.
-    pub fn read(text: &str, geometric: bool) -> Result<(List, bool), String> {
-        let number = |text: &str| text.parse().map_err(|error: NumberError| error.to_string());
-        let refused = |expected: &str| format!("found `{}`, expected {expected}", short(text));
+    /// **Errors**: [`ListError`], with the grammar.
+    pub fn read(text: &str, geometric: bool) -> Result<(List, bool), ListError> {
+        let number = |text: &str| text.parse::<Number>();
+        let refused = |expected| ListError::Grammar { found: short(text), expected };
         let Some((from, rest)) = text.split_once("..") else {
             return Ok((List::Numbers(text.split(',').map(number).collect::<Result<_, _>>()?), false));
         };
         let (to, count, log) = match *rest.split(':').collect::<Vec<_>>() {
             [to, count] => (to, count, false),
             [to, count, "log"] if geometric => (to, count, true),
-            _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log")),
-            _ => return Err(refused("A..B:N")),
+            _ if geometric => return Err(refused("V1,V2,…, A..B:N or A..B:N:log".into())),
+            _ => return Err(refused("A..B:N".into())),
         };
         let count = count.trim().parse().ok().filter(|count| (2..=MOST).contains(count));
-        let count = count.ok_or_else(|| refused(&format!("a count of 2 to {MOST} in A..B:N")))?;
-        let (from, to): (Number, Number) = (number(from)?, number(to)?);
+        let count = count.ok_or_else(|| refused(format!("a count of 2 to {MOST} in A..B:N").into()))?;
+        let (from, to) = (number(from)?, number(to)?);
         if log && !(from.to_f64() > 0.0 && to.to_f64() > 0.0) {
-            return Err(refused("two ends above zero for :log"));
+            return Err(refused("two ends above zero for :log".into()));
         }
         Ok((List::Range(from, to, count), log))
     }
 
     /// Returns the multiples of `step` from 0 to `to`.
     ///
-    /// **Errors**: a message for a step that is not above 0, an end below 0, and too many steps.
-    pub fn steps(step: &Number, to: &Number) -> Result<List, String> {
+    /// **Errors**: [`ListError::Step`], [`ListError::TooManySteps`].
+    pub fn steps(step: &Number, to: &Number) -> Result<List, ListError> {
         if step.to_f64() <= 0.0 || to.to_f64() < 0.0 {
-            return Err(format!("found steps of {step} up to {to}, expected a step above 0 and an end from 0 on"));
+            return Err(ListError::Step { step: step.clone(), to: to.clone() });
         }
         let count = to.to_f64() / step.to_f64();
         if count >= f64::from(MOST) {
-            return Err(format!("found {count:.0} steps of {step} up to {to}, expected fewer than {MOST}"));
+            return Err(ListError::TooManySteps { count, step: step.clone(), to: to.clone() });
         }
         // Two roundings below the number of steps is that number.
         let count = (count * (1.0 + 2.0 * f64::EPSILON)) as u32;

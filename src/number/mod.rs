@@ -63,7 +63,7 @@ pub use estimate::Estimate;
 pub use float::Float;
 pub(crate) use fraction::spelled_as;
 pub use interval::{Interval, IntervalPrecision};
-pub use list::List;
+pub use list::{List, ListError};
 pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;

@@ -1,9 +1,11 @@
 //! A number of an answer, whatever its number system.
 
+use std::cmp::Ordering;
+
 use serde::{Serialize, Serializer};
 
 use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, shown_bound};
-use super::{Bounded, Estimate, Float, Interval, Rational, Scalar};
+use super::{Bounded, Estimate, Float, Interval, Number, Rational, Scalar};
 
 /// A number of an answer, with its bound, its digits and its unit.
 ///
@@ -214,8 +216,13 @@ impl From<&Value> for f64 {
     }
 }
 
-/// A number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` for an
-/// enclosure, a string otherwise.
+/// Compares two printed numbers.
+fn compare(a: &str, b: &str) -> Option<Ordering> {
+    Some(a.parse::<Number>().ok()?.compare(&b.parse().ok()?))
+}
+
+/// A number for a double (null if not finite), `{"value": …, "lo": …, "hi": …}` with `lo ≤ truth ≤ hi` and
+/// `lo ≤ value ≤ hi` for an enclosure, a string otherwise.
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -229,7 +236,12 @@ impl Serialize for Value {
             (Stored::Double(number), _) if !number.value().is_finite() => serializer.serialize_none(),
             (Stored::Double(_), _) if text == "0" => serializer.serialize_f64(0.0),
             (Stored::Double(number), _) => serializer.serialize_f64(*number.value()),
-            (_, Some([lo, hi])) => Enclosure { value: text, lo, hi }.serialize(serializer),
+            (_, Some([lo, hi])) => {
+                // The rounding of the value to fewer digits than the ends must not leave the enclosure.
+                let outer = |end: String, order| if compare(&text, &end) == Some(order) { text.clone() } else { end };
+                let (lo, hi) = (outer(lo, Ordering::Less), outer(hi, Ordering::Greater));
+                Enclosure { value: text, lo, hi }.serialize(serializer)
+            }
             (_, None) => serializer.serialize_str(&text),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::profile::Points;
 use super::validate::{Draft, IMPACT};
-use super::{Parameter, Problem, ProblemError, Top, Written};
+use super::{Parameter, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
 
 /// A problem put together value by value: see [`Problem::builder`]. Each [`Parameter`] has a setter by its name, whose
 /// value is a number as it is [`Written`]; nothing is checked before [`build`](Builder::build).
@@ -69,6 +69,32 @@ impl Builder {
         self.top(Top::Fixed)
     }
 
+    /// Sets the start.
+    #[must_use]
+    pub fn start(self, start: Start) -> Self {
+        match start {
+            Start::Uniform(Speed::Given(speed)) => self.impact_speed(speed),
+            Start::Uniform(Speed::DropHeight(height)) => self.drop_height(height),
+            Start::Above { gap, speed } => self.gap(gap).impact_speed(speed),
+            Start::Profile(Profile { displacement, velocity }) => {
+                let mut builder = self;
+                if !displacement.is_empty() {
+                    builder = builder.displacement(displacement);
+                }
+                if velocity.is_empty() { builder } else { builder.velocity(velocity) }
+            }
+        }
+    }
+
+    /// Sets the end of the run.
+    #[must_use]
+    pub fn run(self, run: Run) -> Self {
+        match run {
+            Run::Impacts(impacts) => self.impacts(impacts),
+            Run::Time(time) => self.time(time),
+        }
+    }
+
     /// Sets the displacement at `t = 0` as points `(x, v)` from `x = 0` to `x = L`, linear between them; in place of an
     /// impact.
     ///
@@ -125,7 +151,7 @@ impl Builder {
     }
 
     pub(super) fn from_problem(problem: &Problem) -> Self {
-        let mut base = Draft { top: Some(problem.rod.top), ..Draft::default() };
+        let mut base = Draft { top: Some(problem.top), ..Draft::default() };
         for parameter in Parameter::ALL {
             if let Some(number) = parameter.given(problem) {
                 base.numbers.insert(*parameter, number.into());

@@ -1,6 +1,8 @@
 //! The rod, the ground and the start: what is solved, in exact numbers.
 
-use super::{Builder, ProblemError};
+use super::given::{Given, UNITS};
+use super::validate::{DAMPING_RATIO, Draft};
+use super::{Builder, Parameter, ProblemError};
 use crate::number::Number;
 
 /// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
@@ -35,27 +37,13 @@ use crate::number::Number;
 /// | points of a profile | 2 … 100 000, at least 1e-12 L apart |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// The rod.
-    pub rod: Rod,
-    /// `g ≥ 0`; `None` where the scene has no gravity.
-    pub gravity: Option<Number>,
-    /// Displacement and velocity at `t = 0`.
-    pub start: Start,
-    /// The end of the run.
-    pub run: Run,
-}
-
-/// The rod: geometry, material, damping and what holds its top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rod {
-    /// `L > 0`.
-    pub length: Number,
-    /// The material.
-    pub material: Material,
-    /// `r ≥ 0`; `None` where the scene has no damping.
-    pub damping: Option<Number>,
-    /// The end `x = L`.
-    pub top: Top,
+    pub(super) length: Number,
+    pub(super) material: Material,
+    pub(super) damping: Option<Number>,
+    pub(super) top: Top,
+    pub(super) gravity: Option<Number>,
+    pub(super) start: Start,
+    pub(super) run: Run,
 }
 
 /// The material, which sets the wave speed `c`.
@@ -134,7 +122,10 @@ impl Problem {
     #[doc(hidden)]
     pub fn uniform(length: Number, wave_speed: Number, gravity: Number, speed: Number) -> Self {
         Problem {
-            rod: Rod { length, material: Material::WaveSpeed(wave_speed), damping: None, top: Top::Free },
+            length,
+            material: Material::WaveSpeed(wave_speed),
+            damping: None,
+            top: Top::Free,
             gravity: Some(gravity).filter(|g| !g.is_zero()),
             start: Start::Uniform(Speed::Given(speed)),
             run: Run::Impacts(1),
@@ -146,7 +137,7 @@ impl Problem {
     /// ```
     /// use dalembert::Problem;
     /// let rod = Problem::builder().length(1).wave_speed(1).gravity("9.81").impact_speed(3).build()?;
-    /// assert!(rod.rod.damping.is_none() && rod.has_closed_form());
+    /// assert!(rod.damping().is_none() && rod.has_closed_form());
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn builder() -> Builder {
@@ -175,17 +166,52 @@ impl Problem {
     /// ```
     /// use dalembert::{Problem, Run};
     /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
-    /// assert_eq!(rod.with_run(Run::Impacts(3))?.run, Run::Impacts(3));
+    /// assert_eq!(*rod.with_run(Run::Impacts(3))?.run(), Run::Impacts(3));
     /// assert!(rod.with_run(Run::Impacts(0)).is_err());
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn with_run(&self, run: Run) -> Result<Self, ProblemError> {
-        let builder = self.to_builder();
-        match run {
-            Run::Impacts(impacts) => builder.impacts(impacts),
-            Run::Time(time) => builder.time(time),
-        }
-        .build()
+        self.to_builder().run(run).build()
+    }
+
+    /// The same problem followed through a part of its run.
+    pub(crate) fn shortened(&self, run: Run) -> Self {
+        Problem { run, ..self.clone() }
+    }
+
+    /// Returns `L > 0`.
+    pub fn length(&self) -> &Number {
+        &self.length
+    }
+
+    /// Returns the material.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// Returns `r > 0`; `None` where the rod is undamped.
+    pub fn damping(&self) -> Option<&Number> {
+        self.damping.as_ref()
+    }
+
+    /// Returns the end `x = L`.
+    pub fn top(&self) -> Top {
+        self.top
+    }
+
+    /// Returns `g > 0`; `None` where there is no gravity.
+    pub fn gravity(&self) -> Option<&Number> {
+        self.gravity.as_ref()
+    }
+
+    /// Returns displacement and velocity at `t = 0`.
+    pub fn start(&self) -> &Start {
+        &self.start
+    }
+
+    /// Returns the end of the run.
+    pub fn run(&self) -> &Run {
+        &self.run
     }
 
     /// Returns the height of the undeformed rod above the ground at the start; `None` where it starts on it, or by a
@@ -209,6 +235,81 @@ impl Problem {
     ///
     /// **Source**: (1.3), (1.7), (1.8).
     pub fn has_closed_form(&self) -> bool {
-        self.rod.top == Top::Free && matches!(self.start, Start::Uniform(_))
+        self.top == Top::Free && matches!(self.start, Start::Uniform(_))
+    }
+}
+
+/// The number that `$problem`, a reference or a mutable one, gives for `$parameter`: a reference of the same kind.
+macro_rules! number_of {
+    ($problem:expr, $parameter:expr) => {{
+        let Problem { length, material, damping, top: _, gravity, start, run } = $problem;
+        match ($parameter, material, start, run) {
+            (Parameter::Length, ..) => Some(length),
+            (Parameter::Damping, ..) => damping.into(),
+            (Parameter::Gravity, ..) => gravity.into(),
+            (Parameter::Area, Material::Elastic { area, .. }, ..) => area.into(),
+            (Parameter::WaveSpeed, Material::WaveSpeed(number), ..)
+            | (Parameter::Modulus, Material::Elastic { modulus: number, .. }, ..)
+            | (Parameter::Density, Material::Elastic { density: number, .. }, ..)
+            | (Parameter::ImpactSpeed, _, Start::Uniform(Speed::Given(number)), _)
+            | (Parameter::ImpactSpeed, _, Start::Above { speed: number, .. }, _)
+            | (Parameter::DropHeight, _, Start::Uniform(Speed::DropHeight(number)), _)
+            | (Parameter::Gap, _, Start::Above { gap: number, .. }, _)
+            | (Parameter::Time, .., Run::Time(number)) => Some(number),
+            _ => None,
+        }
+    }};
+}
+
+impl Parameter {
+    /// Returns the number that `problem` gives for this parameter; `None` where it gives none.
+    ///
+    /// ```
+    /// use dalembert::{Parameter, Problem};
+    /// let rod = Problem::builder().length(2).wave_speed(1).impact_speed("1/3").build()?;
+    /// assert_eq!(Parameter::ImpactSpeed.given(&rod).map(|speed| speed.to_string()).as_deref(), Some("1/3"));
+    /// assert_eq!(Parameter::Modulus.given(&rod), None);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn given(self, problem: &Problem) -> Option<Number> {
+        match (self, &problem.run) {
+            (Parameter::Impacts, Run::Impacts(impacts)) => Some(i64::from(*impacts).into()),
+            _ => number_of!(problem, self).cloned(),
+        }
+    }
+
+    /// Returns the number that `problem` gives for this parameter, to be replaced.
+    pub(super) fn given_mut(self, problem: &mut Problem) -> Option<&mut Number> {
+        number_of!(problem, self)
+    }
+}
+
+impl Draft {
+    /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
+    pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
+        let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
+        let length = self.required(Parameter::Length)?;
+        let material = self.material()?;
+        let damping = self.non_negative(Parameter::Damping)?;
+        let gravity = self.non_negative(Parameter::Gravity)?;
+
+        let t1 = material.round_trip(length.number);
+        length.makes("the round trip 2L/c = ", t1, UNITS, "one")?;
+        let g = gravity.as_ref().map_or(0.0, |g| g.number.to_f64());
+        if let Some(gravity) = &gravity {
+            gravity.makes("g t₁ = ", g * t1, UNITS, "a speed")?;
+        }
+        if let Some(damping) = &damping {
+            damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
+        }
+        Ok(Problem {
+            start: self.start(length.number, t1, g)?,
+            run: self.run(t1)?,
+            length: length.number.clone(),
+            material,
+            damping: number(&damping),
+            top: self.top.unwrap_or_default(),
+            gravity: number(&gravity),
+        })
     }
 }

@@ -13,7 +13,7 @@ pub(crate) mod written;
 
 pub use crate::error::{ProblemError, ProblemErrorKind};
 pub use builder::Builder;
-pub use definition::{Material, Problem, Profile, Rod, Run, Speed, Start, Top};
+pub use definition::{Material, Problem, Profile, Run, Speed, Start, Top};
 pub use parameter::Parameter;
 pub use parameters::{Dimensionless, Parameters};
 

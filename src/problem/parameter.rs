@@ -4,7 +4,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Builder, Material, Problem, Run, Speed, Start, Written};
+use super::{Builder, Problem, Start, Written};
 use crate::names::{UnknownName, nearest};
 use crate::number::Number;
 
@@ -14,12 +14,17 @@ struct Names {
     path: &'static str,
     /// The name of the setter of the [`Builder`] and of the field in Python.
     field: &'static str,
+    /// The kind of value, with its article, in messages.
+    noun: &'static str,
     /// Words for it that are no names, in lower case: a message suggests the name in their place.
     synonyms: &'static [&'static str],
 }
 
 macro_rules! parameters {
-    ($($(#[doc = $doc:literal])+ $kind:ident $parameter:ident: $path:literal, $field:ident, $synonyms:tt;)+) => {
+    ($(
+        $(#[doc = $doc:literal])+
+        $kind:ident $parameter:ident: $path:literal, $field:ident, $noun:literal, $synonyms:tt;
+    )+) => {
         /// A parameter of a problem. Derivatives are taken by it, sweeps vary it, and data are fitted with it.
         ///
         /// ```
@@ -49,14 +54,17 @@ macro_rules! parameters {
             const fn names(self) -> Names {
                 match self {
                     $(Parameter::$parameter => {
-                        Names { path: $path, field: stringify!($field), synonyms: &$synonyms }
+                        Names { path: $path, field: stringify!($field), noun: $noun, synonyms: &$synonyms }
                     })+
                     Parameter::Displacement(_) => Names {
                         path: "start.displacement",
                         field: "displacement",
+                        noun: "a displacement",
                         synonyms: &["u", "v", "deformation", "position"],
                     },
-                    Parameter::Velocity(_) => Names { path: "start.velocity", field: "velocity", synonyms: &[] },
+                    Parameter::Velocity(_) => {
+                        Names { path: "start.velocity", field: "velocity", noun: "a velocity", synonyms: &[] }
+                    }
                 }
             }
         }
@@ -78,36 +86,36 @@ macro_rules! parameters {
 
 parameters! {
     /// `L > 0`: the length.
-    number Length: "rod.length", length, ["l", "size"];
+    number Length: "rod.length", length, "a length", ["l", "size"];
     /// `c > 0`: the wave speed. Either this or the [`material`](Builder::material).
-    number WaveSpeed: "rod.wave_speed", wave_speed,
+    number WaveSpeed: "rod.wave_speed", wave_speed, "a wave speed",
         ["c", "c0", "sound_speed", "speed_of_sound", "wave_velocity"];
     /// `E > 0`: Young's modulus, with the density in place of the wave speed: `c = √(E/ρ)`.
-    number Modulus: "rod.modulus", modulus,
+    number Modulus: "rod.modulus", modulus, "a modulus",
         ["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus", "stiffness"];
     /// `ρ > 0`: the density.
-    number Density: "rod.density", density, ["rho", "ρ", "mass_density"];
+    number Density: "rod.density", density, "a density", ["rho", "ρ", "mass_density"];
     /// `S > 0`: the cross-section; without it forces, impulses and energies are those of a unit of it.
-    number Area: "rod.area", area, ["a", "s", "cross_section", "section"];
+    number Area: "rod.area", area, "an area", ["a", "s", "cross_section", "section"];
     /// `r ≥ 0`: the damping; without it none.
-    number Damping: "rod.damping", damping, ["r", "damping_ratio", "friction"];
+    number Damping: "rod.damping", damping, "a damping", ["r", "damping_ratio", "friction"];
     /// The end `x = L`, free or fixed.
-    choice Top: "rod.top", top, ["clamped", "fixed", "fixed_top", "end", "boundary", "support"];
+    choice Top: "rod.top", top, "a top", ["clamped", "fixed", "fixed_top", "end", "boundary", "support"];
     /// `μ > 0`: the speed with which the undeformed rod hits the ground at `t = 0`; with a [`gap`](Builder::gap)
     /// its speed downwards at `t = 0`, which may be zero under gravity.
-    number ImpactSpeed: "impact.speed", impact_speed,
+    number ImpactSpeed: "impact.speed", impact_speed, "a speed",
         ["mu", "μ", "µ", "v0", "impact_speed", "impact_velocity", "initial_velocity"];
     /// The undeformed rod starts this far above the ground, and `t = 0` is that start, not the first touch.
-    number Gap: "impact.gap", gap, ["clearance", "distance", "initial_gap", "jeu", "d0"];
+    number Gap: "impact.gap", gap, "a gap", ["clearance", "distance", "initial_gap", "jeu", "d0"];
     /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over
     /// at `t = 0`, the first touch.
-    number DropHeight: "impact.drop_height", drop_height, ["h", "height", "fall_height"];
+    number DropHeight: "impact.drop_height", drop_height, "a drop height", ["h", "height", "fall_height"];
     /// `g ≥ 0`: the acceleration of gravity; without it none.
-    number Gravity: "gravity.acceleration", gravity, ["g"];
+    number Gravity: "gravity.acceleration", gravity, "an acceleration", ["g"];
     /// The time up to which to follow the motion, which is included.
-    number Time: "run.time", time, ["t", "t_end", "end_time", "duration", "until"];
+    number Time: "run.time", time, "a time", ["t", "t_end", "end_time", "duration", "until"];
     /// The number of contacts to follow, each with the flight after it; without it and without a `time`, one.
-    number Impacts: "run.impacts", impacts, ["n", "bounces", "contacts", "hits"];
+    number Impacts: "run.impacts", impacts, "a number of impacts", ["n", "bounces", "contacts", "hits"];
 }
 
 impl Parameter {
@@ -120,6 +128,11 @@ impl Parameter {
     /// for one of its points.
     pub fn name(self) -> &'static str {
         self.names().field
+    }
+
+    /// Returns the kind of value, with its article: `a length`.
+    pub(super) fn noun(self) -> &'static str {
+        self.names().noun
     }
 
     /// Returns the table and the key of the path: `impact` and `speed`.
@@ -140,40 +153,6 @@ impl Parameter {
     /// Returns the parameters that are one number.
     pub fn numbers() -> impl Iterator<Item = Parameter> + Clone {
         Parameter::ALL.iter().copied().filter(|parameter| parameter.is_number())
-    }
-
-    /// Returns the number that `problem` gives for this parameter; `None` where it gives none.
-    ///
-    /// ```
-    /// use dalembert::{Parameter, Problem};
-    /// let rod = Problem::builder().length(2).wave_speed(1).impact_speed("1/3").build()?;
-    /// assert_eq!(Parameter::ImpactSpeed.given(&rod).map(|speed| speed.to_string()).as_deref(), Some("1/3"));
-    /// assert_eq!(Parameter::Modulus.given(&rod), None);
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
-    /// ```
-    pub fn given(self, problem: &Problem) -> Option<Number> {
-        let Problem { rod, gravity, start, run } = problem;
-        let given = match (self, &rod.material, start, run) {
-            (Parameter::Impacts, .., Run::Impacts(impacts)) => return Some(i64::from(*impacts).into()),
-            (Parameter::Length, ..) => Some(&rod.length),
-            (Parameter::Damping, ..) => rod.damping.as_ref(),
-            (Parameter::Gravity, ..) => gravity.as_ref(),
-            (Parameter::Area, Material::Elastic { area, .. }, ..) => area.as_ref(),
-            (Parameter::WaveSpeed, Material::WaveSpeed(number), ..)
-            | (Parameter::Modulus, Material::Elastic { modulus: number, .. }, ..)
-            | (Parameter::Density, Material::Elastic { density: number, .. }, ..)
-            | (
-                Parameter::ImpactSpeed,
-                _,
-                Start::Uniform(Speed::Given(number)) | Start::Above { speed: number, .. },
-                _,
-            )
-            | (Parameter::DropHeight, _, Start::Uniform(Speed::DropHeight(number)), _)
-            | (Parameter::Gap, _, Start::Above { gap: number, .. }, _)
-            | (Parameter::Time, .., Run::Time(number)) => Some(number),
-            _ => None,
-        };
-        given.cloned()
     }
 
     /// Returns the points `(x, value)` of the list that this parameter is, or is a point of; `None` where `problem` has

@@ -33,10 +33,10 @@ impl<S: Scalar> Parameters<S> {
             Some(root) => Ok(root),
             None => Err(Error::Irrational { quantity, square: square.text() }),
         };
-        let length = lift(&problem.rod.length);
+        let length = lift(&problem.length);
         let or_zero = |n: &Option<Number>| n.as_ref().map_or_else(|| length.zero(), lift);
         let gravity = or_zero(&problem.gravity);
-        let wave_speed = match &problem.rod.material {
+        let wave_speed = match &problem.material {
             Material::WaveSpeed(c) => lift(c),
             Material::Elastic { modulus, density, .. } => root("wave speed", lift(modulus) / lift(density))?,
         };
@@ -45,7 +45,7 @@ impl<S: Scalar> Parameters<S> {
             Start::Uniform(Speed::DropHeight(h)) => root("impact speed", gravity.int(2) * &gravity * lift(h))?,
             Start::Profile(_) => length.zero(),
         };
-        Ok(Parameters { damping: or_zero(&problem.rod.damping), length, wave_speed, gravity, speed })
+        Ok(Parameters { damping: or_zero(&problem.damping), length, wave_speed, gravity, speed })
     }
 
     /// `t₁ = 2L/c`: the round trip.
@@ -94,15 +94,15 @@ impl Problem {
     /// ```
     pub fn dimensionless(&self) -> Dimensionless {
         let or_zero = |n: &Option<Number>| n.as_ref().map_or(0.0, Number::to_f64);
-        let (t1, g) = (self.rod.round_trip(), or_zero(&self.gravity));
+        let (t1, g) = (self.material.round_trip(&self.length), or_zero(&self.gravity));
         let speed = match &self.start {
             Start::Uniform(speed) => Some(speed.value(g)),
-            Start::Above { gap, speed } if self.rod.damping.is_none() && self.rod.top == Top::Free => {
+            Start::Above { gap, speed } if self.damping.is_none() && self.top == Top::Free => {
                 Some(touch_speed(gap, speed, g))
             }
             Start::Above { .. } | Start::Profile(_) => None,
         };
-        Dimensionless { damping_ratio: or_zero(&self.rod.damping) * t1, speed_ratio: speed.map(|mu| mu / (g * t1)) }
+        Dimensionless { damping_ratio: or_zero(&self.damping) * t1, speed_ratio: speed.map(|mu| mu / (g * t1)) }
     }
 }
 
@@ -125,14 +125,14 @@ impl<S: Answer> Parameters<S> {
     }
 }
 
-impl super::Rod {
-    /// `t₁ = 2L/c` in double precision.
-    pub(super) fn round_trip(&self) -> f64 {
-        let wave_speed = match &self.material {
+impl Material {
+    /// `t₁ = 2L/c` of a rod of this length, in double precision.
+    pub(super) fn round_trip(&self, length: &Number) -> f64 {
+        let wave_speed = match self {
             Material::WaveSpeed(c) => c.to_f64(),
             Material::Elastic { modulus, density, .. } => (modulus.to_f64() / density.to_f64()).sqrt(),
         };
-        2.0 * self.length.to_f64() / wave_speed
+        2.0 * length.to_f64() / wave_speed
     }
 }
 

@@ -1,5 +1,6 @@
 //! The checks of a start that is linear between points.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use super::given::{ByParameter, Given, UNITS, range, within};
@@ -26,22 +27,6 @@ pub(super) fn check(given: &ByParameter<Points>, length: &Number) -> Result<Prof
     Ok(Profile { displacement: read(Parameter::Displacement(None))?, velocity: read(Parameter::Velocity(None))? })
 }
 
-/// Whether each list of a profile that was put together by hand is empty or reaches over the whole rod.
-pub(crate) fn spans(profile: &Profile, length: &Number) -> Result<(), ProblemError> {
-    for (key, list) in [("displacement", &profile.displacement), ("velocity", &profile.velocity)] {
-        let whole = match list.as_slice() {
-            [] => true,
-            [(first, _), .., (last, _)] => first.is_zero() && last.compare(length).is_eq(),
-            [_] => false,
-        };
-        if !whole {
-            let (path, found) = (format!("start.{key}"), format!("{} points of the {key}", list.len()));
-            return Err(ProblemError::new(Kind::Profile, &path, found, format!("2 to {MAX_POINTS} {SHAPE}")));
-        }
-    }
-    Ok(())
-}
-
 /// The points of one function on the whole rod.
 fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Number)>, ProblemError> {
     if !(2..=MAX_POINTS).contains(&points.len()) {
@@ -57,16 +42,14 @@ fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Numb
                     (format!("the displacement {} at x = 0", v.shown), "zero or more: the ground is at zero");
                 return Err(ProblemError::new(Kind::OutOfRange, "v", found, expected));
             }
-            let place = place(&kept, number, before, key == "velocity", length).and_then(|place| {
-                let ends = i + 1 < points.len() || place.compare(length).is_eq();
-                if ends {
-                    Ok(place)
-                } else {
-                    Err(format!("the last point at the length {}", short(&length.to_string())))
-                }
-            });
-            let found = || format!("the point x = {} of the {key}", x.shown);
-            Ok((place.map_err(|expected| ProblemError::new(Kind::Profile, "x", found(), expected))?, value.clone()))
+            let misplaced = |expected: Cow<'static, str>| {
+                ProblemError::new(Kind::Profile, "x", format!("the point x = {} of the {key}", x.shown), expected)
+            };
+            let place = place(&kept, number, before, key == "velocity", length).map_err(misplaced)?;
+            if i + 1 == points.len() && place.compare(length).is_ne() {
+                return Err(misplaced(format!("the last point at the length {}", short(&length.to_string())).into()));
+            }
+            Ok((place, value.clone()))
         });
         kept.push(checked.map_err(|error| ProblemError { path: format!("start.{key}[{i}].{}", error.path), ..error })?);
     }
@@ -93,16 +76,16 @@ fn place(
     before: &str,
     may_jump: bool,
     length: &Number,
-) -> Result<Number, String> {
+) -> Result<Number, Cow<'static, str>> {
     let Some((last, _)) = kept.last() else {
         return if x.is_zero() { Ok(x.clone()) } else { Err("the first point at x = 0".into()) };
     };
     let against_length = x.compare(length);
     if against_length.is_gt() {
-        return Err(format!("a point within the length {}", short(&length.to_string())));
+        return Err(format!("a point within the length {}", short(&length.to_string())).into());
     }
     match x.compare(last) {
-        Ordering::Less => Err(format!("one beyond x = {before}, the point before it")),
+        Ordering::Less => Err(format!("one beyond x = {before}, the point before it").into()),
         Ordering::Equal if !may_jump => Err("each x once: a displacement has no jump".into()),
         Ordering::Equal if x.is_zero() || against_length.is_eq() => Err("a jump inside the rod, not at its end".into()),
         Ordering::Equal if kept.iter().rev().nth(1).is_some_and(|(b, _)| b.compare(x).is_eq()) => {
@@ -110,7 +93,7 @@ fn place(
         }
         Ordering::Equal => Ok(last.clone()),
         Ordering::Greater if x.to_f64() - last.to_f64() < MIN_SPACING * length.to_f64() => {
-            Err(format!("points at least {MIN_SPACING:e} of the length apart"))
+            Err(format!("points at least {MIN_SPACING:e} of the length apart").into())
         }
         Ordering::Greater => Ok(if against_length.is_eq() { length.clone() } else { x.clone() }),
     }

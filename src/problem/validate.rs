@@ -3,14 +3,12 @@
 use super::given::{ByParameter, Given, UNITS, range, within};
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
-use super::{
-    Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Rod, Run, Speed, Start, Top, Written,
-};
+use super::{Material, Parameter, ProblemError, ProblemErrorKind as Kind, Run, Speed, Start, Top, Written};
 use crate::number::Number;
 
 pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap, Parameter::DropHeight];
 
-const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
+pub(super) const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 const MAX_ROUND_TRIPS: f64 = 1e12;
 const MAX_IMPACTS: u32 = 10_000_000;
@@ -30,35 +28,11 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
-    pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
-        let length = self.required(Parameter::Length, "a length")?;
-        let material = self.material()?;
-        let damping = self.non_negative(Parameter::Damping, "a damping")?;
-        let gravity = self.non_negative(Parameter::Gravity, "an acceleration")?;
-        let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
-        let (top, damping_number) = (self.top.unwrap_or_default(), number(&damping));
-        let rod = Rod { length: length.number.clone(), material, damping: damping_number, top };
-
-        let t1 = rod.round_trip();
-        length.makes("the round trip 2L/c = ", t1, UNITS, "one")?;
-        let g = gravity.as_ref().map_or(0.0, |g| g.number.to_f64());
-        if let Some(gravity) = &gravity {
-            gravity.makes("g t₁ = ", g * t1, UNITS, "a speed")?;
-        }
-        if let Some(damping) = &damping {
-            damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
-        }
-        let start = self.start(&rod.length, t1, g)?;
-        let run = self.run(t1)?;
-        Ok(Problem { rod, gravity: number(&gravity), start, run })
-    }
-
-    fn material(&self) -> Result<Material, ProblemError> {
+    pub(super) fn material(&self) -> Result<Material, ProblemError> {
         const EITHER: &str = "wave_speed, or a material: modulus and density";
         let first =
             [Parameter::Modulus, Parameter::Density, Parameter::Area].into_iter().find(|other| self.has(*other));
-        match (self.positive(Parameter::WaveSpeed, "a wave speed")?, first) {
+        match (self.positive(Parameter::WaveSpeed)?, first) {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
             (Some(_), Some(other)) => {
                 let found = format!("{} as well as wave_speed", self.name(other));
@@ -67,17 +41,17 @@ impl Draft {
             (None, None) => return Err(ProblemError::new(Kind::Missing, "rod", "no wave speed", EITHER)),
             (None, Some(_)) => {}
         }
-        let modulus = self.required(Parameter::Modulus, "a modulus")?.number.clone();
-        let density = self.required(Parameter::Density, "a density")?.number.clone();
-        let area = self.positive(Parameter::Area, "an area")?.map(|area| area.number.clone());
+        let modulus = self.required(Parameter::Modulus)?.number.clone();
+        let density = self.required(Parameter::Density)?.number.clone();
+        let area = self.positive(Parameter::Area)?.map(|area| area.number.clone());
         Ok(Material::Elastic { modulus, density, area })
     }
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
-    fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
+    pub(super) fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
         let impact = IMPACT.iter().any(|parameter| self.has(*parameter));
         match (impact, !self.profiles.is_empty()) {
-            (true, false) => match self.non_negative(Parameter::Gap, "a gap")? {
+            (true, false) => match self.non_negative(Parameter::Gap)? {
                 Some(gap) => self.above(&gap, t1, g),
                 None => self.impact(t1, g).map(Start::Uniform),
             },
@@ -120,7 +94,7 @@ impl Draft {
                 expected,
             ));
         }
-        let speed = match self.non_negative(Parameter::ImpactSpeed, "a speed")? {
+        let speed = match self.non_negative(Parameter::ImpactSpeed)? {
             None if g == 0.0 => {
                 let gravity = self.word("[gravity] with an acceleration above zero", "a gravity above zero");
                 let expected = format!("a speed above zero, or {gravity}: otherwise nothing moves");
@@ -146,8 +120,8 @@ impl Draft {
 
     fn impact(&self, t1: f64, g: f64) -> Result<Speed, ProblemError> {
         let key = self.name(Parameter::ImpactSpeed);
-        let given = self.positive(Parameter::ImpactSpeed, "an impact speed")?;
-        let height = self.positive(Parameter::DropHeight, "a drop height")?;
+        let given = self.given(Parameter::ImpactSpeed)?.map(|given| given.positive("an impact speed")).transpose()?;
+        let height = self.positive(Parameter::DropHeight)?;
         let (given, speed) = match (given, height) {
             (Some(given), None) => (Speed::Given(given.number.clone()), given),
             (None, Some(height)) if g > 0.0 => (Speed::DropHeight(height.number.clone()), height),
@@ -171,8 +145,8 @@ impl Draft {
         Ok(given)
     }
 
-    fn run(&self, t1: f64) -> Result<Run, ProblemError> {
-        if let Some(time) = self.positive(Parameter::Time, "a time")? {
+    pub(super) fn run(&self, t1: f64) -> Result<Run, ProblemError> {
+        if let Some(time) = self.positive(Parameter::Time)? {
             if self.has(Parameter::Impacts) {
                 let (found, expected) = ("impacts as well as time", "either time or impacts");
                 return Err(ProblemError::new(Kind::Contradiction, Parameter::Impacts.path(), found, expected));
@@ -210,27 +184,28 @@ impl Draft {
     }
 
     /// A value above zero, if it is given.
-    fn positive(&self, parameter: Parameter, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
-        self.given(parameter)?.map(|given| given.positive(what)).transpose()
+    pub(super) fn positive(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
+        self.given(parameter)?.map(|given| given.positive(parameter.noun())).transpose()
     }
 
-    fn required(&self, parameter: Parameter, what: &str) -> Result<Given<'_>, ProblemError> {
-        self.positive(parameter, what)?.ok_or_else(|| {
-            let (found, expected) = (format!("no {}", self.name(parameter)), format!("{what} above zero"));
+    pub(super) fn required(&self, parameter: Parameter) -> Result<Given<'_>, ProblemError> {
+        self.positive(parameter)?.ok_or_else(|| {
+            let (found, expected) =
+                (format!("no {}", self.name(parameter)), format!("{} above zero", parameter.noun()));
             ProblemError::new(Kind::Missing, "rod", found, expected)
         })
     }
 
     /// A value that is not negative, if it is given and not zero.
-    fn non_negative(&self, parameter: Parameter, what: &str) -> Result<Option<Given<'_>>, ProblemError> {
+    pub(super) fn non_negative(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
         let Some(given) = self.given(parameter)? else { return Ok(None) };
         let x = given.number.to_f64();
         if x < 0.0 {
-            return Err(given.error(Kind::OutOfRange, "", format!("{what} of zero or more")));
+            return Err(given.error(Kind::OutOfRange, "", format!("{} of zero or more", parameter.noun())));
         }
         // A damping is held to the range of r t₁ alone: weak ones are asked for on purpose.
         if x > 0.0 && parameter != Parameter::Damping && !within(x, UNITS) {
-            return Err(given.error(Kind::OutOfRange, "", format!("zero or {what} {}", range(UNITS))));
+            return Err(given.error(Kind::OutOfRange, "", format!("zero or {} {}", parameter.noun(), range(UNITS))));
         }
         Ok(Some(given).filter(|_| x > 0.0))
     }

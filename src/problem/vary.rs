@@ -1,6 +1,6 @@
 //! A problem with other values: what a derivative is taken by, and what a fit turns.
 
-use super::{Material, Parameter, Parameters, Problem, Profile, Rod, Speed, Start};
+use super::{Material, Parameter, Parameters, Problem, Profile, Speed, Start};
 use super::{ProblemError, given::Given};
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
@@ -18,7 +18,7 @@ impl Parameter {
     pub(crate) fn only_grows(self, problem: &Problem) -> bool {
         let zero = |number: Option<&Number>| number.is_none_or(Number::is_zero);
         match (self, &problem.start) {
-            (Parameter::Damping, _) => zero(problem.rod.damping.as_ref()),
+            (Parameter::Damping, _) => zero(problem.damping.as_ref()),
             (Parameter::Gravity, _) => zero(problem.gravity.as_ref()),
             (Parameter::ImpactSpeed, Start::Above { speed, .. }) => speed.is_zero(),
             // The end is on the ground.
@@ -63,22 +63,22 @@ impl Parameter {
     /// The number that it is, or whose root it is, zero where nothing is given; `None` where no problem of this kind
     /// has one.
     fn number(self, problem: &mut Problem) -> Option<&mut Number> {
-        let Rod { length, material, damping, .. } = &mut problem.rod;
-        match (self, material, &mut problem.start) {
-            (Parameter::Length, ..) => Some(length),
-            (Parameter::Damping, ..) => Some(damping.get_or_insert(0.into())),
-            (Parameter::Gravity, ..) => Some(problem.gravity.get_or_insert(0.into())),
-            (Parameter::WaveSpeed, Material::WaveSpeed(value), _)
-            | (Parameter::WaveSpeed | Parameter::Modulus, Material::Elastic { modulus: value, .. }, _)
-            | (Parameter::Density, Material::Elastic { density: value, .. }, _)
-            | (Parameter::Gap, _, Start::Above { gap: value, .. })
-            | (Parameter::ImpactSpeed, _, Start::Uniform(Speed::Given(value) | Speed::DropHeight(value)))
-            | (Parameter::ImpactSpeed, _, Start::Above { speed: value, .. }) => Some(value),
-            (Parameter::Displacement(Some(k)), _, Start::Profile(Profile { displacement: list, .. }))
-            | (Parameter::Velocity(Some(k)), _, Start::Profile(Profile { velocity: list, .. })) => {
+        let held = match (self, &problem.material, &problem.start) {
+            // Nothing of the motion up to its end depends on these alone.
+            (Parameter::Area | Parameter::DropHeight | Parameter::Time, ..) => return None,
+            (Parameter::WaveSpeed, Material::Elastic { .. }, _) => Parameter::Modulus,
+            (Parameter::ImpactSpeed, _, Start::Uniform(Speed::DropHeight(_))) => Parameter::DropHeight,
+            _ => self,
+        };
+        match self {
+            Parameter::Damping => Some(problem.damping.get_or_insert(0.into())),
+            Parameter::Gravity => Some(problem.gravity.get_or_insert(0.into())),
+            Parameter::Displacement(Some(k)) | Parameter::Velocity(Some(k)) => {
+                let Start::Profile(Profile { displacement, velocity }) = &mut problem.start else { return None };
+                let list = if matches!(self, Parameter::Displacement(_)) { displacement } else { velocity };
                 list.get_mut(k).map(|(_, value)| value)
             }
-            _ => None,
+            _ => held.given_mut(problem),
         }
     }
 
@@ -119,7 +119,7 @@ impl Parameter {
     /// The power of it that the problem has, and that [`Parameter::moved`] moves.
     pub(crate) fn power(self, problem: &Problem) -> i64 {
         let square = match self {
-            Parameter::WaveSpeed => matches!(problem.rod.material, Material::Elastic { .. }),
+            Parameter::WaveSpeed => matches!(problem.material, Material::Elastic { .. }),
             Parameter::ImpactSpeed => matches!(problem.start, Start::Uniform(Speed::DropHeight(_))),
             _ => false,
         };

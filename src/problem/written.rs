@@ -35,6 +35,12 @@ impl From<&str> for Written {
     }
 }
 
+impl From<String> for Written {
+    fn from(text: String) -> Self {
+        text.as_str().into()
+    }
+}
+
 impl From<Number> for Written {
     fn from(number: Number) -> Self {
         Written { shown: short(&number.to_string()), number: Ok(number) }

@@ -6,7 +6,7 @@ use super::restitution::{Undefined, energy_shares, flights, restitution};
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::motion::{EventKind, Motion};
+use crate::motion::{Contact, Ending, EventKind, Motion};
 use crate::number::Scalar;
 
 /// A table that a history lists.
@@ -120,7 +120,13 @@ impl Source {
                 ends.take(motion.contacts().len()).map(|(impact, release)| vec![impact, release]).collect()
             }
             Source::Push => {
-                motion.contacts().iter().map(|contact| known(&[&contact.impulse, &contact.peak_strain])).collect()
+                // A contact that lasts is counted up to the requested time, not to where a run happens to stop.
+                let counted = |end: &Option<S>| end.is_some() || *motion.ending() == Ending::Time;
+                let push = |contact: &Contact<S>| match counted(&contact.release) {
+                    true => known(&[&contact.impulse, &contact.peak_strain]),
+                    false => vec![Err(Undefined::Unfinished), Err(Undefined::Unfinished)],
+                };
+                motion.contacts().iter().map(push).collect()
             }
             Source::Flight => flights(motion)?
                 .into_iter()

@@ -141,7 +141,7 @@ impl Default for Units {
 impl Units {
     /// The units of `problem`, whose numbers are in `system`.
     pub fn of(problem: &Problem, system: UnitSystem) -> Self {
-        Units { material: problem.rod.material.clone(), system }
+        Units { material: problem.material().clone(), system }
     }
 
     /// Whether the scene gives modulus and density.

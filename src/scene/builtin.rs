@@ -61,7 +61,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// ```
 /// use dalembert::{Scene, builtin};
 /// let scene = Scene::parse(builtin::get("paper-strong").unwrap().source)?;
-/// assert_eq!(scene.problem.rod.length.to_f64(), 1.0);
+/// assert_eq!(scene.problem.length().to_f64(), 1.0);
 /// # Ok::<(), dalembert::SceneError>(())
 /// ```
 pub fn get(name: &str) -> Option<&'static Builtin> {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Scene;
 use crate::number::Number;
 use crate::problem::written::short;
-use crate::problem::{Material, Problem, Run, Start, Top};
+use crate::problem::{Material, Run, Start, Top};
 
 /// An effect that the solver knows. One that a scene does not call for costs it nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, strum::Display, strum::IntoStaticStr)]
@@ -104,9 +104,9 @@ impl Scene {
 
     /// Returns whether the scene calls for `effect`, and the line that does.
     pub fn effect(&self, effect: Effect) -> EffectUse {
-        let Problem { rod, start, gravity, run } = &self.problem;
+        let problem = &self.problem;
         let shown = |key: &str, number: &Number| format!("{key} = {}", short(&number.to_string()));
-        let profile = match start {
+        let profile = match problem.start() {
             Start::Profile(profile) => Some(profile),
             Start::Uniform(_) | Start::Above { .. } => None,
         };
@@ -119,15 +119,15 @@ impl Scene {
             Effect::UnilateralContact => ("", Some("the ground is in every scene".into()), ""),
             Effect::Gravity => (
                 "gravity.acceleration",
-                gravity.as_ref().map(|g| shown("acceleration", g)),
+                problem.gravity().map(|g| shown("acceleration", g)),
                 "no acceleration: flight is straight, and no weight enters the stress",
             ),
             Effect::Damping => (
                 "rod.damping",
-                rod.damping.as_ref().map(|r| shown("damping", r)),
+                problem.damping().map(|r| shown("damping", r)),
                 "no damping: no Bessel function is evaluated, and energy is constant",
             ),
-            Effect::RepeatedImpacts => match run {
+            Effect::RepeatedImpacts => match problem.run() {
                 Run::Impacts(1) => {
                     ("run.impacts", None, "one contact and the flight after it: later impacts are not computed")
                 }
@@ -136,7 +136,7 @@ impl Scene {
             },
             Effect::FixedTop => (
                 "rod.top",
-                (rod.top == Top::Fixed).then(|| "top = \"fixed\"".into()),
+                (problem.top() == Top::Fixed).then(|| "top = \"fixed\"".into()),
                 "the top is free: waves come back with the same strain reversed",
             ),
             Effect::InitialGap => {
@@ -158,7 +158,7 @@ impl Scene {
                     None => "the rod starts with one velocity: no velocity profile is carried",
                 },
             ),
-            Effect::SiForces => match &rod.material {
+            Effect::SiForces => match problem.material() {
                 Material::Elastic { area: Some(_), .. } => {
                     ("rod.modulus", Some("modulus, density and area are given".into()), "")
                 }

@@ -132,7 +132,7 @@ impl Scene {
     /// ```
     /// use dalembert::Scene;
     /// let scene = Scene::parse("[rod]\nlength = 0.1\nwave_speed = 1\n[impact]\nspeed = '1/3'\n")?;
-    /// assert_eq!(scene.problem.rod.length.to_string(), "0.1");
+    /// assert_eq!(scene.problem.length().to_string(), "0.1");
     /// assert_eq!(scene.line_of("impact.speed"), Some(5));
     /// # Ok::<(), dalembert::SceneError>(())
     /// ```
@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        let targets = self.targets(matches!(problem.rod.material, Material::Elastic { .. }))?;
+        let targets = self.targets(matches!(problem.material(), Material::Elastic { .. }))?;
         Ok(Scene {
             title,
             units: self.units()?,

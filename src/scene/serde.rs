@@ -15,7 +15,7 @@ fn problem_table(problem: &Problem) -> Table {
     let mut tables = Table::new();
     for parameter in Parameter::ALL.iter().copied() {
         let value = match (parameter, parameter.given(problem), parameter.list(problem)) {
-            (Parameter::Top, ..) if problem.rod.top == Top::Fixed => Value::from("fixed"),
+            (Parameter::Top, ..) if problem.top() == Top::Fixed => Value::from("fixed"),
             // A scene file has a whole number of impacts.
             (Parameter::Impacts, Some(count), _) => Value::from(count.to_f64() as i64),
             (_, Some(number), _) => text(&number),

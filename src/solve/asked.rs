@@ -58,12 +58,12 @@ struct StartRays {
 
 impl StartRays {
     fn of(problem: &Problem) -> Self {
-        let length = problem.rod.length.to_rational();
+        let length = problem.length().to_rational();
         let mut corners = vec![length.zero(), length.clone()];
-        if let Start::Profile(profile) = &problem.start {
+        if let Start::Profile(profile) = problem.start() {
             corners.extend(profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_rational()));
         }
-        let wave_speed = match &problem.rod.material {
+        let wave_speed = match problem.material() {
             Material::WaveSpeed(speed) => Some(speed.to_rational()),
             Material::Elastic { modulus, density, .. } => (modulus.to_rational() / density.to_rational()).try_sqrt(),
         };
@@ -203,7 +203,8 @@ impl<S: Rounded> Telling<S> {
         locked(&self.covered).push(time.to_f64());
         let mut found: Option<T> = None;
         for met in met {
-            let late = met.double(met.bound() + time.bound());
+            // The spelled time is within its bound of `time`, which is within both bounds of `met`.
+            let late = met.double(met.bound() + 2.0 * time.bound());
             let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
             let [before, after] = [exactly(met.clone() - &late), exactly(met.clone() + &late)];
             for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)]

@@ -41,7 +41,7 @@ pub(super) fn bits_lost(problem: &Problem, end: f64) -> f64 {
     let (mut time, mut lost) = (end.min(4.0 * rod.round_trip()), 0.0);
     loop {
         let Ok(number) = time.to_string().parse::<Number>() else { return lost };
-        let part = Problem { run: Run::Time(number), ..problem.clone() };
+        let part = problem.shortened(Run::Time(number));
         let limits = Limits::keeping_from(problem, time);
         let Ok(history) = Undamped::<Estimate<f64>>::solve_within(&part, &(), limits, &unobserved) else { return lost };
         let found = history.ground().relative_error.max(1.0).log2();

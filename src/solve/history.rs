@@ -405,7 +405,7 @@ impl History {
     /// Returns one number, or the reason of its absence.
     pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
         typed!(self, history => {
-            let run = &self.problem().run;
+            let run = self.problem().run();
             let found = history.ask(
                 |motion| one.of(motion, &self.units, run),
                 |found| found.iter().map(|[_, plain]| plain).collect(),

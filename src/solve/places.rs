@@ -38,7 +38,13 @@ impl Places<'_> {
         let precision = end.precision();
         Ok(match self {
             Places::Part(list, part) => list.lift_part(part.clone(), &precision),
-            Places::Doubles(list) => list.iter().map(|x| end.double(*x)).collect(),
+            Places::Doubles(list) => {
+                // Fractions and enclosures hold no other doubles.
+                if let Some(x) = list.iter().find(|x| !x.is_finite()) {
+                    return Err(Error::TimeOutside { found: x.to_string(), end: end.text() });
+                }
+                list.iter().map(|x| end.double(*x)).collect()
+            }
             Places::Printed(list) if end.as_double().is_none() => {
                 list.iter().map(|x| S::from_number(x, &precision)).collect()
             }

@@ -10,7 +10,7 @@ use crate::cells::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
-use crate::problem::{Parameters, Problem, Run, Start, profile};
+use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Warning;
 
 /// The decisions about how to answer a question. No engine and no caller repeats any of them.
@@ -22,7 +22,7 @@ use crate::reason::Warning;
 /// use dalembert::{Engine, Numbers, Plan, Problem, Question};
 /// let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
 /// assert_eq!(Plan::of(&problem, &Question::run(Numbers::default()))?.engine, Engine::Lattice);
-/// problem.rod.damping = "0.1".parse().ok();
+/// problem = problem.to_builder().damping("0.1").build()?;
 /// assert_eq!(Plan::of(&problem, &Question::first_contact(Numbers::default()))?.engine, Engine::ClosedForm);
 /// # Ok::<(), dalembert::Error>(())
 /// ```
@@ -230,12 +230,12 @@ impl Plan {
         let numbers = question.numbers;
         check(problem, numbers)?;
         let reach = match &question.want {
-            Want::Run => match &problem.run {
+            Want::Run => match problem.run() {
                 Run::Impacts(contacts) => Reach::Contacts(*contacts),
                 Run::Time(time) => Reach::Time(time.clone()),
             },
             Want::FirstContact | Want::Bounce => Reach::FirstContact,
-            Want::Between(_, to) if problem.rod.damping.is_some() => Reach::Time(beyond(problem, to)),
+            Want::Between(_, to) if problem.damping().is_some() => Reach::Time(beyond(problem, to)),
             Want::Between(_, to) => Reach::Time(to.clone()),
         };
         let keep_from = match &question.want {
@@ -243,7 +243,7 @@ impl Plan {
             _ => None,
         };
         let single = question.want == Want::Bounce;
-        let engine = match (&problem.rod.damping, problem.has_closed_form()) {
+        let engine = match (problem.damping(), problem.has_closed_form()) {
             // Corollary 1 needs no exact numbers, and its terms need no events.
             (None, true) if single && matches!(numbers, Numbers::Double(_)) => Engine::ClosedForm,
             (None, _) => Engine::Lattice,
@@ -477,7 +477,7 @@ impl Plan {
             Reach::FirstContact => Run::Impacts(1),
             Reach::Time(time) => Run::Time(time.clone()),
         };
-        if problem.run == run { Cow::Borrowed(problem) } else { Cow::Owned(Problem { run, ..problem.clone() }) }
+        if *problem.run() == run { Cow::Borrowed(problem) } else { Cow::Owned(problem.shortened(run)) }
     }
 
     /// Returns the limits of a damped march in the numbers of `rung`. A run that has lost its events is useless if
@@ -584,9 +584,6 @@ const SPARE_DIGITS: u32 = 8;
 const FLOOR_DIGITS: u32 = 30;
 
 fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
-    if let Start::Profile(start) = &problem.start {
-        profile::spans(start, &problem.rod.length)?;
-    }
     let digits = match numbers {
         Numbers::Double(accuracy) => {
             return match accuracy.filter(|accuracy| !(1e-300..=0.1).contains(accuracy)) {
@@ -597,7 +594,7 @@ fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
         Numbers::Exact => None,
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => Some(digits),
     };
-    if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (&problem.rod.damping, numbers) {
+    if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (problem.damping(), numbers) {
         return Err(Error::DampedExact { damping: damping.to_string() });
     }
     if let Some(found) = digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {

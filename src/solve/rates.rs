@@ -173,11 +173,11 @@ fn with_rates<S: Bounded>(
     let data = AtStart::with(problem, &given, &datum);
     let scaled = Scaled::with(problem, &given, data)?;
     let limits = asked.plan.lattice_limits(problem);
-    let history = Undamped::<Dual<S>>::solve_scaled(scaled, &problem.run, limits, &**asked.observe)?;
+    let history = Undamped::<Dual<S>>::solve_scaled(scaled, problem.run(), limits, &**asked.observe)?;
     let mut rows = asked.values(problem, &history)?;
     for row in &mut rows {
         for (number, quantity) in row.iter_mut().zip(asked.quantities) {
-            let power = unit_power(asked.by, *quantity, &problem.rod.material);
+            let power = unit_power(asked.by, *quantity, problem.material());
             if let Some(number) = number.as_mut().filter(|_| power != 0) {
                 *number = number.clone() * Dual::new(value.one(), sign.clone() * value.int(power) / value);
             }

@@ -29,7 +29,7 @@ impl Sensitivity {
         let known = |by: &Parameter| by.value_in::<f64>(problem, &()).is_ok_and(|value| value != 0.0);
         let by = [Parameter::ImpactSpeed, Parameter::Gravity, Parameter::Length].into_iter().find(known)?;
         let value = by.value_in::<f64>(problem, &()).ok()?;
-        let (contacts, until) = match &problem.run {
+        let (contacts, until) = match problem.run() {
             Run::Impacts(contacts) => ((*contacts).min(MEASURED), f64::INFINITY),
             Run::Time(time) => (MEASURED, time.to_f64()),
         };

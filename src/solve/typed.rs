@@ -533,7 +533,7 @@ impl Problem {
 
     /// Solves the problem in fractions, up to the first irrational time. **Accuracy**: *exact*.
     ///
-    /// **Errors**: [`Error::DampedExact`].
+    /// **Errors**: [`Error::DampedExact`]; [`Error::Irrational`] if a parameter is no fraction.
     pub fn exact(&self) -> Result<TypedHistory<crate::number::Rational>, Error> {
         self.answer(&Question::run(Numbers::Exact))
     }

@@ -77,7 +77,7 @@ impl<S: Target> TypedHistory<S> {
         {
             return Err(self.explained(Error::TimeOutside { found: time.to_string(), end: self.end().text() }));
         }
-        let length = &self.problem().rod.length;
+        let length = &self.problem().length();
         if let Some(point) = points.iter().find(|point| point.to_f64() < 0.0 || point.compare(length).is_gt()) {
             return Err(Error::PointOutside { found: point.to_string(), length: length.to_string() });
         }

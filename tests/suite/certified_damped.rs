@@ -4,8 +4,8 @@ use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::quantity::{Needs, Slice, slices};
 use dalembert::{
-    Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Parameters, Problem, Profile, Quantity, Run,
-    Side, Speed, Start, Top, TypedHistory, Warning,
+    Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Parameters, Problem, Quantity, Run, Side,
+    Speed, Start, Top, TypedHistory, Warning,
 };
 
 fn number_of(text: &str) -> Number {
@@ -14,7 +14,7 @@ fn number_of(text: &str) -> Number {
 
 fn rod(damping: &str, speed: &str, gravity: &str, impacts: u32) -> Problem {
     let mut rod = Problem::uniform(1.into(), 1.into(), number_of(gravity), number_of(speed));
-    (rod.rod.damping, rod.run) = (Some(number_of(damping)), Run::Impacts(impacts));
+    rod = rod.to_builder().damping(number_of(damping)).run(Run::Impacts(impacts)).build().unwrap();
     rod
 }
 
@@ -123,19 +123,12 @@ fn all_reference_values_are_proved_to_fifty_digits() {
 
 #[test]
 fn fixed_tops_strained_starts_and_gaps_are_proved() {
-    let strained = |displacement: &[(&str, &str)], velocity: &[(&str, &str)]| {
-        let list = |points: &[(&str, &str)]| points.iter().map(|(x, v)| (number_of(x), number_of(v))).collect();
-        Start::Profile(Profile { displacement: list(displacement), velocity: list(velocity) })
-    };
-    let mut fixed = rod("0.3", "1", "0.5", 1);
-    (fixed.rod.top, fixed.run) = (Top::Fixed, Run::Time(number_of("7.3")));
-    let mut hanging = rod("0.2", "0", "0", 1);
-    hanging.rod.top = Top::Fixed;
-    hanging.start = strained(&[("0", "0.5"), ("1", "0")], &[("0", "0"), ("1", "0")]);
-    hanging.run = Run::Time(number_of("5.1"));
-    let mut bent = rod("0.3", "1", "0.7", 1);
-    bent.start = strained(&[("0", "0"), ("0.3", "-0.1"), ("1", "0.2")], &[("0", "-1"), ("0.7", "-2.5"), ("1", "0.5")]);
-    bent.run = Run::Time(number_of("6.1"));
+    let fixed = rod("0.3", "1", "0.5", 1).to_builder().fixed_top().time("7.3").build().unwrap();
+    let hanging = Problem::builder().length(1).wave_speed(1).damping("0.2").fixed_top().time("5.1");
+    let hanging = hanging.displacement([("0", "0.5"), ("1", "0")]).velocity([("0", "0"), ("1", "0")]).build().unwrap();
+    let bent = rod("0.3", "1", "0.7", 1).to_builder().time("6.1");
+    let bent = bent.displacement([("0", "0"), ("0.3", "-0.1"), ("1", "0.2")]);
+    let bent = bent.velocity([("0", "-1"), ("0.7", "-2.5"), ("1", "0.5")]).build().unwrap();
     let gap = Problem::builder()
         .length(1)
         .wave_speed(3)
@@ -162,9 +155,7 @@ fn fixed_tops_strained_starts_and_gaps_are_proved() {
 fn a_fixed_top_stops_a_rod_in_the_air() {
     let rod = |damping: Option<&str>| {
         let rod = Problem::builder().length("0.4").wave_speed(3).gravity("0.2").impact_speed("0.02").gap("0.06");
-        let mut rod = rod.top(Top::Fixed).time("0.2").build().unwrap();
-        rod.rod.damping = damping.map(number_of);
-        rod
+        rod.top(Top::Fixed).time("0.2").damping(damping.unwrap_or("0")).build().unwrap()
     };
     for time in ["0.05", "0.13", "0.19"] {
         let truth = rod(None).exact().unwrap().energy(number_of(time).to_rational()).unwrap().vibrational.to_f64();
@@ -221,7 +212,7 @@ fn events_that_print_alike_keep_their_own_values() {
 #[test]
 fn enclosed_times_and_points_are_covered() {
     let mut problem = rod("0.3", "3", "1", 3);
-    problem.run = Run::Time(number_of("12"));
+    problem = problem.with_run(Run::Time(number_of("12"))).unwrap();
     let (proved, digits) = (problem.certified(12).unwrap(), problem.digits(30).unwrap());
     let (mut held, mut refused) = (0, 0);
     for k in (1..120).step_by(9) {
@@ -284,7 +275,7 @@ pub(crate) fn any_rod(dice: &mut Random) -> Problem {
                 number_of(&dice.size(-1.0, 1.0)),
                 number_of(&dice.size(3.0, 3.8)),
                 number_of("9.81"),
-                0.into(),
+                1.into(),
             ),
             0.02,
         )
@@ -294,31 +285,35 @@ pub(crate) fn any_rod(dice: &mut Random) -> Problem {
                 number_of(&dice.size(-0.5, 0.5)),
                 number_of(&dice.size(-0.5, 0.5)),
                 number_of(&dice.size(-0.7, 0.3)),
-                0.into(),
+                1.into(),
             ),
             1.0,
         )
     };
-    rod.rod.damping = Some(1.into());
+    rod = rod.to_builder().damping(1).build().unwrap();
     let parameters = Parameters::<f64>::of(&rod, &()).unwrap();
     let trip = parameters.round_trip();
-    rod.rod.damping = Some(number_of(&format!("{:.4e}", 10f64.powf(dice.between(-2.5, 0.3)) / trip)));
+    rod = rod
+        .to_builder()
+        .damping(number_of(&format!("{:.4e}", 10f64.powf(dice.between(-2.5, 0.3)) / trip)))
+        .build()
+        .unwrap();
     let critical = parameters.gravity * trip / unit;
     let speed = format!("{:.5e}", critical * dice.between(0.1, 4.0));
-    rod.start = Start::Uniform(Speed::Given(number_of(&speed)));
+    rod = rod.to_builder().start(Start::Uniform(Speed::Given(number_of(&speed)))).build().unwrap();
     let kind = dice.between(0.0, 1.0);
     if kind < 0.2 {
-        rod.rod.top = Top::Fixed;
+        rod = rod.to_builder().top(Top::Fixed).build().unwrap();
     } else if kind < 0.5 {
-        let (length, strain) = (rod.rod.length.clone(), critical * trip);
+        let (length, strain) = (rod.length().clone(), critical * trip);
         let any = |dice: &mut Random, by: f64| number_of(&format!("{:.4e}", by * dice.between(-1.0, 1.0)));
         let ground =
             if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
         let displacement = vec![(0.into(), ground), (length.clone(), any(dice, 0.2 * strain))];
         let velocity = vec![(0.into(), number_of(&format!("-{speed}"))), (length, any(dice, critical))];
-        rod.start = Start::Profile(Profile { displacement, velocity });
+        rod = rod.to_builder().displacement(displacement).velocity(velocity).build().unwrap();
     }
-    rod.run = Run::Time(number_of(&format!("{:.4e}", trip * dice.between(2.0, 7.0))));
+    rod = rod.with_run(Run::Time(number_of(&format!("{:.4e}", trip * dice.between(2.0, 7.0))))).unwrap();
     rod
 }
 

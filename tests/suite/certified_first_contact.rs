@@ -18,7 +18,7 @@ fn number(text: &str) -> Number {
 /// L, c, r, g, μ.
 fn problem([length, wave_speed, damping, gravity, speed]: [&str; 5]) -> Problem {
     let mut problem = Problem::uniform(number(length), number(wave_speed), number(gravity), number(speed));
-    problem.rod.damping = Some(number(damping)).filter(|r| !r.is_zero());
+    problem = problem.to_builder().damping(number(damping)).build().unwrap();
     problem
 }
 

@@ -76,7 +76,7 @@ fn fifty_digits_of_every_event_of_the_reference() {
 
 fn rod(speed: &str, time: &str) -> Problem {
     let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), speed.parse().unwrap());
-    problem.run = Run::Time(time.parse().unwrap());
+    problem = problem.with_run(Run::Time(time.parse().unwrap())).unwrap();
     problem
 }
 

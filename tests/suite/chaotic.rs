@@ -43,7 +43,8 @@ fn the_loss_is_foreseen() {
     }
     // A periodic history loses next to nothing, however long.
     let mut periodic = chaotic(2000);
-    periodic.start = dalembert::Start::Uniform(dalembert::Speed::Given(3.into()));
+    periodic =
+        periodic.to_builder().start(dalembert::Start::Uniform(dalembert::Speed::Given(3.into()))).build().unwrap();
     let plan = Plan::of(&periodic, &Question::run(Numbers::Digits(15))).unwrap();
     assert!(plan.foreseen_loss < 6.0, "{}", plan.foreseen_loss);
 }

@@ -19,7 +19,7 @@ fn fraction(p: i64, q: i64) -> Rational {
 /// rule with the weights 2/3, −1/3, 2/3 at the quarters is exact.
 fn from_field(rod: &Problem, history: &dalembert::TypedHistory<Rational>, time: &Rational) -> [Rational; 2] {
     let trip = history.rays(0).unwrap()[0].clone();
-    let c = rod.rod.length.to_rational() * 2 / (trip.to.clone() - trip.from);
+    let c = rod.length().to_rational() * 2 / (trip.to.clone() - trip.from);
     let mut sums = [Rational::new(), Rational::new()];
     for pair in cuts(rod, history, time).windows(2) {
         let width = pair[1].clone() - &pair[0];
@@ -95,8 +95,8 @@ fn impulse_is_what_momentum_has_gained() {
         let history = rod.exact().unwrap();
         let times: Vec<Rational> = (0..=40).map(|k| history.end().clone() * fraction(k, 40)).collect();
         let table = history.columns(&[Quantity::Impulse, Quantity::CentreVelocity], &times, Some(Side::Right)).unwrap();
-        let length = rod.rod.length.to_rational();
-        let gravity = rod.gravity.as_ref().map_or_else(Rational::new, Number::to_rational);
+        let length = rod.length().to_rational();
+        let gravity = rod.gravity().map_or_else(Rational::new, Number::to_rational);
         for (k, time) in times.iter().enumerate() {
             let gained = table[1][k].clone() - &table[1][0] + gravity.clone() * time;
             assert_eq!(table[0][k], gained * &length, "{name} at {time}");

@@ -65,9 +65,9 @@ pub(crate) fn problem(case: &Value, run: Run) -> Problem {
         number(&case["impact_speed"]),
     );
     if !case["damping"].is_null() {
-        problem.rod.damping = Some(number(&case["damping"])).filter(|r| !r.is_zero());
+        problem = problem.to_builder().damping(number(&case["damping"])).build().unwrap();
     }
-    problem.run = run;
+    problem = problem.with_run(run).unwrap();
     problem
 }
 
@@ -75,8 +75,7 @@ pub(crate) fn problem(case: &Value, run: Run) -> Problem {
 pub(crate) fn uniform(length: &str, wave_speed: &str, gravity: &str, speed: &str, run: Run) -> Problem {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let mut problem = Problem::uniform(number(length), number(wave_speed), number(gravity), number(speed));
-    problem.start = Start::Uniform(Speed::Given(number(speed)));
-    problem.run = run;
+    problem = problem.to_builder().start(Start::Uniform(Speed::Given(number(speed)))).run(run).build().unwrap();
     problem
 }
 
@@ -92,7 +91,7 @@ pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> TypedHistor
     let number = |x: f64| format!("{x:e}").parse::<Number>().unwrap();
     let mut problem =
         Problem::uniform(number(rod.length), number(rod.wave_speed), number(rod.gravity), number(rod.speed));
-    problem.rod.damping = Some(number(rod.damping)).filter(|r| !r.is_zero());
+    problem = problem.to_builder().damping(number(rod.damping)).build().unwrap();
     to_accuracy(&problem, accuracy)
 }
 

@@ -9,7 +9,7 @@ use dalembert::engine::{
 };
 use dalembert::number::{Bounded, Scalar};
 use dalembert::special::RoundedSpecial;
-use dalembert::{Error, Estimate, Field, Parameters, Problem, Profile, Rational, Run, Side, Start, Top};
+use dalembert::{Error, Estimate, Field, Parameters, Problem, Rational, Run, Side};
 
 /// How many answers have been compared, whose bounds say something.
 #[derive(Default)]
@@ -183,19 +183,15 @@ pub(crate) fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
 pub(crate) fn rod(speed: &str, damping: Option<&str>, run: Run) -> Problem {
     let number = |text: &str| text.parse().unwrap();
     let mut problem = Problem::uniform(number("1"), number("1"), number("1"), number(speed));
-    problem.rod.damping = damping.map(number);
-    problem.run = run;
+    problem = problem.to_builder().damping(damping.map_or(0.into(), number)).run(run).build().unwrap();
     problem
 }
 
 /// Rods without damping: a uniform start, and data with corners under a held top.
 pub(crate) fn undamped() -> [Problem; 2] {
-    let mut held = rod("0", None, Run::Time(7.into()));
-    held.rod.top = Top::Fixed;
-    let points = |list: [(&str, &str); 3]| list.map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).to_vec();
-    let displacement = points([("0", "1/2"), ("1/3", "1/4"), ("1", "0")]);
-    let velocity = points([("0", "-1"), ("1/2", "-1"), ("1", "0")]);
-    held.start = Start::Profile(Profile { displacement, velocity });
+    let mut held = Problem::builder().length(1).wave_speed(1).gravity(1).fixed_top().time(7);
+    held = held.displacement([("0", "1/2"), ("1/3", "1/4"), ("1", "0")]);
+    let held = held.velocity([("0", "-1"), ("1/2", "-1"), ("1", "0")]).build().unwrap();
     [rod("3/2", None, Run::Impacts(3)), held]
 }
 
@@ -219,7 +215,7 @@ fn doubles_conform() {
         let compared = conforms(&lattice::<Estimate<f64>>(&problem, &()));
         assert!(compared > 250, "{compared}");
         let mut damped = problem;
-        damped.rod.damping = "1/10".parse().ok();
+        damped = damped.to_builder().damping("1/10").build().unwrap();
         let compared = conforms(&Damped::<f64>::solve(&damped, &(), 13.0).unwrap());
         assert!(compared > 250, "{compared}");
     }

@@ -11,7 +11,7 @@ use dalembert::{Estimate, Float, Interval, Numbers, Observer, Plan, Problem, Que
 /// The planned engine in the numbers of a rung, read in numbers `S`.
 fn read<S: Target>(problem: &Problem, rung: Rung) -> Arc<dyn Motion<S::Carried>> {
     let question = match rung {
-        Rung::Enclosures(_) if problem.rod.damping.is_some() => Question::first_contact(Numbers::default()),
+        Rung::Enclosures(_) if problem.damping().is_some() => Question::first_contact(Numbers::default()),
         _ => Question::run(Numbers::default()),
     };
     let plan = Plan::of(problem, &question).unwrap();

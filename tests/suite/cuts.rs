@@ -4,7 +4,7 @@ use dalembert::{Problem, Rational};
 
 /// Where rays are in the rod, its ends included.
 pub(crate) fn cuts(rod: &Problem, history: &dalembert::TypedHistory<Rational>, time: &Rational) -> Vec<Rational> {
-    let length = rod.rod.length.to_rational();
+    let length = rod.length().to_rational();
     let trip = history.rays(0).unwrap()[0].clone();
     let c = length.clone() * 2 / (trip.to.clone() - trip.from);
     let mut cuts = vec![Rational::new(), length.clone()];
@@ -14,7 +14,7 @@ pub(crate) fn cuts(rod: &Problem, history: &dalembert::TypedHistory<Rational>, t
         cuts.extend([(time.clone() - ray.from) * &c, (ray.to - time.clone()) * &c]);
     }
     // What the start sends: its own corners go up and down from t = 0.
-    if let dalembert::Start::Profile(profile) = &rod.start {
+    if let dalembert::Start::Profile(profile) = rod.start() {
         for (x, _) in profile.displacement.iter().chain(&profile.velocity) {
             let x = x.to_rational();
             let way = time.clone() * &c;

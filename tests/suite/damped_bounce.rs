@@ -16,9 +16,9 @@ fn scene(random: &mut impl FnMut() -> f64) -> Problem {
     let text = |x: f64| format!("{x:e}");
     let mut problem = uniform(&text(length), &text(c), &text(gravity), &text(speed), Run::Impacts(3));
     if damping > 1e-5 && length > 0.5 {
-        problem.run = Run::Time(text(7.7 * t1).parse::<Number>().unwrap());
+        problem = problem.with_run(Run::Time(text(7.7 * t1).parse::<Number>().unwrap())).unwrap();
     }
-    problem.rod.damping = text(damping).parse().ok();
+    problem = problem.to_builder().damping(text(damping)).build().unwrap();
     problem
 }
 
@@ -105,7 +105,7 @@ fn from_the_bounce_and_from_the_start_agree_within_their_bounds() {
 #[test]
 fn a_question_about_the_first_contact_needs_no_cells() {
     let mut problem = uniform("1", "1", "1", "3", Run::Impacts(10));
-    problem.rod.damping = "0.1".parse().ok();
+    problem = problem.to_builder().damping("0.1").build().unwrap();
     let rod = Parameters::<f64>::of(&problem, &()).unwrap();
     let form = FirstContact::new(&rod.carry());
     let bounce = form.bounce();
@@ -127,7 +127,7 @@ fn answers_carry_their_bounds() {
     use rug::Float;
     for (damping, speed) in [("0.1", "3"), ("0.02", "10"), ("0.3", "5")] {
         let mut problem = uniform("1", "1", "1", speed, Run::Impacts(4));
-        problem.rod.damping = damping.parse().ok();
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let bounce = FirstContact::new(&rod.carry()).bounce();
         let bounded = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).unwrap();

@@ -3,13 +3,11 @@
 use crate::common::{close, number, problem, reference, uniform};
 use crate::stripped::{Stripped, damped as in_cells};
 use dalembert::engine::{Damped, Motion};
-use dalembert::{
-    Ending, Error, EventKind, Material, Number, Problem, Profile, Reason, Rod, Run, Side, Start, Top, Warning,
-};
+use dalembert::{Ending, Error, EventKind, Number, Problem, Reason, Run, Side, Top, Warning};
 
 fn damped(gravity: &str, speed: &str, damping: &str, run: Run) -> Problem {
     let mut problem = uniform("1", "1", gravity, speed, run);
-    problem.rod.damping = damping.parse().ok();
+    problem = problem.to_builder().damping(damping).build().unwrap();
     problem
 }
 
@@ -81,15 +79,10 @@ fn without_damping_the_delay_recursion_holds() {
 
 #[test]
 fn a_fixed_top_with_prestrain_repeats_after_three() {
-    let n = |k: i64| Number::from(k);
-    let profile = Profile { displacement: vec![(n(0), "1/2".parse().unwrap()), (n(1), n(0))], velocity: Vec::new() };
-    for damping in [None, "1e-300".parse().ok(), "1e-12".parse().ok()] {
-        let problem = Problem {
-            rod: Rod { length: n(1), material: Material::WaveSpeed(n(1)), damping, top: Top::Fixed },
-            gravity: None,
-            start: Start::Profile(profile.clone()),
-            run: until(12),
-        };
+    let rod =
+        Problem::builder().length(1).wave_speed(1).fixed_top().displacement([(0, "1/2"), (1, "0")]).run(until(12));
+    for damping in ["0", "1e-300", "1e-12"] {
+        let problem = rod.clone().damping(damping).build().unwrap();
         let history = solve(&problem);
         for (k, pair) in history.events().chunks(2).enumerate() {
             close("impact", pair[0].t, 3.0 * k as f64 + 1.0, 1.0, 1e-10);
@@ -116,13 +109,9 @@ fn a_fixed_top_with_prestrain_repeats_after_three() {
 
 #[test]
 fn a_piecewise_linear_start_is_met_and_keeps_the_momentum() {
-    let n = |text: &str| text.parse::<Number>().unwrap();
-    let pairs = |list: &[(&str, &str)]| list.iter().map(|(x, v)| (n(x), n(v))).collect::<Vec<_>>();
-    let mut problem = damped("1", "0", "0.4", until(9));
-    problem.start = Start::Profile(Profile {
-        displacement: pairs(&[("0", "0.1"), ("0.3", "0.4"), ("1", "0.05")]),
-        velocity: pairs(&[("0", "-1"), ("0.6", "-2"), ("0.6", "1"), ("1", "0")]),
-    });
+    let problem = damped("1", "1", "0.4", until(9));
+    let displaced = problem.to_builder().displacement([("0", "0.1"), ("0.3", "0.4"), ("1", "0.05")]);
+    let problem = displaced.velocity([("0", "-1"), ("0.6", "-2"), ("0.6", "1"), ("1", "0")]).build().unwrap();
     let history = solve(&problem);
     for (x, v, v_t, v_x) in
         [(0.15, 0.25, -1.25, 1.0), (0.45, 0.325, -1.75, -0.5), (0.8, 0.15, 0.5, -0.5), (0.65, 0.225, 0.875, -0.5)]
@@ -218,10 +207,10 @@ fn a_settled_rod_costs_little() {
 fn without_gravity_the_rod_flies_off() {
     for damping in ["1e-300", "0.01", "0.5", "2.6"] {
         let mut problem = damped("0", "1", damping, Run::Impacts(50));
-        problem.rod.length = "1/2".parse().unwrap();
+        problem = problem.to_builder().length("1/2").build().unwrap();
         let history = solve(&problem);
         assert!(matches!(history.ending(), Ending::NoFurtherImpact(_)), "{damping} {:?}", history.ending());
-        problem.run = Run::Time(Number::from(history.end() as i64 + 40));
+        problem = problem.with_run(Run::Time(Number::from(history.end() as i64 + 40))).unwrap();
         assert_eq!(solve(&problem).events().len(), history.events().len());
     }
 }
@@ -247,7 +236,7 @@ mod in_many_digits {
         // g = 0, t₁ = 1: the stress at the release is e^{−r t_b} of what it was. f64 says that it can't tell.
         for (damping, bounce) in [("3.13", "11.66136670144388438"), ("3.135", "15.33318837004014558")] {
             let mut problem = damped("0", "1", damping, Run::Impacts(1));
-            problem.rod.length = "1/2".parse().unwrap();
+            problem = problem.to_builder().length("1/2").build().unwrap();
             assert!(matches!(solve(&problem).ending(), Ending::Undecided(_)));
             let history = in_cells::<Float>(&problem, &200, 50.0).unwrap();
             let time = history.events()[1].t.to_string_radix(10, Some(25));
@@ -305,6 +294,6 @@ fn a_rod_that_hangs_above_the_ground_touches_it_once() {
     };
     let expected = 0.595 - 1.045 * 1.232f64.powi(2) / (2.0 * 1.5f64.powi(2));
     assert!((height - expected).abs() < 1e-12 && swing < height, "{height} {expected} {swing}");
-    let longer = Problem { run: Run::Time(200.into()), ..problem }.doubles().unwrap();
+    let longer = problem.with_run(Run::Time(200.into())).unwrap().doubles().unwrap();
     assert_eq!(longer.events(), history.events());
 }

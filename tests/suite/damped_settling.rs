@@ -4,24 +4,20 @@
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
 use dalembert::engine::{ContactThenCells, Damped, FirstContact, Motion};
-use dalembert::{Ending, Error, Estimate, Number, Parameters, Problem, Profile, Run, Side, Start, Top};
+use dalembert::{Ending, Error, Estimate, Parameters, Problem, Run, Side};
 use dalembert_verify::modal::Modal;
 
 /// `c = L = 1`.
 fn rod(gravity: &str, speed: &str, damping: &str, time: i64) -> Problem {
     let mut problem = uniform("1", "1", gravity, speed, Run::Time(time.into()));
-    problem.rod.damping = damping.parse().ok();
+    problem = problem.to_builder().damping(damping).build().unwrap();
     problem
 }
 
 /// Dropped or pressed under a fixed top: linear from `low` at the ground to `high`.
 fn fixed(gravity: &str, low: &str, high: &str, damping: &str, time: i64) -> Problem {
-    let mut problem = rod(gravity, "0", damping, time);
-    let n = |text: &str| text.parse::<Number>().unwrap();
-    problem.rod.top = Top::Fixed;
-    let displacement = vec![(n("0"), n(low)), (n("1"), n(high))];
-    problem.start = Start::Profile(Profile { displacement, velocity: Vec::new() });
-    problem
+    let rod = Problem::builder().length(1).wave_speed(1).gravity(gravity).damping(damping).fixed_top();
+    rod.displacement([("0", low), ("1", high)]).time(time).build().unwrap()
 }
 
 fn solve(problem: &Problem) -> Stripped<f64, Damped<f64>> {
@@ -160,7 +156,7 @@ fn damping_that_cells_cannot_follow_is_refused_by_name() {
 fn late_in_a_contact_every_value_is_within_its_bound() {
     for (gravity, speed, damping) in [("1", "0.001", "0.01"), ("1", "0.01", "0.1"), ("3", "1", "1.5")] {
         let mut problem = uniform("1/2", "1", gravity, speed, Run::Time(250.into()));
-        problem.rod.damping = damping.parse().ok();
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let history = problem.doubles().unwrap();
         let modal = Modal::new(&Parameters::<f64>::of(&problem, &()).unwrap(), 4096);
         for t in [0.7, 3.3, 20.3, 50.7, 100.2, 249.3] {
@@ -191,7 +187,7 @@ fn the_energy_of_a_sliver_is_within_its_bound() {
     ];
     for (length, wave_speed, gravity, speed, damping, time) in rods {
         let mut problem = uniform(length, wave_speed, gravity, speed, Run::Impacts(3));
-        problem.rod.damping = damping.parse().ok();
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let motion = problem.to_builder().time(time + 1.0).build().unwrap();
         let ours =
             motion.doubles().unwrap().ask(|motion| motion.energy(&Estimate::exact(time)), |_| Vec::new()).unwrap();

@@ -146,7 +146,7 @@ fn later_impacts() {
 /// The rod of section 4 of the hard cases: g = 0, c = 1, t₁ = 1, μ = 1.
 fn late(damping: &str) -> Problem {
     let mut problem = crate::common::uniform("1/2", "1", "0", "1", Run::Impacts(1));
-    problem.rod.damping = Some(damping.parse().unwrap());
+    problem = problem.to_builder().damping(damping).build().unwrap();
     problem
 }
 #[test]
@@ -182,7 +182,7 @@ fn an_overdamped_rod_without_gravity_never_bounces() {
 fn the_threshold_of_the_first_bounce() {
     let near = |speed: &str| {
         let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(1));
-        problem.rod.damping = Some("0.2".parse().unwrap());
+        problem = problem.to_builder().damping("0.2").build().unwrap();
         in_doubles(&problem, None).events()[1].t
     };
     let below = near("2.59364495455930337818987448");
@@ -196,7 +196,7 @@ fn the_threshold_of_the_first_bounce() {
 #[test]
 fn the_ladder_of_accuracies() {
     let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Time(11.into()));
-    problem.rod.damping = Some("0.1".parse().unwrap());
+    problem = problem.to_builder().damping("0.1").build().unwrap();
     let truth = problem.digits(25).unwrap();
     for exponent in [2, 4, 6, 8, 10, 12, 13] {
         let accuracy = 10f64.powi(-exponent);
@@ -216,7 +216,7 @@ fn the_ladder_of_accuracies() {
 #[test]
 fn later_impacts_to_fifty_digits() {
     let mut problem = crate::common::uniform("1", "1", "1", "1", Run::Time(13.into()));
-    problem.rod.damping = Some("0.05".parse().unwrap());
+    problem = problem.to_builder().damping("0.05").build().unwrap();
     let (a, b) = (problem.digits(50).unwrap(), problem.digits(60).unwrap());
     assert_eq!(a.events().len(), 7);
     for (a, b) in a.events().iter().zip(b.events()) {
@@ -242,7 +242,7 @@ fn a_first_contact_to_a_thousand_digits() {
 fn ten_impacts_know_how_far_they_are_off() {
     for (damping, speed) in [("0.001", "3"), ("0.01", "3"), ("0.02", "10"), ("0.1", "10")] {
         let mut problem = crate::common::uniform("1", "1", "1", speed, Run::Impacts(10));
-        problem.rod.damping = Some(damping.parse().unwrap());
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let history = in_doubles(&problem, Some(1e-10));
         let truth = problem.digits(20).unwrap();
         let (scales, estimate) = (history.scales(), history.error_estimate());
@@ -263,7 +263,7 @@ fn ten_impacts_know_how_far_they_are_off() {
 fn ordinary_rods_are_settled_in_doubles() {
     for damping in ["0.001", "0.003", "0.01", "0.03", "0.05", "0.1"] {
         let mut problem = crate::common::uniform("1", "1", "1", "3", Run::Impacts(10));
-        problem.rod.damping = Some(damping.parse().unwrap());
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let history = problem.doubles().unwrap();
         assert_eq!(history.events().len(), 20);
         assert_eq!(history.flights().unwrap().len(), 10);

@@ -5,19 +5,15 @@ use crate::common::{number, reference};
 use crate::stripped::Stripped;
 use crate::stripped::damped;
 use dalembert::engine::{ContactThenCells, FirstContact, Motion};
-use dalembert::{EventKind, Material, Number, Parameters, Problem, Run, Side, Speed, Start, Warning};
+use dalembert::{EventKind, Number, Parameters, Problem, Run, Side, Warning};
 use serde_json::Value;
 
 /// The rod of a case, dropped.
 fn rod(case: &Value) -> Problem {
     let of = |key: &str| number(&case[key]);
-    let mut problem = Problem::uniform(of("length"), 1.into(), of("gravity"), 1.into());
-    problem.rod.material =
-        Material::Elastic { modulus: of("modulus"), density: of("density"), area: "1e-4".parse().ok() };
-    problem.rod.damping = Some(of("damping"));
-    problem.start = Start::Uniform(Speed::DropHeight(of("drop_height")));
-    problem.run = Run::Impacts(u32::try_from(case["impacts"].as_u64().unwrap()).unwrap());
-    problem
+    let rod = Problem::builder().length(of("length")).material(of("modulus"), of("density"), "1e-4");
+    let rod = rod.gravity(of("gravity")).damping(of("damping")).drop_height(of("drop_height"));
+    rod.impacts(u32::try_from(case["impacts"].as_u64().unwrap()).unwrap()).build().unwrap()
 }
 
 fn solve(problem: &Problem) -> Stripped<f64, ContactThenCells<f64>> {
@@ -52,8 +48,8 @@ fn the_twentieth_impact_is_as_well_known_as_the_damping() {
     for case in reference("stiff_bounces").iter().take(3) {
         let plain = rod(case);
         let mut other = plain.clone();
-        let damping = plain.rod.damping.as_ref().unwrap().to_f64() * (1.0 + 1e-14);
-        other.rod.damping = Some(format!("{damping:e}").parse::<Number>().unwrap());
+        let damping = plain.damping().unwrap().to_f64() * (1.0 + 1e-14);
+        other = other.to_builder().damping(format!("{damping:e}").parse::<Number>().unwrap()).build().unwrap();
         let (a, b) = (solve(&plain), solve(&other));
         for (a, b) in a.events().iter().zip(b.events()).filter(|(a, _)| a.kind == EventKind::Impact) {
             assert!((a.v_end / b.v_end - 1.0).abs() < 1e-13, "{a:?} {b:?}");
@@ -98,7 +94,7 @@ fn a_leap_can_be_asked_at_any_time() {
 fn longer_numbers_agree() {
     use rug::Float;
     let mut problem = rod(&reference("stiff_bounces")[1]);
-    problem.run = Run::Impacts(4);
+    problem = problem.with_run(Run::Impacts(4)).unwrap();
     let double = damped::<f64>(&problem, &(), 13.0).unwrap();
     let long = damped::<Float>(&problem, &200, 40.0).unwrap();
     let longer = damped::<Float>(&problem, &300, 60.0).unwrap();
@@ -116,8 +112,7 @@ fn longer_numbers_agree() {
 fn hops_are_found_or_said() {
     let mut problem =
         Problem::uniform("1.1".parse().unwrap(), "2.3".parse().unwrap(), "0.8".parse().unwrap(), 20.into());
-    problem.rod.damping = "0.35".parse().ok();
-    problem.run = Run::Time(40.into());
+    problem = problem.to_builder().damping("0.35").run(Run::Time(40.into())).build().unwrap();
     let history = solve(&problem);
     let events = history.events();
     // 25 digits of the strip-by-strip march.
@@ -155,8 +150,7 @@ fn no_stress_piece_is_shorter_than_its_own_uncertainty() {
     ] {
         let number = |text: &str| text.parse::<Number>().unwrap();
         let mut problem = Problem::uniform(number(length), 1.into(), number(gravity), number(speed));
-        problem.rod.damping = Some(number(damping));
-        problem.run = Run::Impacts(6);
+        problem = problem.to_builder().damping(number(damping)).run(Run::Impacts(6)).build().unwrap();
         let history = solve(&problem);
         let off = history.events().iter().map(|event| event.t_error).fold(0.0, f64::max);
         for piece in history.stress_pieces() {

@@ -34,6 +34,7 @@ mod near_coincidences;
 mod near_thresholds;
 mod number_interval;
 mod paper_claims;
+mod piece_ends;
 mod problem_builder;
 mod rates;
 mod referee;

@@ -14,7 +14,7 @@ fn bits(text: &str) -> Float {
 
 /// The speed of the start, or of its lower end.
 fn speed(problem: &Problem) -> Float {
-    let spelled = match &problem.start {
+    let spelled = match problem.start() {
         Start::Uniform(Speed::Given(speed)) => speed.to_string(),
         Start::Profile(profile) => profile.velocity[0].1.to_string().trim_start_matches('-').into(),
         _ => unreachable!(),
@@ -24,13 +24,13 @@ fn speed(problem: &Problem) -> Float {
 
 fn with_speed(problem: &Problem, speed: &Float) -> Problem {
     let text = speed.to_string_radix(10, Some(DIGITS));
-    let mut problem = problem.clone();
-    match &mut problem.start {
+    let mut start = problem.start().clone();
+    match &mut start {
         Start::Uniform(found) => *found = Speed::Given(text.parse().unwrap()),
         Start::Profile(profile) => profile.velocity[0].1 = format!("-{text}").parse().unwrap(),
         Start::Above { .. } => unreachable!(),
     }
-    problem
+    problem.to_builder().start(start).build().unwrap()
 }
 
 /// A rod of which event `later` comes a whole number of round trips after event `earlier`, or after the start, by
@@ -56,7 +56,7 @@ fn tuned(dice: &mut Random) -> Option<(Problem, Float)> {
     let whole = start.to_f64().round().max(if earlier.is_some() { 1.0 } else { 0.0 });
     // One round trip more shows what the coincidence does.
     let end = first.events()[later].t.to_f64() + 1.3 * trip.to_f64();
-    problem.run = Run::Time(format!("{end:.4e}").parse().unwrap());
+    problem = problem.with_run(Run::Time(format!("{end:.4e}").parse().unwrap())).unwrap();
     let mut before = (speed(&problem), start - whole);
     let mut now = Float::with_val(200, &before.0 * 1.01);
     for _ in 0..14 {

@@ -18,10 +18,7 @@
 use std::sync::Arc;
 
 use crate::common::Random;
-use dalembert::{
-    EventKind, Material, Number, Numbers, Plan, Problem, Profile, Question, Rod, Run, Scene, Solution, Start, Top,
-    Warning,
-};
+use dalembert::{EventKind, Number, Numbers, Plan, Problem, Profile, Question, Scene, Solution, Start, Top, Warning};
 use rug::Float;
 use rug::ops::Pow;
 
@@ -252,17 +249,16 @@ impl Case {
             Profile { displacement: vec![(rod.0, height.clone()), (rod.1, height)], velocity }
         };
         let end = t.clone() + self.trip() / 50u32;
-        Problem {
-            rod: Rod {
-                length: text(self.length),
-                material: Material::WaveSpeed(text(self.wave_speed)),
-                damping: Some(text(self.damping)),
-                top: if self.kind == Kind::Graze { Top::Fixed } else { Top::Free },
-            },
-            gravity: Some(text(self.gravity)),
-            start: Start::Profile(profile),
-            run: Run::Time(number(&end)),
-        }
+        Problem::builder()
+            .length(text(self.length))
+            .wave_speed(text(self.wave_speed))
+            .damping(text(self.damping))
+            .top(if self.kind == Kind::Graze { Top::Fixed } else { Top::Free })
+            .gravity(text(self.gravity))
+            .start(Start::Profile(profile))
+            .time(number(&end))
+            .build()
+            .unwrap()
     }
 
     /// Where the first of the two events is: the root of `d + fall`, or of the stress, before the threshold.

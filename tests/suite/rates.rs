@@ -8,7 +8,7 @@ use dalembert::{Error, Estimate, Problem, Side};
 fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {
     let history = problem.doubles().unwrap();
     let end = *history.end();
-    let (length, round) = (problem.rod.length.to_f64(), history.scales().time);
+    let (length, round) = (problem.length().to_f64(), history.scales().time);
     // Points and times of rays among them: halves of the rod, quarters of round trips, events.
     let mut times: Vec<f64> = (0..=parts).map(|k| end * k as f64 / parts as f64).collect();
     times.extend((1..12).map(|k| 0.25 * round * f64::from(k)).filter(|time| *time < end));

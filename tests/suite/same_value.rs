@@ -153,7 +153,7 @@ fn in_numbers<S: Target, T: Scalar>(
 
 /// Times on rays of the start, half-way between them, and of no note.
 fn times(problem: &Problem) -> Vec<Number> {
-    let rod = (&problem.rod.length.to_rational(), &problem.rod.material);
+    let rod = (&problem.length().to_rational(), problem.material());
     let dalembert::Material::WaveSpeed(c) = rod.1 else { panic!("a wave speed is given") };
     let half_trip = rod.0.clone() / c.to_rational();
     let number = |x: Rational| x.to_string().parse::<Number>().unwrap();
@@ -314,7 +314,7 @@ fn before_the_start_there_is_what_is_given() {
 fn the_top_is_the_top_in_longer_numbers() {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let mut problem = Problem::uniform(number("1/3"), 1.into(), 1.into(), number("2.433"));
-    problem.run = Run::Time(80.into());
+    problem = problem.with_run(Run::Time(80.into())).unwrap();
     let motion = problem.doubles().unwrap();
     assert!(matches!(motion.rung(), Rung::Bits(_)), "{:?}", motion.rung());
     for k in 1..40 {

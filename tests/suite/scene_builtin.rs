@@ -12,7 +12,7 @@ fn parameters(scene: &Scene) -> Parameters<f64> {
 
 /// `ρ c S μ`: the force while a rod without gravity is in contact.
 fn force(scene: &Scene) -> f64 {
-    let Material::Elastic { density, area, .. } = &scene.problem.rod.material else { panic!("elastic") };
+    let Material::Elastic { density, area, .. } = scene.problem.material() else { panic!("elastic") };
     let p = parameters(scene);
     density.to_f64() * p.wave_speed * area.as_ref().unwrap().to_f64() * p.speed
 }
@@ -117,8 +117,8 @@ fn published_values_can_be_missed() {
 #[test]
 fn getfem_starts_compressed_under_a_fixed_top() {
     let scene = scene("getfem-dynamic-contact");
-    assert_eq!(scene.problem.rod.top, Top::Fixed);
-    let Start::Profile(profile) = &scene.problem.start else { panic!("a profile") };
+    assert_eq!(scene.problem.top(), Top::Fixed);
+    let Start::Profile(profile) = scene.problem.start() else { panic!("a profile") };
     let number = |text: &str| text.parse::<Number>().unwrap();
     assert_eq!(profile.displacement, [(number("0"), number("0.5")), (number("1"), number("0"))]);
     assert!(profile.velocity.is_empty());

@@ -136,11 +136,11 @@ proptest! {
         };
         let kept = |text: &str| text.parse::<Number>().unwrap();
         prop_assert_eq!(scene.source(), &source);
-        prop_assert_eq!(&scene.problem.rod.length, &kept(&length.1));
-        prop_assert_eq!(&scene.problem.rod.material, &Material::WaveSpeed(kept(&c.1)));
-        prop_assert_eq!(&scene.problem.start, &Start::Uniform(Speed::Given(kept(&speed.1))));
-        prop_assert_eq!(&scene.problem.gravity, &Some(kept(&g.1)));
-        prop_assert_eq!(&scene.problem.run, &Run::Time(kept(&time.1)));
+        prop_assert_eq!(scene.problem.length(), &kept(&length.1));
+        prop_assert_eq!(scene.problem.material(), &Material::WaveSpeed(kept(&c.1)));
+        prop_assert_eq!(scene.problem.start(), &Start::Uniform(Speed::Given(kept(&speed.1))));
+        prop_assert_eq!(scene.problem.gravity(), Some(&kept(&g.1)));
+        prop_assert_eq!(scene.problem.run(), &Run::Time(kept(&time.1)));
     }
 
     #[test]

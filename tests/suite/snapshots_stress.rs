@@ -50,7 +50,7 @@ fn snapshot(name: &str, problem: &Problem) -> Exact {
             .fold(q(0, 1), |sum, part| sum + part);
         let stiffness = Rational::from(&rod.wave_speed * &rod.wave_speed);
         assert_eq!(contact.impulse, -stiffness * area, "{name}: impulse of the contact from {from}");
-        if problem.rod.top == Top::Free {
+        if problem.top() == Top::Free {
             let gained = history.centre(&to).unwrap().1 - history.centre(&from).unwrap().1;
             let weight = Rational::from(&to - &from) * &rod.gravity;
             assert_eq!(contact.impulse, (gained + weight) * &rod.length, "{name}: momentum balance from {from}");

@@ -86,9 +86,10 @@ fn some_never_touch() {
 #[test]
 fn it_goes_back_to_a_builder() {
     let rod = above("1", "1", "4").build().unwrap();
-    assert_eq!(rod.start, Start::Above { gap: n("4"), speed: n("1") });
+    assert_eq!(rod.start(), &Start::Above { gap: n("4"), speed: n("1") });
     assert_eq!(rod.to_builder().build().unwrap(), rod);
-    assert_eq!(rod.to_builder().impact_speed(2).build().unwrap().start, Start::Above { gap: n("4"), speed: n("2") });
+    let faster = rod.to_builder().impact_speed(2).build().unwrap();
+    assert_eq!(faster.start(), &Start::Above { gap: n("4"), speed: n("2") });
     assert_eq!(rod.to_builder().gap(0).build().unwrap().gap(), None);
     let dropped = rod.to_builder().drop_height(3).build().unwrap();
     assert_eq!(dropped.gap(), None);
@@ -174,12 +175,12 @@ mod shifted {
         /// Before the touch: h = gap − μt − gt²/2, everywhere, without strain.
         #[test]
         fn the_fall_in_fractions((above, _, tau) in pairs(), share in 0i64..60) {
-            let (gap, speed) = match &above.start {
+            let (gap, speed) = match above.start() {
                 Start::Above { gap, speed } => (gap.to_rational(), speed.to_rational()),
                 other => panic!("{other:?}"),
             };
-            let gravity = above.gravity.as_ref().map_or_else(Rational::new, Number::to_rational);
-            let length = above.rod.length.to_rational();
+            let gravity = above.gravity().map_or_else(Rational::new, Number::to_rational);
+            let length = above.length().to_rational();
             let time = tau * Rational::from((share, 60));
             let height = gap - Rational::from(&speed * &time) - Rational::from(&gravity * &time) * &time / 2;
             let rate = -(speed + gravity * &time);
@@ -306,7 +307,6 @@ fn what_is_proved() {
     }
     assert_eq!(proved.events().len(), digits.events().len());
     let mut problem = above("1", "1", "4").build().unwrap();
-    problem.rod.top = Top::Fixed;
-    problem.run = Run::Impacts(2);
+    problem = problem.to_builder().top(Top::Fixed).run(Run::Impacts(2)).build().unwrap();
     assert!(problem.certified(20).is_ok());
 }

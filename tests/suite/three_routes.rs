@@ -173,7 +173,7 @@ fn rays_modes_and_the_cells() {
     ] {
         let time = (2.0 * last * 1.01).to_string().parse().unwrap();
         let mut problem = crate::common::uniform("1", "1", gravity, speed, Run::Time(time));
-        problem.rod.damping = Some(damping.parse().unwrap());
+        problem = problem.to_builder().damping(damping).build().unwrap();
         let rod = Parameters::<f64>::of(&problem, &()).unwrap();
         let (rays, modal) = (FirstContact::new(&rod.carry()), Modal::new(&rod, 1024));
         let cells = crate::stripped::damped::<f64>(&problem, &(), 13.0).unwrap();

@@ -25,7 +25,7 @@ fn nearly_meeting() -> impl Strategy<Value = Problem> {
             let speed = Rational::from(speed) * &g * 2 * &l / &c * miss;
             let text = |x: Rational| x.to_string();
             let mut problem = crate::common::uniform(&text(l), &text(c), &text(g), &text(speed), Run::Impacts(1));
-            problem.run = Run::Impacts(impacts);
+            problem = problem.with_run(Run::Impacts(impacts)).unwrap();
             problem
         },
     )

@@ -5,7 +5,7 @@ use crate::stripped::undamped;
 use dalembert::engine::{Motion, Undamped, reflection};
 use dalembert::number::Scalar;
 use dalembert::quantity::{flights, restitution};
-use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Speed, Start, Top};
+use dalembert::{Ending, EventKind, Number, Parameters, Problem, Profile, Run, Side, Start, Top};
 use dalembert_verify::paper;
 use proptest::prelude::*;
 use rug::{Float, Rational};
@@ -25,23 +25,21 @@ fn small() -> impl Strategy<Value = (i64, i64)> {
 fn uniform() -> impl Strategy<Value = Problem> {
     (small(), small(), prop::option::weighted(0.8, small()), small(), any::<bool>()).prop_map(|(l, c, g, m, fixed)| {
         let (l, c) = (number(l.0, l.1), number(c.0, c.1));
-        let mut problem = Problem::uniform(l.clone(), c.clone(), Number::from(0), number(m.0, m.1));
+        let mut rod = Problem::builder().length(&l).wave_speed(&c).impact_speed(number(m.0, m.1));
         if let Some((p, q)) = g {
             let g = number(p, q);
             let mu: Rational = Rational::from(m) * 2i64 * l.to_rational() / c.to_rational() * g.to_rational();
-            problem.gravity = Some(g);
-            problem.start = Start::Uniform(Speed::Given(mu.to_string().parse().unwrap()));
+            rod = rod.gravity(g).impact_speed(mu);
         }
-        problem.rod.top = if fixed { Top::Fixed } else { Top::Free };
-        problem
+        rod.top(if fixed { Top::Fixed } else { Top::Free }).build().unwrap()
     })
 }
 
 /// A piecewise-linear start above or on the ground.
 fn profile() -> impl Strategy<Value = Problem> {
     let points = prop::collection::vec((1i64..12, -4i64..=4), 0..4);
-    (uniform(), points.clone(), points, 0i64..4, any::<bool>()).prop_map(|(mut problem, shape, speeds, lift, jump)| {
-        let length = problem.rod.length.to_rational();
+    (uniform(), points.clone(), points, 0i64..4, any::<bool>()).prop_map(|(problem, shape, speeds, lift, jump)| {
+        let length = problem.length().to_rational();
         let list = |points: &[(i64, i64)], from: i64, to: i64| {
             let mut inner: Vec<_> = points.to_vec();
             inner.sort();
@@ -54,21 +52,20 @@ fn profile() -> impl Strategy<Value = Problem> {
         };
         let displacement = list(&shape, lift, 1);
         // A fixed top stands still.
-        let top_speed = if problem.rod.top == Top::Fixed { 0 } else { -2 };
+        let top_speed = if problem.top() == Top::Fixed { 0 } else { -2 };
         let mut velocity = list(&speeds, -1, top_speed);
         if jump && velocity.len() > 2 {
             let (x, _) = velocity[1].clone();
             velocity.insert(2, (x, Number::from(2)));
         }
-        problem.start = Start::Profile(Profile { displacement, velocity });
-        problem
+        problem.to_builder().start(Start::Profile(Profile { displacement, velocity })).build().unwrap()
     })
 }
 
 /// The history to `trips` round trips, or as far as fractions reach.
 fn solve(mut problem: Problem, trips: i64) -> (Problem, Exact) {
     let round_trip = Parameters::<Rational>::of(&problem, &()).unwrap().round_trip();
-    problem.run = Run::Time(Rational::from(round_trip * trips).to_string().parse().unwrap());
+    problem = problem.with_run(Run::Time(Rational::from(round_trip * trips).to_string().parse().unwrap())).unwrap();
     let history = Exact::solve(&problem, &()).unwrap();
     (problem, history)
 }
@@ -88,8 +85,7 @@ proptest! {
     /// code.
     #[test]
     fn the_first_contact_is_the_paper_s(mut problem in uniform()) {
-        problem.rod.top = Top::Free;
-        problem.run = Run::Impacts(1);
+        problem = problem.to_builder().top(Top::Free).run(Run::Impacts(1)).build().unwrap();
         let history = Exact::solve(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
         let paper = paper::UndampedContact::new(&rod).unwrap();
@@ -140,7 +136,7 @@ proptest! {
     #[test]
     fn boundary_conditions(problem in prop_oneof![uniform(), profile()]) {
         let (problem, history) = solve(problem, 8);
-        let length = problem.rod.length.to_rational();
+        let length = problem.length().to_rational();
         let top = history.field(&length, &Rational::new(), Side::Right).unwrap().displacement;
         for time in times(&history, 19) {
             for side in [Side::Left, Side::Right] {
@@ -156,7 +152,7 @@ proptest! {
                 let at_top = history.field(&length, &time, side).unwrap();
                 let ground = history.field(&Rational::new(), &time, side).unwrap();
                 prop_assert_eq!((&ground.displacement, &ground.velocity, &ground.strain), (&v, &rate, &stress));
-                match problem.rod.top {
+                match problem.top() {
                     Top::Free => prop_assert_eq!(at_top.strain, 0),
                     Top::Fixed => prop_assert_eq!(at_top.displacement, top.clone()),
                 }
@@ -167,7 +163,7 @@ proptest! {
     /// Momentum: between two times the centre gains the impulse of the ground less the weight.
     #[test]
     fn momentum_balance(mut problem in prop_oneof![uniform(), profile()]) {
-        problem.rod.top = Top::Free;
+        problem = problem.to_builder().top(Top::Free).build().unwrap();
         let (problem, history) = solve(problem, 8);
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
         for contact in history.contacts() {
@@ -249,7 +245,7 @@ proptest! {
                 }
             }
         }
-        if let Start::Profile(profile) = &problem.start {
+        if let Start::Profile(profile) = problem.start() {
             for (point, _) in profile.displacement.iter().chain(&profile.velocity) {
                 for sign in [-1i64, 1] {
                     let way: Rational = rod.wave_speed.clone() * &time * sign + point.to_rational();
@@ -280,7 +276,7 @@ proptest! {
         let (problem, exact) = solve(problem, 8);
         let mut problem = problem;
         if let Ending::ExactnessEnds { .. } = exact.ending() {
-            problem.run = Run::Time(exact.end().to_string().parse().unwrap());
+            problem = problem.with_run(Run::Time(exact.end().to_string().parse().unwrap())).unwrap();
         }
         let rounded = undamped::<f64>(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
@@ -307,7 +303,7 @@ proptest! {
     fn precisions_agree(problem in uniform()) {
         let round_trip = Parameters::<Rational>::of(&problem, &()).unwrap().round_trip();
         let mut problem = problem;
-        problem.run = Run::Time(Rational::from(round_trip * 9).to_string().parse().unwrap());
+        problem = problem.with_run(Run::Time(Rational::from(round_trip * 9).to_string().parse().unwrap())).unwrap();
         let low = undamped::<Float>(&problem, &256).unwrap();
         let high = undamped::<Float>(&problem, &512).unwrap();
         prop_assert_eq!(low.events().len(), high.events().len());

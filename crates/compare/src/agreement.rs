@@ -126,7 +126,7 @@ impl Agreement {
         let force = self.force(reference);
         let (force, flags, end) = (force.as_deref(), theirs(Quantity::Contact), theirs(Quantity::EndDisplacement));
         let exact = reference.contacts();
-        let most = exact.iter().filter_map(|contact| contact.peak).fold(0.0, f64::max);
+        let most = exact.iter().filter_map(|contact| contact.peak_force).fold(0.0, f64::max);
         let height = self.column(Quantity::EndDisplacement).into_iter().flat_map(|end| &end.ours);
         let height = height.fold(0.0f64, |most, v| most.max(v.abs()));
         let is_down = |k: usize| match (flags, force, end) {
@@ -141,14 +141,15 @@ impl Agreement {
             // An exact contact just after the last sample may have begun in the data; otherwise it is not missing.
             let separation = reference.shortest_separation();
             let found = find_contacts(times, touches, force, separation);
-            let is_within =
-                |contact: &ContactRecord| contact.from < last + separation && contact.to.is_none_or(|to| to > first);
+            let is_within = |contact: &ContactRecord| {
+                contact.impact < last + separation && contact.release.is_none_or(|to| to > first)
+            };
             let exact: Vec<_> = exact.into_iter().filter(is_within).map(|contact| contact.sampled_at(times)).collect();
             contacts = match_contacts(&exact, &found);
-            let is_later = |contact: &ContactRecord| contact.from > last - 2.0 * self.step;
+            let is_later = |contact: &ContactRecord| contact.impact > last - 2.0 * self.step;
             contacts.retain(|pair| pair.theirs.is_some() || !pair.ours.as_ref().is_some_and(is_later));
         }
-        let momentum = (reference.history.problem().rod.top == Top::Free).then(|| {
+        let momentum = (reference.history.problem().top() == Top::Free).then(|| {
             let rod = reference.rod();
             MomentumTerms { mass: reference.mass(), gravity: rod.gravity, damping: rod.damping }
         });

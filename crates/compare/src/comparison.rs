@@ -75,7 +75,7 @@ impl Options {
     /// Returns the time to which the data should go: `to`, or the end of the run of the scene, where that is a time or
     /// quickly found.
     fn until(&self, problem: &Problem) -> Option<f64> {
-        match (&self.to, &problem.run) {
+        match (&self.to, problem.run()) {
             (Some(to), _) => Some(to.to_f64()),
             (None, Run::Time(time)) => Some(time.to_f64()),
             (None, Run::Impacts(count)) if *count <= MOST_IMPACTS => {
@@ -177,7 +177,7 @@ const FAR: f64 = 100.0;
 /// [`FAR`] round trips for each impact; hops may be shorter than a round trip, and then data that are too long are not
 /// refused.
 fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
-    match &problem.run {
+    match problem.run() {
         Run::Time(time) => Some(time.to_f64()),
         Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
         Run::Impacts(_) => problem.doubles().ok().map(|history| *history.end()),

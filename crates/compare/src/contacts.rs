@@ -6,15 +6,15 @@ use serde::Serialize;
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct ContactRecord {
     /// The beginning; for samples the middle between the last one off the ground and the first one on it.
-    pub from: f64,
+    pub impact: f64,
     /// The end, likewise; `None` where the samples end before.
-    pub to: Option<f64>,
+    pub release: Option<f64>,
     /// `∫ F dt`; `None` where no force is known, as for the next two.
     pub impulse: Option<f64>,
     /// `∫ t F dt / ∫ F dt`.
     pub centroid: Option<f64>,
     /// The greatest force.
-    pub peak: Option<f64>,
+    pub peak_force: Option<f64>,
     /// The number of short separations that were taken as part of the contact.
     #[serde(skip_serializing_if = "is_zero")]
     pub merged: usize,
@@ -53,12 +53,19 @@ impl ContactRecord {
             peak = peak.max(force);
         }
         let centroid = (impulse > 0.0).then(|| from + moment / impulse);
-        ContactRecord { from, to, impulse: Some(impulse), centroid, peak: Some(peak), ..ContactRecord::default() }
+        ContactRecord {
+            impact: from,
+            release: to,
+            impulse: Some(impulse),
+            centroid,
+            peak_force: Some(peak),
+            ..ContactRecord::default()
+        }
     }
 
     /// Returns beginning, end, impulse, centroid and peak.
     pub(super) fn numbers(&self) -> [Option<f64>; 5] {
-        [Some(self.from), self.to, self.impulse, self.centroid, self.peak]
+        [Some(self.impact), self.release, self.impulse, self.centroid, self.peak_force]
     }
 
     /// Returns the numbers of `other` minus those of this contact.
@@ -69,27 +76,27 @@ impl ContactRecord {
     }
 
     fn middle(&self) -> f64 {
-        self.centroid.unwrap_or_else(|| self.to.map_or(self.from, |to| f64::midpoint(self.from, to)))
+        self.centroid.unwrap_or_else(|| self.release.map_or(self.impact, |to| f64::midpoint(self.impact, to)))
     }
 
     /// Returns the overlap with `theirs`, which is `late`, as a share of both together, plus the ratio of the lesser to
     /// the greater impulse.
     fn similarity(&self, theirs: &ContactRecord, late: f64) -> f64 {
-        let end = |contact: &ContactRecord| contact.to.unwrap_or(f64::MAX);
-        let (from, to) = (theirs.from - late, end(theirs) - late);
-        let both = (to.min(end(self)) - from.max(self.from)).max(0.0);
-        let either = to.max(end(self)) - from.min(self.from);
+        let end = |contact: &ContactRecord| contact.release.unwrap_or(f64::MAX);
+        let (from, to) = (theirs.impact - late, end(theirs) - late);
+        let both = (to.min(end(self)) - from.max(self.impact)).max(0.0);
+        let either = to.max(end(self)) - from.min(self.impact);
         let ratio = |(a, b): (f64, f64)| if a > 0.0 && b > 0.0 { (a / b).min(b / a) } else { 0.0 };
         (if either > 0.0 { both / either } else { 0.0 }) + self.impulse.zip(theirs.impulse).map_or(0.0, ratio)
     }
 
     /// Returns the contact with the flag `below_step` for samples at `times`.
     pub(super) fn sampled_at(self, times: &[f64]) -> Self {
-        let Some(to) = self.to else { return self };
-        let first = times.partition_point(|time| *time <= self.from).saturating_sub(1);
+        let Some(to) = self.release else { return self };
+        let first = times.partition_point(|time| *time <= self.impact).saturating_sub(1);
         let last = times.partition_point(|time| *time < to).min(times.len().saturating_sub(1));
         let step = (first..last).map(|k| times[k + 1] - times[k]).fold(0.0, f64::max);
-        ContactRecord { below_step: to - self.from < 2.0 * step, ..self }
+        ContactRecord { below_step: to - self.impact < 2.0 * step, ..self }
     }
 }
 
@@ -116,7 +123,7 @@ pub(super) fn find_contacts(
         let (from, to) = (f64::midpoint(times[before], times[first]), f64::midpoint(times[last], times[after]));
         let to = (last < after).then_some(to);
         let contact = match force {
-            None => ContactRecord { from, to, ..ContactRecord::default() },
+            None => ContactRecord { impact: from, release: to, ..ContactRecord::default() },
             Some(force) => {
                 let at = |k: usize, step: usize| [times[k], force[k], (times[step + 1] - times[step]) / 2.0];
                 ContactRecord::with_force(from, to, (before..after).flat_map(|k| [at(k, k), at(k + 1, k)]))

@@ -28,11 +28,14 @@
 mod agreement;
 pub mod aligned;
 mod audit;
+mod cause;
+mod cause_fits;
 mod comparison;
 mod contacts;
 pub mod data;
 mod diagnosis;
 mod fit;
+mod hint;
 mod limit;
 mod map;
 mod model;

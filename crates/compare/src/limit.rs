@@ -36,8 +36,8 @@ pub struct Outcome {
 #[allow(missing_docs, reason = "each case is described by its message")]
 pub enum LimitError {
     #[error(
-        "found `{0}`, expected QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or one of \
-         coverage, energy, momentum, impulse, penetration, tension, missed and invented with its bound"
+        "found `{0}`, expected QUANTITY.NORM=BOUND with l1, l2, linf or linf_off_jumps, order.QUANTITY=BOUND, or \
+         one of coverage, energy, momentum, impulse, penetration, tension, missed and invented with its bound"
     )]
     Form(String),
     #[error("{file}: found a bound of {name}, expected data with {needs}")]
@@ -133,7 +133,7 @@ impl Limit {
             "impulse" => {
                 let whole = |pair: &ContactPair| {
                     let (ours, theirs) = (pair.ours.as_ref()?, pair.theirs.as_ref()?);
-                    ours.to.zip(theirs.to)?;
+                    ours.release.zip(theirs.release)?;
                     Some((theirs.impulse? / ours.impulse? - 1.0).abs())
                 };
                 let most = agreement.contacts.iter().filter_map(whole).reduce(f64::max);

@@ -14,10 +14,10 @@ pub(crate) struct Norm {
     /// The absolute norm divided by `‖ours‖` at the same samples; `None` where that is zero.
     pub relative: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub time: Option<f64>,
+    pub t: Option<f64>,
     /// The point of the rod, for a field.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub point: Option<f64>,
+    pub x: Option<f64>,
 }
 
 /// A column of the data with the exact values at its samples.
@@ -164,19 +164,19 @@ impl Norms {
         let unit = 2.0 * unit;
         let norm = |absolute: f64, own: f64| {
             let relative = (own > 0.0).then(|| absolute * (unit / own_unit) / own);
-            Norm { absolute: absolute * unit, relative, time: None, point: None }
+            Norm { absolute: absolute * unit, relative, t: None, x: None }
         };
         let greatest = [0, 1].map(|which| {
             let (k, absolute) = greatest[which]?;
-            let point = grid.points.as_ref().map(|points| points[k]);
-            Some(Norm { time: Some(grid.times[k]), point, ..norm(absolute, scale[which]) })
+            let x = grid.points.as_ref().map(|points| points[k]);
+            Some(Norm { t: Some(grid.times[k]), x, ..norm(absolute, scale[which]) })
         });
         Norms {
             samples: ours.len(),
             on_jumps,
             l1: norm(sums[0], own[0]),
             l2: norm(sums[1].sqrt(), own[1].sqrt()),
-            linf: greatest[0].unwrap_or(Norm { time: Some(0.0), ..Norm::default() }),
+            linf: greatest[0].unwrap_or(Norm { t: Some(0.0), ..Norm::default() }),
             linf_off_jumps: greatest[1],
         }
     }

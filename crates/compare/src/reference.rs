@@ -57,7 +57,7 @@ impl<'a> Reference<'a> {
     pub(super) fn new(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
-        let (modulus, density, area) = match &problem.rod.material {
+        let (modulus, density, area) = match problem.material() {
             Material::WaveSpeed(_) => (rod.wave_speed * rod.wave_speed, 1.0, 1.0),
             Material::Elastic { modulus, density, area } => {
                 (modulus.to_f64(), density.to_f64(), area.as_ref().map_or(1.0, Number::to_f64))
@@ -255,8 +255,12 @@ impl<'a> Reference<'a> {
                 force.extend(nodes);
             }
             let record = ContactRecord::with_force(contact.impact, contact.release, force.into_iter());
-            let peak = record.peak.map(|peak| peak.max(factor * contact.peak_strain));
-            contacts.push(ContactRecord { impulse: Some(self.line_density() * contact.impulse), peak, ..record });
+            let peak = record.peak_force.map(|peak| peak.max(factor * contact.peak_strain));
+            contacts.push(ContactRecord {
+                impulse: Some(self.line_density() * contact.impulse),
+                peak_force: peak,
+                ..record
+            });
         }
         contacts
     }

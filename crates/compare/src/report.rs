@@ -6,8 +6,9 @@ use super::agreement::{Agreement, Coverage};
 use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison, FittedFile};
 use super::contacts::ContactPair;
-use super::diagnosis::{Detectable, Diagnosis, Hint};
+use super::diagnosis::Diagnosis;
 use super::fit::FittedValue;
+use super::hint::{Detectable, Hint};
 use super::limit::Order;
 use super::norms::{ComparedColumn, NORMS, Norm};
 use crate::aligned::table;
@@ -192,8 +193,8 @@ fn norms_table(agreement: &Agreement, units: &Units) -> String {
         let shown = if what.jumps() { 4 } else { 3 };
         for (name, kind) in names.into_iter().zip(NORMS).take(shown) {
             let norm = (kind.get)(norms);
-            let point = norm.and_then(|norm| norm.point).map_or_else(String::new, |x| format!(", x = {}", number(x)));
-            let at = norm.and_then(|norm| norm.time).map_or_else(String::new, |time| number(time) + &point);
+            let point = norm.and_then(|norm| norm.x).map_or_else(String::new, |x| format!(", x = {}", number(x)));
+            let at = norm.and_then(|norm| norm.t).map_or_else(String::new, |time| number(time) + &point);
             let absolute = size(norm.map(|norm| norm.absolute));
             rows.push(vec![name, kind.title.into(), absolute, share(norm.and_then(|norm| norm.relative)), at]);
         }

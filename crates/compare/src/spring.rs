@@ -35,7 +35,7 @@ impl SpringContact {
     /// **Accuracy**: *estimate*, of first order in the step.
     pub(super) fn solve(problem: &Problem, softness: f64, until: f64) -> Option<Self> {
         let rod = Parameters::<f64>::of(problem, &()).ok()?;
-        let height = match problem.start {
+        let height = match problem.start() {
             Start::Profile(_) => return None,
             _ => Parameter::Gap.value(problem).unwrap_or_default(),
         };
@@ -59,11 +59,11 @@ impl SpringContact {
             let velocity = (end - state.end) / step;
             let force = at_end - velocity;
             state.end = end;
-            state.top += if problem.rod.top == Top::Free { step * at_top } else { 0.0 };
+            state.top += if problem.top() == Top::Free { step * at_top } else { 0.0 };
             state.impulse -= force * step * rod.wave_speed / rod.length;
             down.rotate_left(1);
             up.rotate_right(1);
-            down[cells - 1] = if problem.rod.top == Top::Free { at_top } else { -at_top };
+            down[cells - 1] = if problem.top() == Top::Free { at_top } else { -at_top };
             up[0] = velocity - force;
             for i in 0..cells {
                 (down[i], up[i]) = (down[i] + source[i], up[i] + source[i]);

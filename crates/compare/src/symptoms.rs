@@ -2,7 +2,7 @@
 //! steps, and fronts that are spread.
 
 use super::agreement::Agreement;
-use super::diagnosis::Hint;
+use super::hint::Hint;
 use super::norms::ComparedColumn;
 use super::reference::Reference;
 use dalembert::number::Scalar;

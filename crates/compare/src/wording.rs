@@ -1,6 +1,8 @@
 //! The wording of hints.
 
-use super::diagnosis::{Cause, CauseFits, Fitted, Hint, NO_GRAVITY};
+use super::cause::Cause;
+use super::cause_fits::{CauseFits, Fitted, NO_GRAVITY};
+use super::hint::Hint;
 use super::reference::Reference;
 use super::symptoms::LEFT;
 use dalembert::number::Scalar;

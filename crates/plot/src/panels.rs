@@ -12,7 +12,7 @@ use crate::draw::{
 };
 use crate::field::{COLUMNS, FieldMap, FieldValues, MAX_RAYS, ROWS, Ray};
 use crate::picture::Picture;
-use crate::scene_data::{Curve, Request, SMALLEST_JUMP, SceneData};
+use crate::scene_data::{Curve, Request, SMALLEST_JUMP, SceneData, time_axis};
 
 /// Colour of the times on the ground.
 const CONTACT: &str = "#dcdcdc";
@@ -106,13 +106,6 @@ fn add_for_each(panels: &mut Vec<Panel>, scenes: &[SceneData], panel: impl Fn(&S
         }
     }
     panels.append(&mut added);
-}
-
-/// Returns the axis of times that holds the spans of all scenes.
-pub(crate) fn time_axis(scenes: &[SceneData]) -> Axis {
-    let from = scenes.iter().map(|scene| scene.span[0]).fold(f64::INFINITY, f64::min);
-    let to = scenes.iter().map(|scene| scene.span[1]).fold(0.0, f64::max);
-    Axis::new("t", scenes.first().map_or("", |scene| scene.units.name(Measure::Time)), [from, to])
 }
 
 /// Adds the times on the ground: bands from the lower edge up to a height, and marks for contacts that are too short

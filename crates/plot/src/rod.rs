@@ -96,8 +96,8 @@ impl RodPicture {
         extremes: &RunExtremes,
         time: f64,
     ) -> Result<String, Error> {
-        let rod = &history.problem().rod;
-        let length = rod.length.to_f64();
+        let rod = history.problem();
+        let length = rod.length().to_f64();
         let query = |motion: &dyn Motion<S::Carried>| {
             let time = motion.end().double(time);
             let points: Vec<_> = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect();
@@ -111,7 +111,7 @@ impl RodPicture {
             })
         };
         let state = history.ask(query, |_| Vec::new())?;
-        Ok(self.svg(&state, extremes, length, rod.top == Top::Fixed))
+        Ok(self.svg(&state, extremes, length, rod.top() == Top::Fixed))
     }
 
     fn svg(&self, state: &State, extremes: &RunExtremes, length: f64, fixed: bool) -> String {

@@ -3,15 +3,14 @@
 use dalembert::engine::{Motion, RayRegister, WavePiece, straight};
 use dalembert::number::Scalar;
 use dalembert::problem::{Parameters, Problem};
-use dalembert::quantity::{Quantity, Units};
+use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::reason::Warning;
 use dalembert::solve::{Target, TypedHistory};
 use dalembert::{Error, EventKind, Side, StressPiece};
 use glam::DVec2;
 
-use crate::draw::without_subscripts;
+use crate::draw::{Axis, without_subscripts};
 use crate::field::{Extent, FieldMap, MAX_RAYS, Ray, settled};
-use crate::panels::time_axis;
 use crate::picture::{FieldQuantity, Picture};
 
 /// Pictures to be drawn, and their span.
@@ -324,4 +323,11 @@ fn world_lines<S: Target>(
     let point = |(t, v): &(S::Carried, S::Carried)| DVec2::new(t.to_f64(), v.to_f64());
     let curve = |k: usize| found.iter().skip(k).step_by(WORLD_LINES).map(point).collect();
     Ok(shares.iter().enumerate().map(|(k, share)| (share * extent.rod.length, curve(k))).collect())
+}
+
+/// Returns the axis of times that holds the spans of all scenes.
+pub(crate) fn time_axis(scenes: &[SceneData]) -> Axis {
+    let from = scenes.iter().map(|scene| scene.span[0]).fold(f64::INFINITY, f64::min);
+    let to = scenes.iter().map(|scene| scene.span[1]).fold(0.0, f64::max);
+    Axis::new("t", scenes.first().map_or("", |scene| scene.units.name(Measure::Time)), [from, to])
 }

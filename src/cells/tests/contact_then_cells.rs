@@ -16,7 +16,7 @@ fn events_move_with_a_displaced_release_as_the_bound_says() {
         ("0.00001", "1.3", 1e-8),
     ] {
         let mut problem = Problem::uniform(number("1"), number("1"), number("1"), number(speed));
-        (problem.rod.damping, problem.run) = (Some(number(damping)), Run::Impacts(5));
+        problem = problem.to_builder().damping(number(damping)).run(Run::Impacts(5)).build().unwrap();
         let solve = || -> Result<_, Error> {
             let rod = Parameters::<f64>::of(&problem, &())?;
             let contact = FirstContact::new(&rod.carry());

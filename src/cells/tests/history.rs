@@ -9,8 +9,8 @@ fn plain(history: &Damped<f64>) -> Course<f64> {
 /// Builds a rod with c = L = 1.
 fn rod(gravity: i64, speed: i64, damping: &str, run: Run) -> Problem {
     let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(gravity), Number::from(speed));
-    problem.rod.damping = damping.parse().ok();
-    problem.run = run;
+    problem = problem.to_builder().damping(damping).build().unwrap();
+    problem = problem.with_run(run).unwrap();
     problem
 }
 

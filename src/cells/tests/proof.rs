@@ -80,7 +80,7 @@ fn number(text: &str) -> Number {
 
 fn rod(damping: &str, impacts: u32) -> Problem {
     let mut rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
-    (rod.rod.damping, rod.run) = (Some(number(damping)), Run::Impacts(impacts));
+    rod = rod.to_builder().damping(number(damping)).run(Run::Impacts(impacts)).build().unwrap();
     rod
 }
 
@@ -92,7 +92,7 @@ fn a_start_with_another_velocity_is_within_what_is_proved() {
             let start = |speed: Number| {
                 let velocity = vec![(0.into(), speed.clone()), (1.into(), speed)];
                 let profile = Profile { displacement: Vec::new(), velocity };
-                Problem { start: Start::Profile(profile), ..rod(damping, 4) }
+                rod(damping, 4).to_builder().start(Start::Profile(profile)).build().unwrap()
             };
             // Initial speed greater by 1e-30.
             let faster = number(&(-number(speed).to_rational() - number("1e-30").to_rational()).to_string());
@@ -113,9 +113,9 @@ fn a_start_with_another_kink_is_within_what_is_proved() {
                 let kink = number(kink);
                 // v_x = bend up to the kink, and zero beyond it.
                 let height = number(&(number(bend).to_rational() * kink.to_rational()).to_string());
-                let displacement = vec![(0.into(), 0.into()), (kink, height.clone()), (1.into(), height)];
-                let velocity = [0, 1].map(|x: i64| (x.into(), number(&format!("-{speed}")))).to_vec();
-                Problem { start: Start::Profile(Profile { displacement, velocity }), ..rod(damping, 3) }
+                let displacement = [(Number::from(0), Number::from(0)), (kink, height.clone()), (1.into(), height)];
+                let velocity = [0, 1].map(|x: i64| (Number::from(x), number(&format!("-{speed}")))).to_vec();
+                rod(damping, 3).to_builder().displacement(displacement).velocity(velocity).build().unwrap()
             };
             // The jump of v_x is moved by 1e-30 of 2L: in q, and in p.
             let mass = 1e-30 * number(bend).to_f64().abs();

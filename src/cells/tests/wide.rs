@@ -12,8 +12,8 @@ use crate::special::RoundedSpecial;
 /// Builds a rod with r = 1/10, μ = 10 and ten impacts.
 fn rod() -> Problem {
     let mut problem = Problem::uniform(Number::from(1), Number::from(1), Number::from(1), Number::from(10));
-    problem.rod.damping = "0.1".parse().ok();
-    problem.run = Run::Impacts(10);
+    problem = problem.to_builder().damping("0.1").build().unwrap();
+    problem = problem.with_run(Run::Impacts(10)).unwrap();
     problem
 }
 

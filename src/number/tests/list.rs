@@ -3,7 +3,7 @@ use super::*;
 /// Checks that equally spaced decimals are the doubles that a program writes for them.
 #[test]
 fn decimals_stay_decimals() {
-    let of = |list: Result<List, String>| list.unwrap().lift::<f64>(&());
+    let of = |list: Result<List, ListError>| list.unwrap().lift::<f64>(&());
     let number = |text: &str| text.parse::<Number>().unwrap();
     assert_eq!(of(List::steps(&number("0.1"), &number("0.3"))), [0.0, 0.1, 0.2, 0.3]);
     assert_eq!(of(List::steps(&number("1e-1"), &number("0.39"))), [0.0, 0.1, 0.2, 0.3]);
@@ -15,7 +15,7 @@ fn decimals_stay_decimals() {
 
 #[test]
 fn what_is_no_list_is_said() {
-    let said = |text: &str| List::equally_spaced(text).unwrap_err();
+    let said = |text: &str| List::equally_spaced(text).unwrap_err().to_string();
     for (text, expected) in [
         ("", "expected a number such as"),
         ("1,,2", "found ``"),

@@ -1,14 +1,11 @@
 use super::*;
 use crate::motion::{Pair, Side};
-use crate::problem::Run;
 use crate::solve::question::{Question, unobserved};
 
 /// A rod that bounces three times, damped or not.
 fn rod(damping: Option<&str>) -> Problem {
-    let mut problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
-    problem.rod.damping = damping.and_then(|damping| damping.parse().ok());
-    problem.run = Run::Impacts(3);
-    problem
+    let problem = Problem::uniform(1.into(), 1.into(), 1.into(), 3.into());
+    problem.to_builder().damping(damping.unwrap_or("0")).impacts(3).build().unwrap()
 }
 
 fn meets(a: &Estimate<Float>, b: &Estimate<Float>) {

@@ -86,20 +86,20 @@ pub(super) fn balances(
         KineticEnergy, Strain, StrainEnergy, TopDisplacement, TopVelocity, TranslationalEnergy, VibrationalEnergy,
     };
     let mut wrong = Vec::new();
-    let length = Known::of(&problem.rod.length);
+    let length = Known::of(problem.length());
     let [damping, gravity] =
-        [&problem.rod.damping, &problem.gravity].map(|x| x.as_ref().map_or(Known(float(0.0), 0.0), Known::of));
+        [problem.damping(), problem.gravity()].map(|x| x.map_or(Known(float(0.0), 0.0), Known::of));
     let known = |x: f64| Known(float(x), 0.0);
     let (one, minus) = (known(1.0), known(-1.0));
     // ρS, which turns values per ρS into those of the material.
-    let line = match &problem.rod.material {
+    let line = match problem.material() {
         Material::WaveSpeed(_) => known(1.0),
         Material::Elastic { density, area, .. } => {
             let area = area.as_ref().map_or(float(1.0), exact);
             Known(exact(density) * area, 0.0)
         }
     };
-    let free = problem.rod.top == Top::Free;
+    let free = problem.top() == Top::Free;
     let mut zero = |what: String, (found, size): (Known, f64)| {
         counts.balanced += 1;
         if !found.vanishes(size * 1e-140) {
@@ -194,7 +194,7 @@ pub(super) fn balances(
     for k in (2..account.at.len()).step_by(2) {
         let (before, after) = (account.column(k - 2, Energy), account.column(k, Energy));
         let (mut change, size) = sum(&[(&one, after), (&minus, before)]);
-        if problem.rod.damping.is_some() {
+        if problem.damping().is_some() {
             change.0 = change.0.max(&float(0.0));
         }
         zero(format!("the energy's change up to {}", account.at[k].time), (change, size));

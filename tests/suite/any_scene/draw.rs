@@ -139,8 +139,8 @@ pub(super) fn any_scene(random: &mut Random) -> Option<Problem> {
 pub(super) fn times(problem: &Problem, history: &TypedHistory<f64>, random: &mut Random) -> Vec<Number> {
     let end = *history.end();
     let mut times: Vec<Number> = (0..3).map(|_| random.between(0.0, end)).map(typed).collect();
-    if let Material::WaveSpeed(c) = &problem.rod.material {
-        let half = problem.rod.length.to_rational() / c.to_rational();
+    if let Material::WaveSpeed(c) = problem.material() {
+        let half = problem.length().to_rational() / c.to_rational();
         let count = (end / half.to_f64()).min(1e6) as i64;
         let k = random.between(0.0, count as f64 + 1.0) as i64;
         times.push((half * k).to_string().parse().unwrap());
@@ -160,7 +160,6 @@ pub(super) fn typed(x: f64) -> Number {
 /// A scene as it could be typed.
 pub(super) fn spelled(problem: &Problem) -> String {
     let mut text = String::new();
-    let Problem { rod, gravity, start, run } = problem;
-    writeln!(text, "{rod:?}\n{gravity:?}\n{start:?}\n{run:?}").unwrap();
+    writeln!(text, "{problem:#?}").unwrap();
     text
 }

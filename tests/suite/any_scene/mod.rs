@@ -80,11 +80,11 @@ fn held(mut random: Random, number: usize, explore: bool, counts: &mut Counts) {
         println!("{scene}");
     }
     counts.scenes += 1;
-    counts.damped += usize::from(problem.rod.damping.is_some());
-    counts.fixed += usize::from(problem.rod.top == Top::Fixed);
-    counts.profiles += usize::from(matches!(problem.start, Start::Profile(_)));
-    counts.above += usize::from(matches!(problem.start, Start::Above { .. }));
-    let damped = problem.rod.damping.is_some();
+    counts.damped += usize::from(problem.damping().is_some());
+    counts.fixed += usize::from(problem.top() == Top::Fixed);
+    counts.profiles += usize::from(matches!(problem.start(), Start::Profile(_)));
+    counts.above += usize::from(matches!(problem.start(), Start::Above { .. }));
+    let damped = problem.damping().is_some();
     let limit = Duration::from_secs(if explore { 60 } else { 6000 });
     let other = random.of(&[
         Numbers::Double(Some(1e-13)),
@@ -112,7 +112,7 @@ fn held(mut random: Random, number: usize, explore: bool, counts: &mut Counts) {
     };
     let Solution::Double(history) = &default else { unreachable!() };
     let times = times(&problem, history, &mut random);
-    let length = &problem.rod.length;
+    let length = problem.length();
     // Eight bits, so that its decimals are few.
     let part = random.between(128.0, 256.0).floor();
     let inside = part * 2f64.powi((length.to_f64() / 2.0).log2().floor() as i32 - 8);

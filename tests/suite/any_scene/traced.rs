@@ -17,13 +17,13 @@ impl<'a> Traced<'a> {
     pub(super) fn of(problem: &'a Problem, history: &TypedHistory<Rational>) -> Self {
         let scales = history.scales();
         Traced {
-            length: problem.rod.length.to_rational(),
+            length: problem.length().to_rational(),
             wave_speed: scales.wave_speed,
             gravity: scales.gravity,
-            start: &problem.start,
+            start: problem.start(),
             // What the end has just before t = 0.
             speed: -history.ground_end(Rational::new(), Side::Left).unwrap().1,
-            free: problem.rod.top == Top::Free,
+            free: problem.top() == Top::Free,
             events: history.events().iter().map(|event| (event.kind, event.t.clone())).collect(),
         }
     }

@@ -150,7 +150,7 @@ impl SampleArgs {
         let times = self.times()?;
         let mut points = self.points.clone();
         if points.is_none() && self.quantity.iter().any(|name| name == "field") {
-            points = Some(List::Range(0.into(), scene.problem.rod.length.clone(), 3));
+            points = Some(List::Range(0.into(), scene.problem.length().clone(), 3));
         }
         let quantities = self.quantities(&scene, points.is_some(), is_golden)?;
         let side = match (self.side, is_golden && self.derivatives.is_empty()) {
@@ -208,7 +208,7 @@ impl SampleArgs {
         match (&self.times, &self.times_from, &self.dt, &self.to) {
             (Some(list), ..) => Ok(Some(list.clone())),
             (_, Some(path), ..) => read_times(path).map(Some),
-            (_, _, Some(dt), Some(to)) => List::steps(dt, to).map(Some).map_err(|error| failure!("{error}")),
+            (_, _, Some(dt), Some(to)) => Ok(Some(List::steps(dt, to)?)),
             _ => Ok(None),
         }
     }

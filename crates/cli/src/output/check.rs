@@ -85,8 +85,8 @@ pub(crate) fn check_summary(groups: &Groups, published: &[PublishedScene]) -> St
 /// Returns a page of the catalogue that does not depend on the machine.
 pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> String {
     let mut out = String::from(
-        "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is asked \
-         of several routes that share as little as they can, and each route is held to what it promises. The truth \
+        "# Hard cases, and what the paper claims\n\nPrinted by `dalembert check --format markdown`. Each number is \
+         asked of several routes that share as little as they can, and each route is held to what it promises. The truth \
          stands in the catalogue, to as many digits as are printed; where a row says *proved*, enclosures prove them. \
          `dalembert check` shows the answers, how many of their digits are right, and what each took on your \
          machine.\n\n",

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::rows::Column;
+use super::column::Column;
 use super::run_info::RunInfo;
 use crate::answer::note_end;
 use dalembert::solve::{History, Numbers};

@@ -2,6 +2,7 @@
 
 mod check;
 mod code;
+mod column;
 mod compare;
 mod cost;
 mod dataset;
@@ -21,6 +22,7 @@ mod writer;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
 pub(crate) use code::{Language, code};
+pub(crate) use column::Column;
 pub(crate) use compare::{compare_data, compare_svg};
 pub(crate) use cost::{cost_data, cost_svg, effects_data};
 pub(crate) use dataset::Cell;
@@ -29,7 +31,7 @@ pub(crate) use figures::{figure_data, figure_sheet, figures_index};
 pub(crate) use header::Header;
 pub(crate) use outline::outline;
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
-pub(crate) use rows::{Column, Layout, RowWriter};
+pub(crate) use rows::{Layout, RowWriter};
 pub(crate) use run_info::RunInfo;
 pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, STRAIGHT_ERROR};
 pub(crate) use sweep::sweep_data;

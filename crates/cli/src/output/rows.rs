@@ -1,6 +1,5 @@
 //! Rows of named columns, written as they are computed: a table, CSV, JSON or NPZ.
 
-use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
 
@@ -8,6 +7,7 @@ use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
+use super::column::{Column, Kind};
 use super::dataset::Cell;
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
@@ -15,49 +15,7 @@ use super::table::{TextTable, table_digits};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
 use dalembert::number::{DOUBLE_DIGITS, Scalar, double_bound};
-use dalembert::quantity::{Quantity, Units};
 use dalembert::{Bound, Value};
-
-/// The kind of values in a column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// Numbers.
-    Number,
-    /// Bounds of the errors of numbers.
-    Bound,
-    /// Sides of a jump: −1, 0 and 1 stand for left, both and right.
-    Side,
-    /// 0 or 1.
-    Flag,
-}
-
-/// A column of rows.
-#[derive(Clone, Debug)]
-pub(crate) struct Column {
-    pub(crate) name: Cow<'static, str>,
-    pub(crate) symbol: Cow<'static, str>,
-    pub(crate) meaning: Cow<'static, str>,
-    /// Empty if there is none or none is known.
-    pub(crate) unit: &'static str,
-    pub(crate) kind: Kind,
-}
-
-impl Column {
-    /// Returns the column of a quantity.
-    pub(crate) fn new(quantity: Quantity, units: &Units) -> Self {
-        let kind = match quantity {
-            Quantity::Side => Kind::Side,
-            Quantity::Contact => Kind::Flag,
-            _ => Kind::Number,
-        };
-        let (name, symbol, meaning) = (quantity.name().into(), quantity.symbol().into(), quantity.meaning().into());
-        Column { name, symbol, meaning, unit: quantity.unit(units), kind }
-    }
-
-    pub(super) fn has_bound(&self) -> bool {
-        self.kind == Kind::Number
-    }
-}
 
 /// Options of the text of a file.
 #[derive(Debug)]

@@ -206,8 +206,8 @@ impl HistoryTables {
             data.notes.push(format!("v_x(0,t) is linear from strain_start to strain_end, or {series}"));
         } else if part == HistoryPart::Stress && self.is_curved {
             data.notes.push(format!(
-                "straight lines from strain_start to strain_end are within {STRAIGHT_ERROR:e} of the greatest v_x(0,t); \
-                 the coefficients give the exact form"
+                "straight lines from strain_start to strain_end are within {STRAIGHT_ERROR:e} of the greatest \
+                 v_x(0,t); the coefficients give the exact form"
             ));
         }
         data

@@ -61,15 +61,15 @@ fn the_json() {
     // One sample of weight 1 is off by ½; ‖u‖₁ = 1 · 1 + ½ · 2, ‖u‖₂² = 1 + ½ · 4.
     assert_eq!((&u["l1"]["absolute"], &u["l1"]["relative"]), (&0.5.into(), &0.25.into()));
     assert_eq!((&u["l2"]["absolute"], u["l2"]["relative"].as_f64()), (&0.5.into(), Some(0.5 / 3f64.sqrt())));
-    assert_eq!((&u["linf"]["absolute"], &u["linf"]["time"]), (&0.5.into(), &1.0.into()));
+    assert_eq!((&u["linf"]["absolute"], &u["linf"]["t"]), (&0.5.into(), &1.0.into()));
     assert!(u["linf_off_jumps"].is_object());
     let contact = &report["contacts"][0];
     assert_eq!(
-        (&contact["ours"]["from"], &contact["ours"]["to"], &contact["ours"]["impulse"]),
+        (&contact["ours"]["impact"], &contact["ours"]["release"], &contact["ours"]["impulse"]),
         (&0.0.into(), &2.0.into(), &2.0.into())
     );
     assert_eq!(
-        (&contact["theirs"]["from"], &contact["theirs"]["to"], &contact["theirs"]["peak"]),
+        (&contact["theirs"]["impact"], &contact["theirs"]["release"], &contact["theirs"]["peak_force"]),
         (&0.0.into(), &2.5.into(), &1.0.into())
     );
     let audit = report["audit"].as_object().unwrap();
@@ -486,7 +486,8 @@ fn what_is_refused() {
         ("t,u\n-2,0\n-1,0\n", "run.csv: found times up to -1, expected some after 0"),
         (
             "0,0\n1,0\n",
-            "run.csv: found no names of columns, expected a map such as t=0,u=1,v=2,force=3 with their numbers, counted from 0",
+            "run.csv: found no names of columns, expected a map such as t=0,u=1,v=2,force=3 with their \
+             numbers, counted from 0",
         ),
         ("t,w\n0,0\n1,0\n", "run.csv: found no quantity in the columns t, w"),
         ("t,x,u\n0,0,0\n0,2,0\n", "run.csv, line 3, column 2: found point 2, expected one between 0 and 1"),

@@ -37,7 +37,7 @@ fn the_truth_of_a_later_event() {
     std::fs::write(file.path(), &source).unwrap();
     let found = json(&[file.path().to_str().unwrap(), "--quantity", "last_event", "--seconds", "0.5"]);
     let mut scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
-    scene.problem.run = Run::Impacts(2);
+    scene.problem = scene.problem.with_run(Run::Impacts(2)).unwrap();
     let last = scene.problem.doubles().unwrap().events().last().unwrap().t;
     let truth = found["truth"].as_f64().unwrap();
     assert!(found["truth_proved"] == true && (truth - last).abs() < 1e-12 * last, "{found:#} {last}");

@@ -92,14 +92,10 @@ pub(crate) fn undamped() -> impl Strategy<Value = Problem> {
             let (l, c) = (fraction(l), fraction(c));
             let unit = g.map_or_else(|| Rational::from(1), |g| fraction(g) * 2 * &l / &c);
             let speed = number(fraction(m) * unit);
-            let mut problem = Problem::uniform(number(l), number(c), 0.into(), speed.clone());
-            problem.gravity = g.map(|g| number(fraction(g)));
-            if let Some(gap) = gap {
-                problem.start = Start::Above { gap: number(fraction(gap)), speed };
-            }
-            problem.rod.top = if fixed { Top::Fixed } else { Top::Free };
-            problem.run = Run::Impacts(impacts);
-            problem
+            let rod = Problem::builder().length(number(l)).wave_speed(number(c)).impact_speed(speed).impacts(impacts);
+            let rod = rod.gravity(g.map_or(0.into(), |g| number(fraction(g))));
+            let rod = rod.gap(gap.map_or(0.into(), |gap| number(fraction(gap))));
+            rod.top(if fixed { Top::Fixed } else { Top::Free }).build().unwrap()
         },
     )
 }
@@ -110,38 +106,37 @@ pub(crate) fn linear_starts() -> impl Strategy<Value = Problem> {
     let value = || (-6i64..=6, 1i64..=4);
     let values = || prop::collection::vec(value(), 3);
     let above = prop_oneof![3 => Just(0i64), 1 => 1i64..=3];
-    (undamped(), values(), values(), 1i64..=3, above).prop_map(
-        |(mut problem, displacement, mut velocity, at, above)| {
-            velocity[0].0 = -1 - velocity[0].0.abs();
-            let length = problem.rod.length.to_rational();
-            let number = |x: Rational| x.to_string().parse::<Number>().unwrap();
-            let fraction = |(p, q): (i64, i64)| Rational::from((p, q));
-            let places = [Rational::new(), length.clone() * at / 4, length.clone()];
-            // A tenth of the rod at most, and at c at most.
-            let list = |values: Vec<(i64, i64)>, unit: Rational, first: Option<Rational>| {
-                let value = |(k, value): (usize, (i64, i64))| match &first {
-                    Some(first) if k == 0 => first.clone(),
-                    _ => fraction(value) * &unit,
-                };
-                let values = values.into_iter().enumerate().map(value);
-                places.iter().cloned().zip(values).map(|(x, value)| (number(x), number(value))).collect()
+    (undamped(), values(), values(), 1i64..=3, above).prop_map(|(problem, displacement, mut velocity, at, above)| {
+        velocity[0].0 = -1 - velocity[0].0.abs();
+        let length = problem.length().to_rational();
+        let number = |x: Rational| x.to_string().parse::<Number>().unwrap();
+        let fraction = |(p, q): (i64, i64)| Rational::from((p, q));
+        let places = [Rational::new(), length.clone() * at / 4, length.clone()];
+        // A tenth of the rod at most, and at c at most.
+        let list = |values: Vec<(i64, i64)>, unit: Rational, first: Option<Rational>| {
+            let value = |(k, value): (usize, (i64, i64))| match &first {
+                Some(first) if k == 0 => first.clone(),
+                _ => fraction(value) * &unit,
             };
-            let dalembert::Material::WaveSpeed(c) = &problem.rod.material else { unreachable!() };
-            let (small, first) = (length.clone() / 60, length.clone() * above / 60);
-            problem.start = Start::Profile(dalembert::Profile {
-                displacement: list(displacement, small, Some(first)),
-                velocity: list(velocity, c.to_rational() / 6, None),
-            });
-            problem.gravity.get_or_insert_with(|| number(c.to_rational() * c.to_rational() / &length));
-            problem
-        },
-    )
+            let values = values.into_iter().enumerate().map(value);
+            places.iter().cloned().zip(values).map(|(x, value)| (number(x), number(value))).collect()
+        };
+        let dalembert::Material::WaveSpeed(c) = problem.material() else { unreachable!() };
+        let (small, first) = (length.clone() / 60, length.clone() * above / 60);
+        let gravity = || number(c.to_rational() * c.to_rational() / &length);
+        let start = Start::Profile(dalembert::Profile {
+            displacement: list(displacement, small, Some(first)),
+            velocity: list(velocity, c.to_rational() / 6, None),
+        });
+        let gravity = problem.gravity().cloned().unwrap_or_else(gravity);
+        problem.to_builder().start(start).gravity(gravity).build().unwrap()
+    })
 }
 
 /// The values of `problem` that a derivative in fractions can be taken by.
 pub(crate) fn given(problem: &Problem) -> Vec<(Parameter, Rational)> {
     let number = |number: &Number| number.to_rational();
-    let start = match &problem.start {
+    let start = match problem.start() {
         Start::Uniform(Speed::Given(speed)) | Start::Above { speed, .. } => {
             vec![(Parameter::ImpactSpeed, number(speed))]
         }
@@ -154,10 +149,10 @@ pub(crate) fn given(problem: &Problem) -> Vec<(Parameter, Rational)> {
             displacement.chain(velocity.map(|(k, value)| (Parameter::Velocity(Some(k)), value))).collect()
         }
     };
-    let dalembert::Material::WaveSpeed(c) = &problem.rod.material else { unreachable!() };
-    let mut given = vec![(Parameter::Length, number(&problem.rod.length)), (Parameter::WaveSpeed, number(c))];
+    let dalembert::Material::WaveSpeed(c) = problem.material() else { unreachable!() };
+    let mut given = vec![(Parameter::Length, number(problem.length())), (Parameter::WaveSpeed, number(c))];
     given.extend(start);
-    given.extend(problem.gravity.as_ref().map(|g| (Parameter::Gravity, number(g))));
+    given.extend(problem.gravity().map(|g| (Parameter::Gravity, number(g))));
     given.extend(problem.gap().map(|gap| (Parameter::Gap, number(gap))));
     given
 }
@@ -322,7 +317,7 @@ fn a_damped_bounce_between_rays() {
     let (r, t1) = (0.25, 2.0);
     for (mu, g) in [("1.6", "1"), ("2", "1"), ("2.4", "1"), ("1", "0.5")] {
         let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
-        rod.rod.damping = Some(number("0.25"));
+        rod = rod.to_builder().damping(number("0.25")).build().unwrap();
         let history = rod.doubles().unwrap();
         let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].t);
         assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
@@ -353,7 +348,7 @@ fn restitution_by_damping() {
     assert_eq!(slope(0.0), -1.0);
     for r in ["0", "0.05", "0.1", "0.3"] {
         let mut rod = uniform("1", "1", "0", "1", Run::Impacts(1));
-        rod.rod.damping = Some(number(r)).filter(|r| !r.is_zero());
+        rod = rod.to_builder().damping(number(r)).build().unwrap();
         let found = &doubles(&rod.doubles().unwrap(), "damping", Quantity::MomentumRestitution)[0];
         // R = r t₁, t₁ = 2.
         let expected = 2.0 * slope(2.0 * number(r).to_f64());
@@ -369,31 +364,20 @@ fn damped(impacts: std::ops::RangeInclusive<u32>) -> impl Strategy<Value = Probl
     (rod, 0.5f64..2.0, any::<bool>(), impacts).prop_map(|((r, g, m, gap), l, fixed, impacts)| {
         let number = |x: f64| number(&format!("{x:.3}"));
         let mut problem = Problem::uniform(number(l), number(1.5), number(g.unwrap_or(0.0)), number(m));
-        problem.rod.damping = Some(number(r));
-        problem.rod.top = if fixed { Top::Fixed } else { Top::Free };
+        problem = problem.to_builder().damping(number(r)).build().unwrap();
+        problem = problem.to_builder().top(if fixed { Top::Fixed } else { Top::Free }).build().unwrap();
         if let Some(gap) = gap {
-            problem.start = Start::Above { gap: number(gap), speed: number(m) };
+            problem = problem.to_builder().start(Start::Above { gap: number(gap), speed: number(m) }).build().unwrap();
         }
-        problem.run = Run::Impacts(impacts);
+        problem = problem.with_run(Run::Impacts(impacts)).unwrap();
         problem
     })
 }
 
 /// `problem` with one of its values `factor` times what it is.
 fn times(problem: &Problem, by: Parameter, factor: &Rational) -> Problem {
-    let mut changed = problem.clone();
-    let Problem { rod, gravity, start, .. } = &mut changed;
-    let value = match (by, &mut rod.material, start) {
-        (Parameter::Length, ..) => &mut rod.length,
-        (Parameter::WaveSpeed, dalembert::Material::WaveSpeed(c), _) => c,
-        (Parameter::Damping, ..) => rod.damping.as_mut().unwrap(),
-        (Parameter::Gravity, ..) => gravity.as_mut().unwrap(),
-        (Parameter::Gap, _, Start::Above { gap, .. }) => gap,
-        (Parameter::ImpactSpeed, _, Start::Above { speed, .. } | Start::Uniform(Speed::Given(speed))) => speed,
-        _ => unreachable!(),
-    };
-    *value = number(&(value.to_rational() * factor).to_string());
-    changed
+    let value = by.given(problem).unwrap().to_rational() * factor;
+    problem.to_builder().set(by, value).build().unwrap()
 }
 
 /// Of a damped rod by one of its values: what doubles give against difference quotients of runs in 40 digits, both a
@@ -403,7 +387,7 @@ fn doubles_against_long_numbers(cases: u32, least: [u32; 1], impacts: std::ops::
     let worst = std::cell::Cell::new(0.0);
     compares(cases, least, (damped(impacts), 0usize..6), |(problem, which)| {
         let mut given = given(&problem);
-        given.push((Parameter::Damping, problem.rod.damping.as_ref().unwrap().to_rational()));
+        given.push((Parameter::Damping, problem.damping().unwrap().to_rational()));
         let (by, value) = given[which % given.len()].clone();
         let found = problem.doubles().unwrap().derivatives(by, &EVENT).unwrap();
         let step = rational("1e-14");
@@ -460,7 +444,7 @@ fn euler_identities_damped(cases: u32, least: [u32; 1]) {
     compares(cases, least, damped(1..=1), |problem| {
         let history = problem.doubles().unwrap();
         let mut given = given(&problem);
-        given.extend(problem.rod.damping.as_ref().map(|damping| (Parameter::Damping, damping.to_rational())));
+        given.extend(problem.damping().map(|damping| (Parameter::Damping, damping.to_rational())));
         let table: Vec<_> = given
             .into_iter()
             .map(|(by, value)| (by, value.to_f64(), history.derivatives(by, &EVENT).unwrap()))
@@ -532,7 +516,7 @@ fn thresholds() {
     let h = bessel(0, 2.0 * r) - 2.0;
     let slope = -h / (mu * (r * bessel(1, 2.0 * r) - 2.0 * r * r) + h - r * mu * h);
     let mut rod = uniform("1", "1", "1", &threshold.to_string_radix(10, Some(90)), Run::Impacts(1));
-    rod.rod.damping = Some(number("0.2"));
+    rod = rod.to_builder().damping(number("0.2")).build().unwrap();
     let found = rod.doubles().unwrap().derivatives(Parameter::ImpactSpeed, &[EventTime]).unwrap();
     let [left, right] = found[1][0].as_ref().unwrap().sides().map(|side| side.unwrap().clone());
     for (found, expected) in [(left, slope), (right, 0.0)] {

@@ -52,7 +52,7 @@ fn euler_identities(cases: u32, least: [u32; 3], rods: impl Strategy<Value = Pro
     compares(cases, least, (rods, 1i64..48, 0i64..=4), |(problem, part, place)| {
         let history = problem.exact().unwrap();
         let time = history.end().clone() * Rational::from((part, 48));
-        let point = problem.rod.length.to_rational() * Rational::from((place, 4));
+        let point = problem.length().to_rational() * Rational::from((place, 4));
         let (times, points) = ([text(&time)], [text(&point)]);
         let columns = COLUMNS.map(|(quantity, _)| quantity);
         let values = history.columns(&columns, std::slice::from_ref(&time), Some(Side::Right)).unwrap();
@@ -100,7 +100,7 @@ fn euler_identities_of_other_starts() {
 #[test]
 fn the_strain_of_a_damped_rod() {
     let mut rod = uniform("1", "2", "0", "3", Run::Impacts(1));
-    rod.rod.damping = Some(number("0.25"));
+    rod = rod.to_builder().damping(number("0.25")).build().unwrap();
     let history = rod.doubles().unwrap();
     let (c, mu, r) = (2.0, 3.0, 0.25);
     let times = ["0.1", "0.5", "0.9"].map(number);

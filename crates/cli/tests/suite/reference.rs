@@ -72,7 +72,7 @@ fn two_waves_are_the_field() {
     for rod in rods {
         let history = rod.exact().unwrap();
         let waves = history.waves().unwrap();
-        let length = rod.rod.length.to_rational();
+        let length = rod.length().to_rational();
         for k in 0..60 {
             let t = history.end().clone() * fraction(k, 60);
             for j in 0..=7 {
@@ -100,7 +100,7 @@ fn means_and_projections_are_integrals() {
         let rod = scene(name);
         let history = rod.exact().unwrap();
         let t = fraction(t.0, t.1);
-        let length = rod.rod.length.to_rational();
+        let length = rod.length().to_rational();
         // Not the whole rod, and not equally spaced.
         let grid: Vec<Rational> = [1, 2, 4, 7, 9].map(|k| length.clone() * fraction(k, 10)).into();
         let field = history.field(&grid, std::slice::from_ref(&t), Side::Right).unwrap();
@@ -156,7 +156,7 @@ fn means_and_projections_are_integrals() {
 const ASKED: usize = 400;
 
 fn asked(rod: &Problem, end: f64) -> Vec<(f64, f64)> {
-    let length = rod.rod.length.to_f64();
+    let length = rod.length().to_f64();
     // Multiples of the golden section are as far from each other as can be.
     (0..ASKED)
         .map(|k| (length * (k as f64 * 0.618_033_988_749_895).fract(), end * (k as f64 + 0.37) / ASKED as f64))

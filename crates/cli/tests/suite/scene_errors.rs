@@ -476,7 +476,7 @@ fn points_of_equal_value_are_kept_equal() {
     let source = "rod = { length = \"0.6/2\", wave_speed = 1 }
         start.velocity = [[0, 1], [\"0.1\", 2], [\"1/10\", -3], [0.3, 4]]\n";
     let scene = Scene::parse(source).unwrap();
-    let Start::Profile(profile) = &scene.problem.start else { panic!("a profile") };
+    let Start::Profile(profile) = scene.problem.start() else { panic!("a profile") };
     let kept: Vec<String> = profile.velocity.iter().map(|(x, v)| format!("{x} {v}")).collect();
     assert_eq!(kept, ["0 1", "0.1 2", "0.1 -3", "0.6/2 4"]);
     assert_eq!(scene.line_of("start.velocity"), Some(2));

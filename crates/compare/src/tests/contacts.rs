@@ -1,7 +1,7 @@
 use super::*;
 
 fn at(from: f64) -> ContactRecord {
-    ContactRecord { from, to: Some(from + 1.0), ..ContactRecord::default() }
+    ContactRecord { impact: from, release: Some(from + 1.0), ..ContactRecord::default() }
 }
 
 /// A box of force 2 from 1 to 3 in steps of ½, with one separation of a single sample.
@@ -12,9 +12,9 @@ fn a_box_with_chatter() {
     let found = find_contacts(&times, |k| force[k] > 0.0, Some(&force), 1.5);
     assert_eq!(found.len(), 1);
     let touch = &found[0];
-    assert_eq!((touch.from, touch.to, touch.merged, touch.below_step), (0.75, Some(3.25), 1, false));
+    assert_eq!((touch.impact, touch.release, touch.merged, touch.below_step), (0.75, Some(3.25), 1, false));
     // Four samples of weight ½, and the centroid between them.
-    assert_eq!((touch.impulse, touch.centroid, touch.peak), (Some(4.0), Some(2.0), Some(2.0)));
+    assert_eq!((touch.impulse, touch.centroid, touch.peak_force), (Some(4.0), Some(2.0), Some(2.0)));
     // Told apart where separations of a step count.
     assert_eq!(find_contacts(&times, |k| force[k] > 0.0, None, 0.9).len(), 2);
 }
@@ -23,7 +23,7 @@ fn a_box_with_chatter() {
 #[test]
 fn open_and_none() {
     let found = find_contacts(&[0.0, 1.0, 2.0], |k| k > 0, None, 0.0);
-    assert_eq!(found, [ContactRecord { from: 0.5, to: None, ..ContactRecord::default() }]);
+    assert_eq!(found, [ContactRecord { impact: 0.5, release: None, ..ContactRecord::default() }]);
     assert_eq!(find_contacts(&[0.0, 1.0], |_| false, None, 0.0), []);
 }
 
@@ -35,7 +35,7 @@ fn the_impulse_tells() {
     let theirs: Vec<ContactRecord> = [(0.0, 3.0), (2.8, 0.1), (4.4, 2.9), (8.8, 3.0)].map(|(at, i)| of(at, i)).into();
     let rows = match_contacts(&ours, &theirs);
     let places: Vec<_> =
-        rows.iter().map(|pair| [&pair.ours, &pair.theirs].map(|contact| contact.as_ref().map(|t| t.from))).collect();
+        rows.iter().map(|pair| [&pair.ours, &pair.theirs].map(|contact| contact.as_ref().map(|t| t.impact))).collect();
     let expected = [(Some(0.0), 0.0), (None, 2.8), (Some(4.0), 4.4), (Some(8.0), 8.8)];
     assert_eq!(places, expected.map(|(a, b)| [a, Some(b)]));
     // One of length 1 beside steps of ½ and of 0.51.
@@ -50,7 +50,7 @@ fn drift_a_gap_and_one_too_many() {
     let ours: Vec<ContactRecord> = (0..6).map(|k| at(4.0 * f64::from(k))).collect();
     let theirs: Vec<ContactRecord> = [0.0, 4.5, 13.5, 15.2, 18.0, 22.5].map(at).into();
     let rows = match_contacts(&ours, &theirs);
-    let from = |contact: &Option<ContactRecord>| contact.as_ref().map(|contact| contact.from);
+    let from = |contact: &Option<ContactRecord>| contact.as_ref().map(|contact| contact.impact);
     let times = |pair: &ContactPair| (from(&pair.ours), from(&pair.theirs));
     let expected = [
         (Some(0.0), Some(0.0)),

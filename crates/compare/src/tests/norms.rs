@@ -8,8 +8,8 @@ fn by_hand() {
     // Weights ½, 3/2, 1; differences 0, 1, 3; ‖ours‖₁ = 6, ‖ours‖₂² = 12.
     assert_eq!((norms.l1.absolute, norms.l1.relative), (4.5, Some(0.75)));
     assert_eq!((norms.l2.absolute, norms.l2.relative), (10.5f64.sqrt(), Some(10.5f64.sqrt() / 12f64.sqrt())));
-    assert_eq!((norms.linf.absolute, norms.linf.time, norms.on_jumps), (3.0, Some(3.0), 1));
-    assert_eq!(norms.linf_off_jumps.map(|most| (most.absolute, most.time)), Some((1.0, Some(1.0))));
+    assert_eq!((norms.linf.absolute, norms.linf.t, norms.on_jumps), (3.0, Some(3.0), 1));
+    assert_eq!(norms.linf_off_jumps.map(|most| (most.absolute, most.t)), Some((1.0, Some(1.0))));
 }
 
 /// Values whose squares no double holds have the norms of the same values of an ordinary size.

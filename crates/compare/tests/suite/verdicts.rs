@@ -101,8 +101,8 @@ fn right_runs_get_no_hint() {
     let scene = |rod: Rod, time: f64| {
         let Rod { length, modulus, density, area, gravity, damping, speed, .. } = rod;
         format!(
-            "rod = {{ length = {length}, modulus = {modulus:e}, density = {density}, area = {area:e}, damping = {damping} \
-             }}\nimpact.speed = {speed}\ngravity.acceleration = {gravity}\nrun.time = {time:e}\n"
+            "rod = {{ length = {length}, modulus = {modulus:e}, density = {density}, area = {area:e}, damping = \
+             {damping} }}\nimpact.speed = {speed}\ngravity.acceleration = {gravity}\nrun.time = {time:e}\n"
         )
     };
     let [damped, steel_damped] = [Rod { damping: 0.3, ..BAR }, Rod { damping: 12.0, ..STEEL }];

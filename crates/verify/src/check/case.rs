@@ -52,9 +52,9 @@ impl Rod {
         let number = |text: &str| text.parse::<Number>();
         let (gravity, speed) = (number(self.gravity)?, number(self.speed)?);
         let mut problem = Problem::uniform(number(self.length)?, number(self.wave_speed)?, gravity, speed);
-        problem.rod.damping = Some(number(self.damping)?).filter(|r| !r.is_zero());
+        problem = problem.to_builder().damping(number(self.damping)?).build()?;
         if !self.until.is_empty() {
-            problem.run = Run::Time(number(self.until)?);
+            problem = problem.with_run(Run::Time(number(self.until)?))?;
         }
         Ok(problem)
     }

@@ -6,7 +6,7 @@ use super::timing::{Timing, batch_size, check_budget, sample};
 use crate::error::VerifyError;
 use crate::routes::{run_engine, run_planned};
 use dalembert::number::Number;
-use dalembert::problem::{Parameters, Problem, Run, Speed, Start, Top};
+use dalembert::problem::{Parameters, Problem, Speed, Start, Top};
 use dalembert::solve::Numbers;
 use dalembert::{Effect, Scene};
 
@@ -83,31 +83,28 @@ pub fn effects(
 
 /// Returns the problem of `scene` without `effect`.
 fn switched_off(scene: &Scene, effect: Effect) -> Result<Problem, VerifyError> {
-    let mut problem = scene.problem.clone();
-    match effect {
-        Effect::Damping => problem.rod.damping = None,
+    let problem = &scene.problem;
+    let builder = problem.to_builder();
+    let builder = match effect {
+        Effect::Damping => builder.damping(0),
         Effect::Gravity => {
             // The rod keeps the speed that gravity gave it.
-            let speed = Parameters::<f64>::of(&problem, &())?.speed;
-            match &mut problem.start {
-                start @ Start::Uniform(Speed::DropHeight(_)) => *start = Start::Uniform(Speed::Given(number(speed)?)),
+            let speed = Parameters::<f64>::of(problem, &())?.speed;
+            let builder = builder.gravity(0);
+            match problem.start() {
+                Start::Uniform(Speed::DropHeight(_)) => builder.impact_speed(speed),
                 Start::Above { gap, speed } if speed.is_zero() => {
-                    let gravity = problem.gravity.as_ref().map_or(0.0, Number::to_f64);
-                    *speed = number((2.0 * gravity * gap.to_f64()).sqrt())?;
+                    let gravity = problem.gravity().map_or(0.0, Number::to_f64);
+                    builder.impact_speed((2.0 * gravity * gap.to_f64()).sqrt())
                 }
-                _ => (),
+                _ => builder,
             }
-            problem.gravity = None;
         }
-        Effect::RepeatedImpacts => problem.run = Run::Impacts(1),
-        Effect::FixedTop => problem.rod.top = Top::Free,
-        _ => (),
-    }
-    Ok(problem)
-}
-
-fn number(speed: f64) -> Result<Number, VerifyError> {
-    Ok(format!("{speed:e}").parse()?)
+        Effect::RepeatedImpacts => builder.impacts(1),
+        Effect::FixedTop => builder.top(Top::Free),
+        _ => builder,
+    };
+    Ok(builder.build()?)
 }
 
 /// Measures both runs in turns, so that a slow moment of the machine slows both.

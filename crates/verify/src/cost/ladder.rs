@@ -1,48 +1,12 @@
 //! Every route that can answer a question, at every setting, the cheapest first.
 
-use super::work_precision::OmissionReason;
+use super::family::{Family, OmissionReason};
 use crate::error::VerifyError;
 use crate::routes::{Route, RouteQuestion};
 use dalembert::Ending;
 use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
 use dalembert::solve::{Engine, Numbers, Plan};
-
-/// A family of routes, with one name in a table and one colour in a picture; in the order in which they are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::Display, strum::IntoStaticStr)]
-pub enum Family {
-    /// The closed form of the first contact.
-    #[strum(serialize = "closed form")]
-    ClosedForm,
-    /// The lattice: undamped, from event to event.
-    #[strum(serialize = "lattice")]
-    Lattice,
-    /// The closed form of the first contact, then cells: the plan of a damped scene.
-    #[strum(serialize = "closed form, then cells")]
-    ContactThenCells,
-    /// Characteristic cells from the start.
-    #[strum(serialize = "cells")]
-    Cells,
-    /// The sum over modes.
-    #[strum(serialize = "modal sum")]
-    Modes,
-    /// The paper's integrals by adaptive quadrature.
-    #[strum(serialize = "printed integrals")]
-    Printed,
-    /// Finite differences at CFL = 1.
-    #[strum(serialize = "finite differences")]
-    Differences,
-    /// Intervals with ends rounded outwards.
-    #[strum(serialize = "enclosures")]
-    Enclosures,
-}
-
-impl Family {
-    /// Returns the name in output.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
 
 /// A route at one setting.
 pub(super) struct Candidate {
@@ -79,7 +43,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
         Engine::ClosedForm => Family::ClosedForm,
         Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
     };
-    let damped = question.problem.rod.damping.is_some();
+    let damped = question.problem.damping().is_some();
     if damped {
         take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
@@ -198,7 +162,7 @@ fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReas
     if !question.problem.has_closed_form() {
         return Err(OmissionReason::NoClosedForm);
     }
-    if question.one.quantity == Quantity::LastEvent && question.problem.run != Run::Impacts(1) {
+    if question.one.quantity == Quantity::LastEvent && *question.problem.run() != Run::Impacts(1) {
         return Err(OmissionReason::LaterEvent);
     }
     let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };

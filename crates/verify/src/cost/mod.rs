@@ -2,11 +2,12 @@
 //! the true error of each; and the time that each effect of a scene costs.
 
 mod effects;
+mod family;
 mod ladder;
 mod timing;
 mod work_precision;
 
 pub use effects::{EffectCost, effects};
-pub use ladder::Family;
+pub use family::{Family, OmissionReason};
 pub use timing::Timing;
-pub use work_precision::{CostRow, CostTable, Omission, OmissionReason, work_precision};
+pub use work_precision::{CostRow, CostTable, Omission, work_precision};

@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::ladder::{Candidate, Family, Ladder, ladders};
+use super::family::{Family, OmissionReason};
+use super::ladder::{Candidate, Ladder, ladders};
 use super::timing::{Timing, check_budget, repeat};
 use crate::error::VerifyError;
 use crate::routes::{RouteQuestion, Truth};
@@ -44,48 +45,6 @@ pub struct Omission {
     pub setting: Option<String>,
     /// The reason.
     pub why: OmissionReason,
-}
-
-/// A reason to leave a route out of the table.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OmissionReason {
-    /// The route has no answer.
-    #[error(transparent)]
-    NoAnswer(#[from] VerifyError),
-    /// The start or the top has no closed form.
-    #[error("the start or the top is not the paper's, so the first contact has no closed form")]
-    NoClosedForm,
-    /// The event comes after the first contact.
-    #[error("it covers the first contact only")]
-    LaterEvent,
-    /// The time comes after the end of the first contact.
-    #[error("it covers the first contact only, which ends at t = {0:.6}")]
-    LaterTime(f64),
-    /// The first contact is not shown to last up to the time.
-    #[error("it is undecided whether the first contact lasts beyond t = {0:.6}")]
-    Undecided(f64),
-    /// The lattice has no damping.
-    #[error("the scene has damping, which couples the characteristics")]
-    Damping,
-    /// The plan of an undamped scene takes another route.
-    #[error("the scene has no damping: the plan takes the {0}")]
-    NoDamping(Family),
-    /// The plan takes enclosures.
-    #[error("the plan takes enclosures")]
-    PlanEncloses,
-    /// The route gives the vibrational energy only as a difference.
-    #[error("gives the whole energy; E_z would be the difference of two")]
-    WholeEnergy,
-    /// The paper has integrated the undamped rod in closed form.
-    #[error("without damping the paper itself has done its integrals")]
-    IntegralsDone,
-    /// The setting takes longer than the time that is left of so many seconds.
-    #[error("not expected to fit into {0} seconds")]
-    TooSlow(f64),
-    /// The truth cannot be computed to the digits of the setting.
-    #[error("no truth to hold it against: {0}")]
-    NoTruth(VerifyError),
 }
 
 /// One quantity by every route.

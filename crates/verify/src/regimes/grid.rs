@@ -1,7 +1,7 @@
 //! Grids of parameter values: the problem of each point.
 
 use dalembert::UnknownName;
-use dalembert::number::{List, Number, NumberError};
+use dalembert::number::{List, ListError, Number, NumberError};
 use dalembert::problem::{Parameter, Problem, ProblemError, Written};
 
 const MOST_POINTS: usize = 10_000_000;
@@ -23,8 +23,8 @@ pub enum GridError {
     )]
     NoNumber(Parameter),
     /// A text that spells no values.
-    #[error("{0}")]
-    Values(String),
+    #[error(transparent)]
+    Values(#[from] ListError),
     /// A value that cannot be read.
     #[error(transparent)]
     Number(#[from] NumberError),
@@ -70,7 +70,7 @@ impl std::str::FromStr for Axis {
 /// Reads a list of values. Listed values and both ends of a range stay as written; the values between are the shortest
 /// decimals of their doubles.
 pub(super) fn values(text: &str) -> Result<Vec<Number>, GridError> {
-    let (list, geometric) = List::read(text, true).map_err(GridError::Values)?;
+    let (list, geometric) = List::read(text, true)?;
     let List::Range(from, to, count) = list else { return Ok(list.numbers().unwrap_or_default()) };
     let (a, b, steps) = (from.to_f64(), to.to_f64(), f64::from(count - 1));
     let inner = |k: u32| {

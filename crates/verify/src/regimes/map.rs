@@ -11,7 +11,7 @@ use crate::paper::formulas::ThresholdRatio;
 use dalembert::Ending;
 use dalembert::engine::{Bounce, FirstContact, Kernels, Motion};
 use dalembert::number::{Estimate, Number, Scalar, short};
-use dalembert::problem::{Parameter, Parameters, Problem, Speed, Start, Written};
+use dalembert::problem::{Parameter, Parameters, Problem, Written};
 use dalembert::solve::{Engine, Numbers, Plan, Question, Rung};
 
 /// The end of a first contact.
@@ -215,9 +215,7 @@ const SHARING: usize = 256;
 /// Computes the regime of a point by its plan. Where the plan takes the closed form, all points of a damping share its
 /// kernels.
 fn regime(rod: &Problem, damping: &Number, speed: &Number, kernels: &Kernels<Estimate<f64>>) -> Regime {
-    let mut problem = rod.clone();
-    problem.rod.damping = Some(damping.clone()).filter(|damping| !damping.is_zero());
-    problem.start = Start::Uniform(Speed::Given(speed.clone()));
+    let Ok(problem) = rod.to_builder().damping(damping).impact_speed(speed).build() else { return Regime::Undecided };
     let Ok(plan) = Plan::of(&problem, &Question::bounce(Numbers::default())) else { return Regime::Undecided };
     if (plan.engine, plan.rung) == (Engine::ClosedForm, Rung::Double)
         && let Ok(rod) = Parameters::<Estimate<f64>>::of(&problem, &())

@@ -89,7 +89,7 @@ struct Step {
 /// fall on steps.
 pub(super) fn march(problem: &Problem, cells: usize) -> Result<March, Error> {
     let rod = Parameters::<f64>::of(problem, &())?;
-    let (end, impacts) = match &problem.run {
+    let (end, impacts) = match problem.run() {
         Run::Time(time) => (time.to_f64(), u32::MAX),
         Run::Impacts(count) => (MOST_TRIPS * rod.round_trip(), *count),
     };
@@ -150,7 +150,7 @@ impl Grid {
     fn new(problem: &Problem, rod: Parameters<f64>, cells: usize) -> Self {
         let width = rod.length / cells as f64;
         let empty = Profile::default();
-        let profile = match &problem.start {
+        let profile = match problem.start() {
             Start::Uniform(_) | Start::Above { .. } => &empty,
             Start::Profile(profile) => profile,
         };
@@ -168,7 +168,7 @@ impl Grid {
         };
         let centre = (0..cells).map(|k| place((k as f64 + 0.5) * width)).sum::<f64>() / cells as f64;
         let (waves, height) = ((0..cells).map(wave).collect(), place(0.0));
-        let (fixed_top, step) = (problem.rod.top == Top::Fixed, width / rod.wave_speed);
+        let (fixed_top, step) = (problem.top() == Top::Fixed, width / rod.wave_speed);
         Grid { fixed_top, step, waves, contact: height <= 0.0, time: 0.0, height, centre, width, rod }
     }
 

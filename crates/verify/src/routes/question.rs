@@ -51,7 +51,7 @@ impl RouteQuestion {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn from_scene(scene: &Scene, quantity: Option<Quantity>, time: Option<Number>) -> Result<Self, VerifyError> {
-        let quantity = quantity.unwrap_or(match scene.problem.run {
+        let quantity = quantity.unwrap_or(match scene.problem.run() {
             Run::Impacts(1) => Quantity::BounceTime,
             _ => Quantity::LastEvent,
         });
@@ -68,18 +68,17 @@ impl RouteQuestion {
         if time.is_none() && has_time {
             return Self::at_default_time(scene, quantity);
         }
-        Ok(Self::new(scene, quantity, time))
+        Self::new(scene, quantity, time)
     }
 
-    fn new(scene: &Scene, quantity: Quantity, time: Option<Number>) -> Self {
-        let mut problem = scene.problem.clone();
-        match (&time, quantity.needs()) {
-            (Some(time), _) => problem.run = Run::Time(time.clone()),
-            (None, Needs::FirstContact | Needs::Contact) => problem.run = Run::Impacts(1),
-            (None, _) => (),
-        }
+    fn new(scene: &Scene, quantity: Quantity, time: Option<Number>) -> Result<Self, VerifyError> {
+        let problem = match (&time, quantity.needs()) {
+            (Some(time), _) if !time.is_zero() => scene.problem.with_run(Run::Time(time.clone()))?,
+            (None, Needs::FirstContact | Needs::Contact) => scene.problem.with_run(Run::Impacts(1))?,
+            _ => scene.problem.clone(),
+        };
         let (one, units) = (One::new(quantity, time), Units::of(&problem, scene.units));
-        RouteQuestion { problem, one, units, transform: Transform::Identity }
+        Ok(RouteQuestion { problem, one, units, transform: Transform::Identity })
     }
 
     /// Builds the question at the first default time at which the answer in doubles is not zero.
@@ -90,7 +89,7 @@ impl RouteQuestion {
         };
         let time = 0.75 * Parameters::<f64>::of(&scene.problem, &())?.round_trip();
         let first = rounded(time).ok_or(VerifyError::RoundTrip(time))?;
-        let first = Self::new(scene, quantity, Some(first));
+        let first = Self::new(scene, quantity, Some(first))?;
         if !is_zero(&first) {
             return Ok(first);
         }
@@ -99,7 +98,7 @@ impl RouteQuestion {
         let mut times: Vec<f64> = [0.0].into_iter().chain(events).chain([*history.end()]).collect();
         times.dedup();
         let middles = times.windows(2).filter_map(|pair| rounded(0.5 * (pair[0] + pair[1])));
-        let mut questions = middles.map(|time| Self::new(scene, quantity, Some(time)));
+        let mut questions = middles.filter_map(|time| Self::new(scene, quantity, Some(time)).ok());
         Ok(questions.find(|question| !is_zero(question)).unwrap_or(first))
     }
 
@@ -167,7 +166,7 @@ impl RouteQuestion {
 
     /// Answers by a motion. **Errors**: the outer ones may be settled by more bits.
     fn find_in<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Result<S, VerifyError>, Error> {
-        let find = |one: &One| match one.of(motion, &self.units, &self.problem.run)? {
+        let find = |one: &One| match one.of(motion, &self.units, self.problem.run())? {
             Ok([value, _]) => Ok(value),
             Err(Missing { open: true, why }) => Err(VerifyError::Undecided(why)),
             Err(Missing { why, .. }) => Err(VerifyError::none(why)),

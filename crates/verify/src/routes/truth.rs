@@ -35,7 +35,7 @@ impl Truth {
     /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine.
     pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
-        if question.problem.rod.damping.is_none()
+        if question.problem.damping().is_none()
             && let Ok(value) = run(Route::Lattice(Numbers::Exact))
         {
             return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });

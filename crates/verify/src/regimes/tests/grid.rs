@@ -31,5 +31,5 @@ fn the_last_axis_varies_fastest() {
     assert_eq!(grid.len(), 6);
     let values = |k| grid.values(k).iter().map(|x| x.to_f64()).collect();
     assert_eq!((values(0), values(2), values(3)), (vec![1.0, 3.0], vec![1.0, 5.0], vec![2.0, 3.0]));
-    assert_eq!(grid.problem(5).unwrap().rod.damping.unwrap().to_f64(), 2.0);
+    assert_eq!(grid.problem(5).unwrap().damping().unwrap().to_f64(), 2.0);
 }

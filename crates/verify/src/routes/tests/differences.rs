@@ -6,8 +6,8 @@ use dalembert::number::Answer;
 fn problem(damping: Option<&str>) -> Problem {
     let number = |text: &str| text.parse().unwrap();
     let mut problem = Problem::uniform(number("1"), number("1"), number("1"), number("3"));
-    problem.run = Run::Time(number("1.5"));
-    problem.rod.damping = damping.map(number);
+    problem = problem.with_run(Run::Time(number("1.5"))).unwrap();
+    problem = problem.to_builder().damping(damping.map_or(0.into(), number)).build().unwrap();
     problem
 }
 
@@ -19,7 +19,7 @@ fn without_damping() {
     assert!((found.strain + 4.5).abs() < 1e-13, "{found:?}");
     let centre = -4.5 - 1.125 + (3.375 + 0.5625);
     assert!((found.state_at(1.5).unwrap().centre - centre).abs() < 1.0 / (16.0 * 16.0), "{found:?} {centre}");
-    let released = march(&Problem { run: Run::Impacts(1), ..problem(None) }, 16).unwrap();
+    let released = march(&problem(None).with_run(Run::Impacts(1)).unwrap(), 16).unwrap();
     assert!((released.events[1].1 - 2.0).abs() < 1.0 / 16.0, "{released:?}");
 }
 
