@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::engine::{Damped, Motion, Undamped};
-use dalembert::{Estimate, Number, Numbers, Plan, Problem, Question, Run, Solution};
+use dalembert::{Estimate, Number, Numbers, Plan, Problem, Question, Run, Scene, Solution};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {
@@ -30,6 +30,28 @@ fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
         Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
         _ => unreachable!(),
     }
+}
+
+/// Weakly damped real rods with twenty impacts: thousands of round trips between two of them.
+fn real(c: &mut Criterion) {
+    let mut group = c.benchmark_group("twenty impacts of a real rod to 1e-9");
+    let question = Question::run(Numbers::default());
+    let rods = [
+        ("steel", "0.5", "5172", "50", "1"),
+        ("polymer", "0.06051", "2000", "0.7393", "0.7968"),
+        ("wood", "0.07598", "4000", "0.6227", "0.02784"),
+        ("rubber", "1", "50", "1", "0.1"),
+    ];
+    for (name, length, wave_speed, damping, height) in rods {
+        let scene = format!(
+            "rod = {{ length = {length}, wave_speed = {wave_speed}, damping = {damping} }}\n\
+             impact = {{ drop_height = {height} }}\ngravity = {{ acceleration = 9.81 }}\nrun = {{ impacts = 20 }}"
+        );
+        let problem = Scene::parse(&scene).unwrap().problem;
+        let plan = Plan::of(&problem, &question).unwrap();
+        group.sample_size(10).bench_function(name, |b| b.iter(|| planned(&problem, &plan)));
+    }
+    group.finish();
 }
 
 fn impacts(c: &mut Criterion) {
@@ -94,5 +116,5 @@ fn undamped(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, impacts, time, undamped);
+criterion_group!(benches, impacts, real, time, undamped);
 criterion_main!(benches);

@@ -156,8 +156,10 @@ impl Budget {
     }
 
     /// Bounds the error of `v(0,·)` up to `len` from now; in a separated flight `flown` has the ages and `h′` now and
-    /// then. Each term is the greatest value of the corresponding term of [`Self::end`] between these.
-    pub(super) fn end_most(&self, flown: Option<[(f64, f64); 2]>, len: f64) -> f64 {
+    /// then. Each term is the greatest value of the corresponding term of [`Self::end`] between these. `passing` is
+    /// `Σ |jump| · time error` of the rays that pass in each round trip, which the account at equal times adds each
+    /// time; the account by the clock of the vibration has them in the masses of its sources.
+    pub(super) fn end_most(&self, flown: Option<[(f64, f64); 2]>, len: f64, passing: f64) -> f64 {
         let apart = flown.map(|[(from, before), (to, after)]| {
             let (start, (_, slowed)) = (self.flight.end_rate, aged(self.damping, to));
             let moves = (start + before).abs().max((start + after).abs());
@@ -165,7 +167,7 @@ impl Budget {
                 moves * self.events.late.bound() + slowed * self.events.rate.bound() + 2.0 * self.events.mass();
             followed + self.not_followed(to) + self.scattered(from, to)
         });
-        let fixed = self.fixed.height + self.fixed.points() * len;
+        let fixed = self.fixed.height + (self.fixed.points() + passing) * len;
         apart.map_or(fixed, |apart| apart.min(fixed))
     }
 

@@ -268,7 +268,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             }
             return open.is_some();
         }
-        let (high, mut rising) = (self.height_most(len), self.rising);
+        let (high, mut rising) = (self.height_most(len, 0.0), self.rising);
         let open = open_touch(basis, (height, trace), (high, off), &mut rising);
         self.rising = rising;
         let Some(at) = open.filter(|at| at * len < left) else { return false };

@@ -199,7 +199,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         } else {
             self.height_error(len).fixed
         };
-        if open { noise } else { noise.min(self.height_most(len)) }
+        if open { noise } else { noise.min(self.height_most(len, 0.0)) }
     }
 
     /// Returns the error of `p` and `q` at the ground, by the better account.
@@ -207,13 +207,14 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         self.budget.trace()
     }
 
-    /// Bounds the error of `v(0,·)` from now until `len` later, by the better account.
-    pub(super) fn height_most(&self, len: f64) -> f64 {
+    /// Bounds the error of `v(0,·)` from now until `len` later, by the better account; `passing` is `Σ |jump| · time
+    /// error` of the rays that pass in each round trip.
+    pub(super) fn height_most(&self, len: f64, passing: f64) -> f64 {
         let flown = self.flying().map(|flight| {
             let age = flight.age(&self.state).to_f64();
             [age, age + len].map(|age| (age, flight.rate_at(&self.height.double(age)).to_f64()))
         });
-        self.budget.end_most(flown, len)
+        self.budget.end_most(flown, len, passing)
     }
 
     pub(super) fn damping(&self) -> f64 {

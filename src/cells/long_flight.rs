@@ -27,7 +27,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let clear = |trips: f64| {
             let later = flight.at(&(age.clone() + age.double(trips))).0.to_f64();
             let fade = if concave { (-damping * trips).exp() } else { 1.0 };
-            later > bound * fade + self.height_most(trips) + trips * passing
+            later > bound * fade + self.height_most(trips, passing)
         };
         let mut most = match goal {
             Goal::Time(end) => (end.clone() - self.state.time()).to_f64().floor() - 1.0,

@@ -52,7 +52,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let weight = medium.gravity.to_f64();
             (slope / 2.0, sum(&|x, v_t, v_x| v_t.powi(2) + (v_x - weight * x).powi(2)) / 2.0)
         };
-        let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0));
+        let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0, 0.0));
         (least > swing).then(|| {
             let unit = data.displacement.to_f64();
             let from = (t * &data.units.time).to_f64();
@@ -146,7 +146,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let rest = if self.medium.free_top { self.height.clone() } else { self.medium.slope.clone() * now.ratio(1, 2) };
         let ending = if self.contact && !neither {
             self.held(still(StillState::Pressed))
-        } else if !self.contact && rest.to_f64() > far + self.height_most(0.0) {
+        } else if !self.contact && rest.to_f64() > far + self.height_most(0.0, 0.0) {
             Ending::NoFurtherImpact(still(StillState::Above(rest.to_f64() * self.data.displacement.to_f64())))
         } else {
             Ending::Rest(still(StillState::Faint))

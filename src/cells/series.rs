@@ -1,5 +1,7 @@
 //! Chebyshev series on the unit interval: integration, products with `x`, restriction, and the number of terms needed.
 
+use std::sync::LazyLock;
+
 use crate::number::Rounded;
 
 /// Tables shared by all series of a solution. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
@@ -203,14 +205,29 @@ pub(super) fn left_by(terms: usize, a: f64, b: f64, theta: f64) -> f64 {
 
 /// Returns `log₂ρ` and `log₂` of `2F/(1 − 1/ρ)` for a grid of ellipses.
 fn on_ellipses(a: f64, b: f64, theta: f64) -> impl Iterator<Item = (f64, f64)> {
-    (1..=80).map(move |j| {
-        let log2_rho = f64::from(j) * 0.25;
-        let rho = log2_rho.exp2();
-        let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
+    ELLIPSES.iter().map(move |Ellipse { log2_rho, sigma, log2_rest }| {
         let log2_f = (a + b * sigma).log2() + theta * sigma * std::f64::consts::LOG2_E;
-        (log2_rho, 1.0 + log2_f - (1.0 - 1.0 / rho).log2())
+        (*log2_rho, 1.0 + log2_f - log2_rest)
     })
 }
+
+/// A Bernstein ellipse around the unit interval.
+struct Ellipse {
+    log2_rho: f64,
+    /// Greatest `|s|` on the ellipse.
+    sigma: f64,
+    /// `log₂(1 − 1/ρ)`.
+    log2_rest: f64,
+}
+
+static ELLIPSES: LazyLock<[Ellipse; 80]> = LazyLock::new(|| {
+    std::array::from_fn(|j| {
+        let log2_rho = (j as f64 + 1.0) * 0.25;
+        let rho = log2_rho.exp2();
+        let sigma = 0.5 + (rho + 1.0 / rho) / 4.0;
+        Ellipse { log2_rho, sigma, log2_rest: (1.0 - 1.0 / rho).log2() }
+    })
+});
 
 #[cfg(test)]
 #[path = "tests/series.rs"]
