@@ -32,7 +32,7 @@ pub struct ContactThenCells<S> {
     strain: f64,
 }
 
-/// The solution valid at a time, and the time to query: the closed form takes the stored time as exact.
+/// The solution valid at a time, and the time to query it at.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
 
 impl<S: RoundedSpecial> ContactThenCells<S> {

@@ -38,6 +38,7 @@ mod piece_ends;
 mod problem_builder;
 mod rates;
 mod referee;
+mod refused_values;
 mod same_value;
 mod scene_builtin;
 mod scene_properties;
