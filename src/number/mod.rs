@@ -75,7 +75,7 @@ pub(crate) use wide::guarded;
 
 /// The numbers of the build in pure Rust, held against those of MPFR.
 #[cfg(all(test, feature = "mp"))]
-#[allow(dead_code, clippy::panic, clippy::unwrap_used)]
+#[allow(dead_code, unreachable_pub, clippy::panic, clippy::unwrap_used)]
 #[path = "tests"]
 mod pure {
     #[path = "../float_dashu.rs"]
