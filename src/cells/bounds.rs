@@ -114,7 +114,7 @@ impl<S: RoundedSpecial> Damped<S> {
         match self.event_at(time).filter(|_| time.bound() > 0.0) {
             Some(event) => self.at_event(event),
             None => {
-                let (apart, near) = (self.apart(time), self.scaled(self.uncertainty(time.value())));
+                let (apart, near) = (time.bound(), self.scaled(self.uncertainty(time.value())));
                 let moves = self.change(time.value(), apart);
                 Bounds {
                     rise: near.rise + apart * moves,
@@ -134,20 +134,13 @@ impl<S: RoundedSpecial> Damped<S> {
         self.uncertainty(time).slope * late / self.scales.time * self.scales.velocity
     }
 
-    /// Bounds the distance of the true time from the stored one, if it exceeds rounding; zero in a run that is not
-    /// proved, as only proved runs are queried at enclosures.
-    fn apart(&self, time: &Estimate<S>) -> f64 {
-        let rounding = 8.0 * time.value().unit() * time.to_f64();
-        if self.proved { (time.bound() - rounding).max(0.0) } else { 0.0 }
-    }
-
     /// Bounds the effect of that distance on `E_z`, and on the kinetic and the strain energy alone, per ρS.
     ///
     /// With M a bound of `|v_t|`, `|c v_x|`, `|h′|`: the ends take at most `c M²`, damping `2rL M²` and gravity `gL M`
     /// from the energy, and `L|h′h″| ≤ M (2cM + 2rLM + gL)`. Each part alone is `½ ∫ f² dx`: between rays f changes at
     /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
-        let apart = self.apart(time);
+        let apart = time.bound();
         // An event has bounds of its own.
         if apart == 0.0 || self.event_at(time).is_some() {
             return [0.0; 2];
@@ -240,7 +233,7 @@ impl<S: RoundedSpecial> Damped<S> {
     }
 }
 
-/// **Accuracy**: *within its own bound*, away from displaced rays. The stored value of a time is taken as exact; a time
+/// **Accuracy**: *within its own bound*, away from displaced rays. The bound of a time or a point is included; a time
 /// within rounding of an event stands for the event, whatever its true time.
 impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
     fn course(&self) -> &Course<Estimate<S>> {
@@ -332,7 +325,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let time = meant(&self.course.events, time);
         let field = self.field_of(point.value(), time.value(), side)?;
         // An error of the point acts as a time error, up to the factor `c` and the integral up to the point.
-        let (placed, c) = (self.apart(point), self.scales.wave_speed);
+        let (placed, c) = (point.bound(), self.scales.wave_speed);
         let near = self.near(&wider(time.clone(), placed / c));
         let [displacement, velocity] = self.moved(time, &field.displacement, &field.velocity);
         let strain = within(&field.strain, near.strain);

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
 use crate::motion::{Contact, Course, Ending, Field, Motion, Pair, Scales, Side, StressPiece, unobserved};
-use crate::number::{Answer, Estimate, Scalar};
+use crate::number::{Answer, Estimate, Rounded, Scalar};
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Reason;
 use crate::special::RoundedSpecial;
@@ -34,6 +34,11 @@ pub struct ContactThenCells<S> {
 
 /// The solution valid at a time, and the time to query it at.
 type Part<'a, S> = (&'a dyn Motion<Estimate<S>>, Estimate<S>);
+
+/// Returns a time or a point with its bound, of at least one rounding.
+fn rounded<S: Rounded>(x: &Estimate<S>) -> Estimate<S> {
+    Estimate::new(x.value().clone(), x.error().max(x.to_f64().abs()))
+}
 
 impl<S: RoundedSpecial> ContactThenCells<S> {
     /// Solves `problem`, whose first contact ends as `bounce` says, to about `digits` decimal digits of the natural
@@ -126,12 +131,12 @@ impl<S: RoundedSpecial> ContactThenCells<S> {
         Ok(self.march.as_ref().filter(|_| self.bounce().is_some_and(|bounce| time > bounce)))
     }
 
-    /// Returns the solution valid at a time, and the time to query: the closed form takes the stored time as exact.
+    /// Returns the solution valid at a time, and the time to query it at.
     fn part(&self, time: &Estimate<S>) -> Result<Part<'_, S>, Error> {
         let time = meant(&self.course.events, time);
         Ok(match self.later(time)? {
             Some(march) => (march, time.clone()),
-            None => (&self.contact, time.value().carry()),
+            None => (&self.contact, rounded(time)),
         })
     }
 }
@@ -181,7 +186,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
 
     fn field(&self, point: &Estimate<S>, time: &Estimate<S>, side: Side) -> Result<Field<Estimate<S>>, Error> {
         let (part, time) = self.part(time)?;
-        part.field(&point.value().carry(), &time, side)
+        part.field(&rounded(point), &time, side)
     }
 
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
@@ -189,8 +194,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         match self.later(time)? {
             Some(march) => march.moments(time, points),
             None => {
-                let points: Vec<_> = points.iter().map(|x| x.value().carry()).collect();
-                self.contact.moments(&time.value().carry(), &points)
+                let points: Vec<_> = points.iter().map(rounded).collect();
+                self.contact.moments(&rounded(time), &points)
             }
         }
     }
@@ -201,7 +206,7 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for ContactThenCells<S> {
         while first < times.len() && self.later(&times[first])?.is_none() {
             first += 1;
         }
-        let contact: Vec<_> = times[..first].iter().map(|x| x.value().carry()).collect();
+        let contact: Vec<_> = times[..first].iter().map(rounded).collect();
         let mut rates = self.contact.rates(points, &contact)?;
         if let Some(march) = self.march.as_ref().filter(|_| first < times.len()) {
             rates.extend(march.rates(points, &times[first..])?);

@@ -141,6 +141,7 @@ impl Ladder<'_> {
         let mut reserve = None;
         let mut kept: Option<(Attempt<S>, usize, bool)> = None;
         let mut doubts: Vec<f64> = Vec::new();
+        let mut before = f64::INFINITY;
         loop {
             let answer = match engine.take() {
                 Some(engine) => Ok(engine),
@@ -168,6 +169,11 @@ impl Ladder<'_> {
                     }
                     let last = last || farthest == Some(rung);
                     let missing = self.missing(&*engine, &sizes, &mut doubts);
+                    // A time in doubles has a rounding that no bits of the run reduce.
+                    let stuck = matches!(self.plan.numbers, Numbers::Double(_)) && missing > before - 1.0;
+                    if rung != Rung::Double && missing.is_finite() {
+                        before = missing;
+                    }
                     let coincides = !tried && coincides(self.plan, &*engine);
                     let open = !tried && self.plan.engine != Engine::Lattice && needs_bits(&*engine);
                     if open {
@@ -177,7 +183,9 @@ impl Ladder<'_> {
                     let tried = tried || open && !climbs;
                     let reached = Some((Attempt { rung, engine, tried, farthest: last }, answer));
                     match reached {
-                        Some(settled) if missing <= 0.0 && !coincides && !climbs || last => return Ok(settled),
+                        Some(settled) if (missing <= 0.0 || stuck) && !coincides && !climbs || last => {
+                            return Ok(settled);
+                        }
                         _ if climbs => {
                             kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
                             Lacks::Bits(f64::INFINITY)

@@ -302,3 +302,50 @@ fn an_event_has_its_own_energies() {
     let off = (Rational::from_f64(*found.value()).unwrap() - release).to_f64().abs();
     assert!(off <= found.bound() && found.bound() < 1e-6, "{found:?}");
 }
+
+/// A time that no double holds: its rounding changes the height of the centre by more than the bound of a run in more
+/// bits than doubles have. Off the rays nothing jumps, so that the truth is a run in forty digits.
+#[test]
+fn bounds_include_the_rounding_of_a_time() {
+    let problem = Scene::parse(
+        "[rod]\nlength = 1.1483\nwave_speed = 1.8219\ndamping = 7.64776e-2\n[impact]\nspeed = 0.88697\n\
+         [gravity]\nacceleration = 2.32423\n[run]\ntime = 10.036\n",
+    )
+    .unwrap()
+    .problem;
+    let times: Vec<Number> = ["57415/6073", "22/7", "1.41421356237309504880168872420969807", "28133/3019"]
+        .map(|time| time.parse().unwrap())
+        .into();
+    let numbers = |accuracy| {
+        let history: TypedHistory<f64> = problem.answer(&Question::run(Numbers::Double(accuracy))).unwrap();
+        let pairs = times.iter().map(|time| {
+            let found = history.ask(
+                |run| {
+                    let time = Estimate::spelling(time, &());
+                    let ((h, rate), energy) = (run.centre(&time)?, run.energy(&time)?);
+                    Ok([h, rate, run.strain(&time, Side::Left)?, energy.total, energy.vibrational])
+                },
+                |found| found.iter().collect(),
+            );
+            found.unwrap()
+        });
+        pairs.collect::<Vec<_>>()
+    };
+    let long = problem.digits(40).unwrap();
+    for accuracy in [None, Some(1e-13)] {
+        for (time, found) in times.iter().zip(numbers(accuracy)) {
+            let truth = long.ask(
+                |run| {
+                    let time = Scalar::from_number(time, &run.end().precision());
+                    let ((h, rate), energy) = (run.centre(&time)?, run.energy(&time)?);
+                    Ok([h, rate, run.strain(&time, Side::Left)?, energy.total, energy.vibrational])
+                },
+                |found| found.iter().collect(),
+            );
+            for (k, (ours, theirs)) in found.iter().zip(truth.unwrap()).enumerate() {
+                let off = Float::with_val(BITS, theirs.value() - *ours.value()).to_f64().abs();
+                assert!(off <= ours.bound(), "{k} at {time}, {accuracy:?}: {ours:?} is off by {off:e}");
+            }
+        }
+    }
+}
