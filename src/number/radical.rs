@@ -292,4 +292,5 @@ fn square_factor(n: &Integer) -> Integer {
 
 #[cfg(all(test, feature = "mp"))]
 #[path = "tests/radical.rs"]
+#[allow(clippy::unwrap_used)]
 mod tests;

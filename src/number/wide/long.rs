@@ -62,4 +62,5 @@ impl<const N: usize> Reads<Estimate<Wide<N>>> for Interval {
 
 #[cfg(all(test, feature = "mp"))]
 #[path = "tests/long.rs"]
+#[allow(clippy::unwrap_used)]
 mod tests;

@@ -229,7 +229,7 @@ fn both_limits_of_a_reference_file() {
 fn the_side_that_is_said_counts() {
     let folder = folder("t,side,force\n0,right,1\n1,both,1\n2,right,1\n3,both,0\n4,both,0\n");
     let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
-    assert_eq!(report["quantities"][0]["linf"], serde_json::json!({"absolute": 1.0, "relative": 1.0, "time": 2.0}));
+    assert_eq!(report["quantities"][0]["linf"], serde_json::json!({"absolute": 1.0, "relative": 1.0, "t": 2.0}));
     // Two rows, each with half of the weight: ∫F over them is exact.
     fs::write(folder.path().join("run.csv"), "t,force\n0,0\n0,1\n2,1\n2,0\n4,0\n").unwrap();
     let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
