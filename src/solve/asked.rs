@@ -203,8 +203,10 @@ impl<S: Rounded> Telling<S> {
         locked(&self.covered).push(time.to_f64());
         let mut found: Option<T> = None;
         for met in met {
-            // The spelled time is within its bound of `time`, which is within both bounds of `met`.
-            let late = met.double(met.bound() + 2.0 * time.bound());
+            // `time` is within both bounds of `met`, and a spelled time within its bound of `time`; a computed one stands
+            // for `met`.
+            let spelled = if time.spelled_as().is_some() { time.bound() } else { 0.0 };
+            let late = met.double(met.bound() + time.bound() + spelled);
             let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
             let [before, after] = [exactly(met.clone() - &late), exactly(met.clone() + &late)];
             for (time, side) in [(&before, Side::Left), (&met, Side::Left), (&met, Side::Right), (&after, Side::Right)]

@@ -170,8 +170,9 @@ impl Ladder<'_> {
                     let last = last || farthest == Some(rung);
                     let missing = self.missing(&*engine, &sizes, &mut doubts);
                     // A time in doubles has a rounding that no bits of the run reduce.
-                    let stuck = matches!(self.plan.numbers, Numbers::Double(_)) && missing > before - 1.0;
-                    if rung != Rung::Double && missing.is_finite() {
+                    let finite = missing.is_finite();
+                    let stuck = matches!(self.plan.numbers, Numbers::Double(_)) && finite && missing > before - 1.0;
+                    if rung != Rung::Double && finite {
                         before = missing;
                     }
                     let coincides = !tried && coincides(self.plan, &*engine);

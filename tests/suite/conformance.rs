@@ -97,9 +97,8 @@ pub(crate) fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
                 tally.same(&("∫ v_t", time), &whole(1), &(rate * &length));
             }
         }
-        // The time of the question may be off by three of its bounds where both sides of an event are covered; velocities
-        // and strains have slopes of at most 1, and `of` adds both.
-        let rounded = (time.clone() - time) * &time.int(3);
+        // What the time of the question is off by makes of velocities, with slopes of at most 1.
+        let rounded = time.clone() - time;
         // The data at t = 0 bend where no ray has passed yet.
         let started = time.positive() == Ok(true);
         if let (true, Ok(rates)) = (started, motion.rates(&points, std::slice::from_ref(time))) {
