@@ -342,8 +342,8 @@ impl Plan {
     /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
-        if !LONG && rung == Rung::Double {
-            return matches!(lacks, Lacks::Exactness).then_some(Rung::Fractions);
+        if !LONG && matches!(self.numbers, Numbers::Double(_)) {
+            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
         }
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end early if they do not apply; more bits distinguish a near miss from a meeting.

@@ -43,8 +43,6 @@ fn beyond(error: impl std::fmt::Display) -> JsError {
 fn failed(error: Error) -> JsError {
     match error {
         Error::NotDecided { .. } | Error::Open(_) | Error::Unsettled { .. } => beyond(error),
-        // The page has no longer numbers, of which this error speaks.
-        Error::Undecided { .. } => beyond("doubles do not tell two events apart, or a landing from a graze"),
         error => refuse(error),
     }
 }
