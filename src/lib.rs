@@ -57,6 +57,7 @@
 //! is a quarter as large.
 
 mod cells;
+pub mod chain;
 pub mod engine;
 mod error;
 mod first_contact;
