@@ -83,7 +83,7 @@ pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
+pub use scene::{ChainEffect, ChainScene, Effect, EffectUse, Scene, SceneError, Target, builtin};
 pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution, TypedHistory};
 
 #[cfg(doctest)]

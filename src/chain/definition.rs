@@ -115,7 +115,7 @@ impl Body {
         Body::of(length, BodyMaterial::Elastic { modulus, density, area })
     }
 
-    fn of(length: Number, material: BodyMaterial) -> Self {
+    pub(super) fn of(length: Number, material: BodyMaterial) -> Self {
         Body { name: None, length, material, velocity: Vec::new(), displacement: Vec::new() }
     }
 
@@ -128,6 +128,11 @@ impl Body {
     /// Returns the body with a start that is linear between points `(x, v_t)` and `(x, v)`; an empty list means zero.
     pub fn with_start(self, velocity: Points, displacement: Points) -> Self {
         Body { velocity, displacement, ..self }
+    }
+
+    /// Returns the body with a displacement of the start, linear between points `(x, v)`.
+    pub fn with_displacement(self, displacement: Points) -> Self {
+        Body { displacement, ..self }
     }
 
     /// Returns the body with a name.

@@ -16,10 +16,12 @@
 //!
 //! Reading order: `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers and initial
 //! waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop), `run`
-//! (a finished run), `field` (queries along a body).
+//! (a finished run), `field` (queries along a body), `history` (answers in
+//! numbers that are long enough).
 
 mod definition;
 mod field;
+mod history;
 mod law;
 mod march;
 mod node;
@@ -29,12 +31,15 @@ mod wave;
 
 pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points};
 pub use field::BodySums;
+pub use history::{ChainColumn, ChainHistory, ChainListing, ChainQuantity};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 
 #[cfg(test)]
 #[path = "tests"]
 #[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 mod tests {
+    mod conformance;
     mod properties;
+    mod published;
     mod reference;
 }

@@ -66,6 +66,42 @@ pub struct ForcePiece<N> {
     pub last: N,
 }
 
+impl<N> ChainEvent<N> {
+    /// Converts the event to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainEvent<T> {
+        let ChainEvent { kind, node, t, before, after } = self;
+        ChainEvent { kind, node, t: f(t), before: f(before), after: f(after) }
+    }
+}
+
+impl<N> Touch<N> {
+    /// Converts the touch to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> Touch<T> {
+        Touch { node: self.node, t: f(self.t), before: f(self.before), after: f(self.after) }
+    }
+}
+
+impl<N> ChainContact<N> {
+    /// Converts the contact to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainContact<T> {
+        ChainContact {
+            node: self.node,
+            impact: f(self.impact),
+            release: self.release.map(&f),
+            impulse: f(self.impulse),
+            peak: f(self.peak),
+            peak_time: f(self.peak_time),
+        }
+    }
+}
+
+impl<N> ForcePiece<N> {
+    /// Converts the piece to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ForcePiece<T> {
+        ForcePiece { start: f(self.start), end: f(self.end), first: f(self.first), last: f(self.last) }
+    }
+}
+
 /// A finished run of a [`Chain`](super::Chain) in one number system.
 ///
 /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bound* that each number carries.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use serde::{Serialize, Serializer};
 
 use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, shown_bound};
-use super::{Bounded, Estimate, Float, Interval, Number, Rational, Scalar};
+use super::{Bounded, Estimate, Float, Interval, Number, Rational, Reads, Scalar};
 
 /// A number of an answer, with its bound, its digits and its unit.
 ///
@@ -68,6 +68,25 @@ impl Value {
     /// The same number, printed to `digits` digits (0: all of them), in `unit`.
     pub(crate) fn printed_in(self, digits: u32, unit: &'static str) -> Self {
         Value { digits, unit, ..self }
+    }
+
+    /// Returns the number as a double with its bound.
+    pub(crate) fn to_double(&self) -> Value {
+        let number: Estimate<f64> = match &self.stored {
+            Stored::Double(number) => number.clone(),
+            Stored::Enclosure(number) => Reads::read((**number).clone()),
+            Stored::Float(number) => Reads::read((**number).clone()),
+            Stored::Fraction(number) => Reads::read((**number).clone()),
+        };
+        number.into()
+    }
+
+    /// Returns the middle of an enclosure with its bound; any other number as it is.
+    pub(crate) fn without_ends(self) -> Value {
+        match self.stored {
+            Stored::Enclosure(number) => Estimate::<Float>::read(*number).into(),
+            _ => self,
+        }
     }
 
     /// Returns the nearest double; of an enclosure, that of its middle.

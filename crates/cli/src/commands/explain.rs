@@ -3,11 +3,13 @@
 use clap::Args;
 use serde_json::json;
 
+use super::chain;
 use crate::args::{NumberArgs, OutputArgs};
 use crate::failure::Failure;
 use crate::file::{Format, formats, write_all};
 use crate::output::{json_bytes, wrapped};
-use crate::{source, terminal};
+use crate::source::{self, AnyScene};
+use crate::terminal;
 use dalembert::solve::{Numbers, Plan, Question, Sensitivity};
 use dalembert::{Effect, EffectUse, Scene};
 use dalembert_compare::aligned::table;
@@ -32,7 +34,13 @@ const FORMATS: &[Format] = &[Format::Table, Format::Json];
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = source::read(&self.scene)?;
+        let scene = match source::read_any(&self.scene)? {
+            AnyScene::Rod(scene) => *scene,
+            AnyScene::Chain(scene) => {
+                let numbers = self.numbers.numbers_to(scene.accuracy);
+                return chain::explain(&scene, numbers, &self.output.destinations(self.format, FORMATS)?);
+            }
+        };
         let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
         write_all(&self.output.destinations(self.format, FORMATS)?, |format| {
