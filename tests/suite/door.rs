@@ -26,7 +26,7 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     let whole = plan(&undamped, Question::run(doubles));
     assert_eq!((whole.engine, whole.reach, whole.rung), (Engine::Lattice, Reach::Contacts(1), Rung::Double));
     let whole = plan(&weak, Question::run(doubles));
-    assert_eq!((whole.engine, whole.reach), (Engine::ClosedFormThenCells, Reach::Contacts(1)));
+    assert_eq!((whole.engine, whole.reach), (Engine::Cells, Reach::Contacts(1)));
     // The bounce time and the restitution need no flight, and so no cell.
     let first = plan(&weak, Question::first_contact(doubles));
     assert_eq!((first.engine, first.reach), (Engine::ClosedForm, Reach::FirstContact));
@@ -43,7 +43,7 @@ fn a_plan_reaches_what_is_asked_and_no_more() {
     let fixed = weak.to_builder().fixed_top().build().unwrap();
     assert_eq!(plan(&fixed, Question::run(doubles)).engine, Engine::Cells);
     // Proofs of a damped rod go through all of its impacts.
-    assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::ClosedFormThenCells);
+    assert_eq!(plan(&weak, Question::run(Numbers::Certified(20))).engine, Engine::Cells);
     assert_eq!(plan(&fixed, Question::run(Numbers::Certified(20))).engine, Engine::Cells);
 }
 

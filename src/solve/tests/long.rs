@@ -1,3 +1,4 @@
+use crate::number::Scalar;
 use super::*;
 use crate::motion::{Pair, Side};
 use crate::solve::question::{Question, unobserved};

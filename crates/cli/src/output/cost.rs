@@ -143,7 +143,7 @@ fn color_and_mark(family: Family) -> (&'static str, Mark) {
     match family {
         Family::ClosedForm => ("#0072b2", Mark::Dot),
         Family::Lattice => ("#009e73", Mark::Square),
-        Family::ContactThenCells => ("#009e73", Mark::Square),
+        Family::PlannedCells => ("#009e73", Mark::Square),
         Family::Cells => ("#d55e00", Mark::Diamond),
         Family::Modes => ("#cc79a7", Mark::Triangle),
         Family::Printed => ("#8c6d1f", Mark::TriangleDown),

@@ -41,13 +41,13 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
         Engine::ClosedForm => Family::ClosedForm,
-        Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
+        Engine::Cells => Family::PlannedCells,
     };
     let damped = question.problem.damping().is_some();
     if damped {
         take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
-        take(Family::ContactThenCells, Err(OmissionReason::NoDamping(family)));
+        take(Family::PlannedCells, Err(OmissionReason::NoDamping(family)));
     }
     match plan.numbers {
         Numbers::Certified(_) => take(family, Err(OmissionReason::PlanEncloses)),
