@@ -37,23 +37,6 @@ impl Table {
     }
 }
 
-/// The columns of a table. A value that there is not, such as the release of a contact that lasts, is `None`.
-pub type Columns<S> = Vec<(Quantity, Vec<Option<S>>)>;
-
-/// The columns of `table`, in units of the problem.
-///
-/// **Accuracy**: that of the history's answers, and a rounding for each factor of a unit.
-///
-/// **Errors**: what the history cannot answer.
-pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
-    let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
-    let present: Vec<Quantity> = present.collect();
-    let rows = values(motion, &present, units)?;
-    let column =
-        |(k, quantity): (usize, &Quantity)| (*quantity, rows.iter().map(|row| row.get(k).cloned().flatten()).collect());
-    Ok(present.iter().enumerate().map(column).collect())
-}
-
 /// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None`
 /// where there is none.
 pub(crate) fn values<S: Scalar>(

@@ -15,8 +15,7 @@ use crate::{source, terminal};
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::quantity::Units;
-use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
+use dalembert::solve::{History, Numbers, Question};
 use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
@@ -148,7 +147,7 @@ impl Plot {
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
         let Answer { history, info, progress } = solve(scene, &question)?;
-        let found = history.visit(Gather { name: file, request, units: info.units.clone() })?;
+        let found = history.in_doubles(|doubles| request.gather(file.into(), info.units.clone(), doubles))??;
         drop(progress);
         RunInfo { warnings: history.warnings(), ..info }.print_warnings();
         note_span(file, request, &found, &history);
@@ -196,20 +195,5 @@ fn name_by_differences(scenes: &mut [SceneData]) {
     for (scene, values) in scenes.iter_mut().zip(&all) {
         let values = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
         scene.name = values.collect::<Vec<_>>().join(", ");
-    }
-}
-
-/// A request for the data of the pictures of a history, whatever its numbers.
-struct Gather<'a> {
-    name: &'a str,
-    request: &'a Request,
-    units: Units,
-}
-
-impl Visitor for Gather<'_> {
-    type Output = Result<SceneData, dalembert::Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        self.request.gather(self.name.into(), self.units, history)
     }
 }

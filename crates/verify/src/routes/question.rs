@@ -7,7 +7,7 @@ use dalembert::engine::{Motion, Scales};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Missing, Needs, One, Quantity, Units};
-use dalembert::solve::{self, Numbers, Plan, Solution, Target, TypedHistory};
+use dalembert::solve::{self, Numbers, Plan, Target, TypedHistory};
 use dalembert::{Error, Scene, Side, Value};
 
 /// A function of an answer, for claims of the paper that are no quantities of a motion.
@@ -150,26 +150,22 @@ impl RouteQuestion {
         plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
-    /// Answers by a solution, whatever its numbers.
-    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<Value, VerifyError> {
-        match solution {
-            Solution::Double(history) => self.ask_history(history),
-            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_history(history),
-            Solution::Exact(history) => self.ask_history(history),
-            Solution::Certified(history, _) => self.ask_history(history),
-        }
+    /// Answers by a history in numbers `S`, with all its events.
+    pub(super) fn ask_history<S: Target<Carried: RouteNumber>>(&self, plan: &Plan) -> Result<Value, VerifyError> {
+        let history = TypedHistory::<S>::solve(&self.problem, plan, solve::unobserved())?;
+        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 
-    fn ask_history<S: Target<Carried: RouteNumber>>(&self, history: &TypedHistory<S>) -> Result<Value, VerifyError> {
-        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
+    /// Answers by the library, for a question without a transform.
+    pub(super) fn ask_library(&self, plan: &Plan) -> Result<Value, VerifyError> {
+        plan.solve(&self.problem, solve::unobserved())?.one(&self.one)?.map_err(missing)
     }
 
     /// Answers by a motion. **Errors**: the outer ones may be settled by more bits.
     fn find_in<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Result<S, VerifyError>, Error> {
         let find = |one: &One| match one.of(motion, &self.units, self.problem.run())? {
             Ok([value, _]) => Ok(value),
-            Err(Missing { open: true, why }) => Err(VerifyError::Undecided(why)),
-            Err(Missing { why, .. }) => Err(VerifyError::none(why)),
+            Err(why) => Err(missing(why)),
         };
         let rod = Parameters::of(&self.problem, &motion.end().precision()).map_err(VerifyError::from);
         let found = rod.and_then(|rod| {
@@ -210,6 +206,11 @@ impl RouteQuestion {
             other => other,
         })
     }
+}
+
+/// Converts the reason why there is no number to an error.
+fn missing(Missing { open, why }: Missing) -> VerifyError {
+    if open { VerifyError::Undecided(why) } else { VerifyError::none(why) }
 }
 
 /// Rounds a time to three digits; `None` beyond the range of numbers.
