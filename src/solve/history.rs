@@ -147,7 +147,7 @@ impl History {
 
     /// Returns the natural scales of the motion.
     pub fn scales(&self) -> Scales<f64> {
-        typed!(self, history => history.carried_scales().map(|scale| scale.to_f64()))
+        typed!(self, history => history.carried_scales().map(|scale| Scalar::to_f64(&scale)))
     }
 
     /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero if
