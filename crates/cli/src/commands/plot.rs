@@ -6,9 +6,9 @@ use clap::Args;
 use clap::builder::PossibleValue;
 
 use crate::answer::{Answer, solve};
-use crate::args::{NumberArgs, OutputArgs, words};
+use crate::args::{NumberArgs, OutputArgs, known_formats, words};
 use crate::failure::Failure;
-use crate::file::{self, Format, PICTURES, formats, write_all};
+use crate::file::{self, PICTURES, write_all};
 use crate::output::RunInfo;
 use crate::quantities::{NameParser, Scope};
 use crate::{source, terminal};
@@ -20,6 +20,7 @@ use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(PICTURES)))]
 #[command(after_help = "\
     Without --quantity, one scene is told in four pictures: the field along the rod with its rays and contacts, the \
     stress at the ground, the motion of both ends and of the centre of mass, and the energy; several scenes are drawn \
@@ -52,9 +53,6 @@ pub(crate) struct Plot {
     size: Size,
     #[command(flatten)]
     numbers: NumberArgs,
-    /// Format of the picture; by default that of the ending of FILE, or SVG
-    #[arg(long, value_parser = formats(PICTURES))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -73,7 +71,7 @@ impl Plot {
         if !self.output.is_given() {
             return Err(failure!("found no file, expected --output FILE, such as -o bounces.svg"));
         }
-        let destinations = self.output.destinations(self.format, PICTURES)?;
+        let destinations = self.output.destinations(PICTURES)?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
