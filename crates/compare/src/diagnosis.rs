@@ -66,17 +66,8 @@ impl Diagnosis {
         let mut causes = GENERAL.to_vec();
         // Damped rods are followed round trip by round trip.
         causes.retain(|(_, cause)| *cause != Cause::Damping || fits.damping() > 0.0 || last < DAMPED_TRIPS * trip);
-        let signals = fits.model.signals.iter().enumerate();
-        for (k, signal) in signals.filter(|(_, signal)| unstable.is_none() && !signal.is_zero) {
-            let kind = match signal.column.measure() {
-                Some(Measure::Energy) => "energy_factor",
-                Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => "force_factor",
-                _ => "factor",
-            };
-            causes.push((kind, Cause::Factor(k)));
-            if signal.column.measure() == Some(Measure::Length) {
-                causes.push(("origin", Cause::Offset(k)));
-            }
+        if unstable.is_none() {
+            causes.extend(causes_of_columns(&fits.model));
         }
         let candidate = |(kind, cause)| Some(Candidate { kind, cause, slope: fits.slopes(cause, 0.0, &fits.base)? });
         fits.candidates = causes.into_iter().filter_map(candidate).collect();
@@ -117,6 +108,23 @@ impl Diagnosis {
         }
         Ok(())
     }
+}
+
+/// Returns the causes that concern one column each.
+fn causes_of_columns(model: &Model<'_>) -> Vec<(&'static str, Cause)> {
+    let mut causes = Vec::new();
+    for (k, signal) in model.signals.iter().enumerate().filter(|(_, signal)| !signal.is_zero) {
+        let kind = match signal.column.measure() {
+            Some(Measure::Energy) => "energy_factor",
+            Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => "force_factor",
+            _ => "factor",
+        };
+        causes.push((kind, Cause::Factor(k)));
+        if signal.column.measure() == Some(Measure::Length) {
+            causes.push(("origin", Cause::Offset(k)));
+        }
+    }
+    causes
 }
 
 /// Returns whether the only explanation is a contact that is about as soft as a mesh makes it.

@@ -26,7 +26,7 @@ off jumps           over samples further from a jump of ours than the window: 0.
 sample on a jump    compared with the nearer of the two limits, or the one that its row names
 impulse             ∫ F dt over the contact
 centroid            ∫ t F dt / ∫ F dt: the mean time of the force
-peak                the greatest F
+peak force          the greatest F
 gaps closed         separations within a contact shorter than a quarter of the round trip, and of
                     our shortest flight: the contact chatters, and they count as part of it
 penetration         the deepest the end is below the ground
@@ -50,7 +50,7 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
-/// Returns `peak, N`.
+/// Returns `peak force, N`.
 fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
     match what.unit(units) {
         "" => name.to_string(),
@@ -174,7 +174,9 @@ fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) 
     let contacts: Vec<_> = then.contacts.iter().enumerate().map(contact).collect();
     let contacts = match contacts.is_empty() {
         true => String::new(),
-        false => format!("\n\n{}", table(&["theirs − fitted", "from", "to", "impulse", "centroid"], contacts, 1)),
+        false => {
+            format!("\n\n{}", table(&["theirs − fitted", "impact", "release", "impulse", "centroid"], contacts, 1))
+        }
     };
     let end = if fit.settled { "" } else { "; it had not settled" };
     format!("{values}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
@@ -232,8 +234,8 @@ fn contacts_table(contacts: &[ContactPair], units: &Units) -> String {
         }
     }
     let impulse = with_unit("impulse", Quantity::Impulse, units);
-    let peak = with_unit("peak", Quantity::Force, units);
-    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
+    let peak = with_unit("peak force", Quantity::Force, units);
+    table(&["contact", "", "impact", "release", &impulse, "centroid", &peak], rows, 2)
 }
 
 fn audit_lines(agreement: &Agreement, units: &Units) -> String {

@@ -5,6 +5,7 @@ use super::cause_fits::{CauseFits, Fitted, NO_GRAVITY};
 use super::hint::Hint;
 use super::reference::Reference;
 use super::symptoms::LEFT;
+use dalembert::Quantity;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameter;
 
@@ -65,16 +66,14 @@ impl CauseFits<'_> {
             }
             Cause::Factor(place) => {
                 let (what, factor) = (column(place), 1.0 + p);
-                (hint.quantity, hint.value) = (what.name(), factor);
+                hint.quantity = what.name();
                 if (factor + 1.0).abs() < (2.0 * error).max(LEFT * LEFT) {
                     (hint.kind, hint.value) = ("sign", -1.0);
                     format!("{} has the other sign", what.name())
                 } else {
-                    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
-                    let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
-                    let known: Vec<&str> = known.map(|known| known.question).collect();
-                    let ask = if known.is_empty() { "which unit?".to_string() } else { known.join(" ") };
-                    format!("{} × {} ± {}: {ask}", what.name(), factor.decimal(4), error.decimal(2))
+                    hint.value = factor;
+                    let question = factor_question(what, factor, error, reference);
+                    format!("{} × {} ± {}: {question}", what.name(), factor.decimal(4), error.decimal(2))
                 }
             }
             Cause::Offset(place) => {
@@ -87,4 +86,12 @@ impl CauseFits<'_> {
         };
         hint
     }
+}
+
+/// Returns the questions about the known factors of a quantity that are near `factor`.
+fn factor_question(what: Quantity, factor: f64, error: f64, reference: &Reference<'_>) -> String {
+    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
+    let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
+    let known: Vec<&str> = known.map(|known| known.question).collect();
+    if known.is_empty() { "which unit?".to_string() } else { known.join(" ") }
 }

@@ -126,22 +126,9 @@ pub fn work_precision(
             next.expected *= took.max(1e-7);
         }
     }
-    let truth = loop {
-        let digits = measured.iter().map(|row| row.candidate.digits).max().unwrap_or(0);
-        observe(spent() / seconds, &format!("the truth, to {} digits", digits + BEYOND));
-        match Truth::compute(question, digits + BEYOND) {
-            Ok(truth) => break truth,
-            // Rows without a truth are left out, down to doubles.
-            Err(error) if measured.iter().any(|row| row.candidate.digits < digits) => {
-                let (kept, lost): (Vec<_>, Vec<_>) =
-                    measured.into_iter().partition(|row| row.candidate.digits < digits);
-                measured = kept;
-                let why = OmissionReason::NoTruth(error);
-                left_out.extend(lost.into_iter().map(|row| row.candidate.left_out(why.clone())));
-            }
-            Err(error) => return Err(error),
-        }
-    };
+    let truth = truth(question, &mut measured, &mut left_out, |digits| {
+        observe(spent() / seconds, &format!("the truth, to {digits} digits"));
+    })?;
     let mut rows: Vec<CostRow> = measured
         .into_iter()
         .map(|Measured { candidate, ladder, value, timing }| CostRow {
@@ -164,6 +151,26 @@ pub fn work_precision(
         rows,
         left_out,
     })
+}
+
+/// Computes the truth to more digits than every row of `measured` has. Rows without a truth are `left_out`, down to
+/// doubles. `observe` receives the digits.
+fn truth(
+    question: &RouteQuestion,
+    measured: &mut Vec<Measured>,
+    left_out: &mut Vec<Omission>,
+    mut observe: impl FnMut(u32),
+) -> Result<Truth, VerifyError> {
+    loop {
+        let digits = measured.iter().map(|row| row.candidate.digits).max().unwrap_or(0);
+        observe(digits + BEYOND);
+        let why = match Truth::compute(question, digits + BEYOND) {
+            Err(error) if measured.iter().any(|row| row.candidate.digits < digits) => OmissionReason::NoTruth(error),
+            found => return found,
+        };
+        let lost = measured.extract_if(.., |row| row.candidate.digits >= digits);
+        left_out.extend(lost.map(|row| row.candidate.left_out(why.clone())));
+    }
 }
 
 /// A candidate that has run.
