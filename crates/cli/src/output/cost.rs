@@ -3,7 +3,8 @@
 use glam::DVec2;
 use serde_json::json;
 
-use super::dataset::{Column, Dataset};
+use super::column::Column;
+use super::dataset::Dataset;
 use dalembert::number::Number;
 use dalembert_plot::draw::{Axis, Key, Mark, Panel, Sheet, Size, Stroke, power_of_ten, without_subscripts};
 use dalembert_verify::cost::{CostRow, CostTable, EffectCost, Family};

@@ -112,7 +112,7 @@ impl Header<'_> {
     pub(super) fn to_json<'a>(&'a self, columns: &'a [Column], bounds: &[Bound], is_npz: bool) -> HeaderJson<'a> {
         let bound = |bound: &Bound| if bound.to_string() == "unknown" { Json::Null } else { json!(bound) };
         let columns = columns.iter().zip(bounds).map(|(column, greatest)| ColumnJson {
-            name: &column.name,
+            name: column.csv_name(),
             symbol: &column.symbol,
             meaning: &column.meaning,
             unit: column.unit,
@@ -161,7 +161,7 @@ impl Header<'_> {
         let mut text: String = self.lines().iter().map(|line| format!("# {line}\n")).collect();
         text += &format!("# read: {READ}\n");
         for (column, bound) in columns.iter().zip(bounds) {
-            let Column { name, meaning, .. } = column;
+            let (name, meaning) = (column.csv_name(), &column.meaning);
             let within = if self.has_bound(column) { format!("; within {bound}") } else { String::new() };
             let symbol = if column.symbol.is_empty() { String::new() } else { format!("{}: ", column.symbol) };
             let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };

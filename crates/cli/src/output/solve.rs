@@ -2,7 +2,8 @@
 
 use serde_json::{Value as Json, json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use super::derivatives::{add_columns, derivative_table};
 use super::outline::sparkline;
 use super::run_info::RunInfo;

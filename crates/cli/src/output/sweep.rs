@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use super::table::wrapped;
 use crate::sweep::{Point, PointNumber, Sweep};
 use crate::terminal;
@@ -28,27 +29,27 @@ fn shown(cell: &PointNumber) -> Cell {
     }
 }
 
-/// Returns a row for each point; a table has the notes below it, each once.
-pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
-    let mut columns = vec![Column::new("point")];
-    columns.extend(
-        sweep
-            .grid
-            .axes
-            .iter()
-            .map(|axis| Column::new(axis.parameter.path()).keyed(format!("at/{}", axis.parameter.path()))),
-    );
-    for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
+/// Returns the columns of a sweep; a table has one of notes where there are any.
+fn columns(sweep: &Sweep, noted: bool) -> Vec<Column> {
+    let axis = |path: String| Column::new(path.clone()).keyed(format!("at/{path}"));
+    let axes = sweep.grid.axes.iter().map(|it| axis(it.parameter.path().to_string()));
+    let numbers = sweep.units().flat_map(|(quantity, unit)| {
+        let name = quantity.name();
         let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
-        columns.extend([
+        [
             Column::table(head),
             Column::data(name).keyed(format!("values/{name}")).with_unit(unit),
             Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")).with_unit(unit),
             Column::json(format!("notes/{name}")),
-        ]);
-    }
+        ]
+    });
+    let notes = [Column::csv("note").text()].into_iter().chain(noted.then(|| Column::table("note")));
+    [Column::new("point")].into_iter().chain(axes).chain(numbers).chain(notes).collect()
+}
+
+/// Returns a row for each point; a table has the notes below it, each once.
+pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
     let noted = points.iter().any(|point| !notes(point).is_empty());
-    columns.extend([Column::csv("note").text()].into_iter().chain(noted.then(|| Column::table("note"))));
     let mut below: Vec<String> = Vec::new();
     let mut row = |point: &Point| {
         let mut row: Vec<Cell> = vec![point.index.into()];
@@ -84,7 +85,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
             ("vary", vary.collect::<Value>()),
         ],
         list: "points",
-        columns,
+        columns: columns(sweep, noted),
         rows,
         around: [String::new(), if noted { format!("\n\n{below}") } else { "\n".into() }],
         shape: sweep.grid.axes.iter().map(|axis| axis.values.len()).collect(),

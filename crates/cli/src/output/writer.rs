@@ -4,7 +4,8 @@ use std::io::{self, Cursor};
 
 use serde_json::{Map, Value as Json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::{Column, Kind};
+use super::dataset::{Cell, Dataset};
 use super::npz::Npz;
 use crate::failure::{Failure, cannot};
 use crate::file::Format;
@@ -38,7 +39,7 @@ impl Dataset {
         let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
         let named = |column: &&Column| column.name.is_some();
         let with_unit = |column: &Column, suffix: &str| {
-            let name = column.name.as_deref().unwrap_or_default();
+            let name = column.csv_name();
             if column.unit.is_empty() { format!("{name}{suffix}") } else { format!("{name}{suffix} [{}]", column.unit) }
         };
         let bounded = || self.columns.iter().filter(named).filter(|column| column.is_bounded);
@@ -70,11 +71,8 @@ impl Dataset {
             npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
         }
         for (k, column) in self.columns.iter().enumerate() {
-            let (Column { name: Some(name), is_text: false, .. }, cells) =
-                (column, self.rows.iter().map(|row| &row[k]))
-            else {
-                continue;
-            };
+            let cells = self.rows.iter().map(|row| &row[k]);
+            let Some(name) = column.name.as_deref().filter(|_| column.kind != Kind::Word) else { continue };
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,
