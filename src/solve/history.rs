@@ -12,8 +12,8 @@ use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Si
 use crate::number::{IntoValue, List, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
-    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
-    flights,
+    self, Flight, Measure, Missing, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
+    ValueQuery, flights,
 };
 use crate::reason::Warning;
 
@@ -92,7 +92,7 @@ pub enum StressForm {
 impl History {
     /// Converts the values of the history to the units of `system`.
     pub fn in_units(self, system: UnitSystem) -> Self {
-        let units = Units::of(self.problem(), system);
+        let units = Units::new(self.problem(), system);
         History { units, ..self }
     }
 
@@ -410,14 +410,14 @@ impl History {
     }
 
     /// Returns one number, or the reason of its absence.
-    pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
+    pub fn query(&self, query: &ValueQuery) -> Result<Result<Value, Missing>, Error> {
         typed!(self, history => {
             let run = self.problem().run();
             let found = history.ask(
-                |motion| one.of(motion, &self.units, run),
+                |motion| query.evaluate(motion, &self.units, run),
                 |found| found.iter().map(|[_, plain]| plain).collect(),
             )?;
-            Ok(found.map(|[value, _]| self.value(value, one.quantity.measure())))
+            Ok(found.map(|[value, _]| self.value(value, query.quantity.measure())))
         })
     }
 
@@ -490,7 +490,7 @@ impl Plan {
     /// ```
     pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
         let (solution, exactness_end) = self.solution(problem, observe)?;
-        Ok(History { solution, exactness_end, units: Units::of(problem, UnitSystem::default()) })
+        Ok(History { solution, exactness_end, units: Units::new(problem, UnitSystem::default()) })
     }
 }
 

@@ -207,7 +207,7 @@ impl<S: Target> TypedHistory<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn units(&self) -> Units {
-        Units::of(&self.problem, UnitSystem::default())
+        Units::new(&self.problem, UnitSystem::default())
     }
 
     /// Returns the problem.
@@ -302,7 +302,7 @@ impl<S: Target> TypedHistory<S> {
     /// Converts a time to the numbers of the engine. **Errors**: [`Error::TimeOutside`] for NaN and infinities.
     fn time(&self, time: &S) -> Result<S::Carried, Error> {
         let time = time.carry();
-        quantity::finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
+        quantity::check_finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
     }
 
     fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
@@ -348,7 +348,7 @@ impl<S: Target> TypedHistory<S> {
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let table = quantity::columns(engine, units, columns, &times(engine)?, side)?;
-            let scaled = quantity::of_one_size(engine, units, columns, &table);
+            let scaled = quantity::scaled(engine, units, columns, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
@@ -365,7 +365,7 @@ impl<S: Target> TypedHistory<S> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let (points, times) = grid(engine)?;
             let table = quantity::slices(engine, slice, &points, &times, side)?;
-            let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
+            let scaled = quantity::scaled(engine, &self.units(), &quantity::SLICE, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)

@@ -90,7 +90,7 @@ impl Compare {
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
-        let units = Units::of(&scene.problem, scene.units);
+        let units = Units::new(&scene.problem, scene.units);
         let prepared =
             Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
         let progress = Progress::new(&scene, &prepared.plan);

@@ -144,9 +144,9 @@ pub fn work_precision(
     rows.sort_by_key(|row| (row.family as u8, row.ladder));
     left_out.sort_by_key(|item| item.family as u8);
     Ok(CostTable {
-        quantity: question.one.quantity,
-        unit: question.one.quantity.unit(&question.units),
-        time: question.one.time.clone(),
+        quantity: question.query.quantity,
+        unit: question.query.quantity.unit(&question.units),
+        time: question.query.time.clone(),
         truth,
         rows,
         left_out,
