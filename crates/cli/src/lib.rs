@@ -19,7 +19,6 @@ use std::process::ExitCode;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::output::SCHEMA;
 use commands::{check, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command};
 use failure::Failure;
 
@@ -173,7 +172,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
             done.map_err(failure::cannot("write the page"))?;
             file::print(&page)
         }
-        Command::Schema => file::print(SCHEMA.as_bytes()),
+        Command::Schema => file::print(&output::json_bytes(output::schema().as_value())),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut command(), "dalembert", &mut script);

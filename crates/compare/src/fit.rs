@@ -1,5 +1,6 @@
 //! The values of the scene that explain data best, by least squares.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::agreement::Agreement;
@@ -12,7 +13,7 @@ use dalembert::quantity::Quantity;
 use dalembert::solve::TypedHistory;
 
 /// A value of the scene as it was fitted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct FittedValue {
     pub(crate) name: String,
     /// The value in the scene.

@@ -55,4 +55,4 @@ pub use limit::{Limit, LimitError, Outcome};
 pub use map::MapError;
 pub use norms::{ComparedColumn, Grid};
 pub use options::{Axis, Compression, Options, Origin};
-pub use report::LEGEND;
+pub use report::{FileReport, LEGEND, SchemaVersion, SeriesReport};

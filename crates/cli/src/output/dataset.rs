@@ -98,8 +98,8 @@ fn plain_text(value: &Json) -> String {
 /// Named columns and rows, with the text around them.
 #[derive(Clone, Default)]
 pub(crate) struct Dataset {
-    /// Entries above the rows in JSON.
-    pub(crate) header: Vec<(&'static str, Json)>,
+    /// Object with the entries above the rows in JSON; null without any.
+    pub(crate) header: Json,
     /// Key of the rows in JSON.
     pub(crate) list: &'static str,
     pub(crate) columns: Vec<Column>,

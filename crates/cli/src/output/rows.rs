@@ -3,12 +3,14 @@
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::column::{Column, Kind};
 use super::dataset::Cell;
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
+use super::schema::NumberSchema;
 use super::table::{TextTable, table_digits};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
@@ -263,11 +265,15 @@ fn written_double(value: &Value) -> f64 {
     if is_zero { 0.0 } else { value.to_f64() + 0.0 }
 }
 
-/// A JSON file without its rows.
-#[derive(Serialize)]
-struct Document<'a> {
+/// Rows of named columns, without the rows: they follow as they are kept.
+#[derive(JsonSchema, Serialize)]
+#[schemars(rename = "reference")]
+pub(super) struct Document<'a> {
     #[serde(flatten)]
     header: HeaderJson<'a>,
+    /// A value for each column: left, right or both for a side, 0 or 1 for contact. A derivative that does not exist is
+    /// null, or the reason on its side.
+    #[schemars(with = "Vec<Vec<Option<NumberSchema>>>")]
     rows: [(); 0],
 }
 

@@ -11,9 +11,6 @@ use crate::failure::{Failure, cannot};
 use crate::file::Format;
 use dalembert::number::DOUBLE_DIGITS;
 
-/// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
-pub(crate) const SCHEMA: &str = include_str!("schema.json");
-
 /// Key of the bounds of a row, each under the key of its number.
 const UNCERTAINTY: &str = "uncertainty";
 /// Prefix of the keys of numbers that stand in an object of their own; their bounds do without it.
@@ -22,11 +19,10 @@ const VALUES: &str = "values/";
 impl Dataset {
     /// Returns the header and an object for each row; without a header the list of objects.
     pub(crate) fn json(&self) -> Json {
-        if self.header.is_empty() {
-            return self.objects().into();
-        }
-        let header = self.header.iter().map(|(key, value)| ((*key).to_string(), value.clone()));
-        header.chain([(self.list.to_string(), self.objects().into())]).collect()
+        let rows = Json::from(self.objects());
+        let Json::Object(mut document) = self.header.clone() else { return rows };
+        document.insert(self.list.into(), rows);
+        document.into()
     }
 
     pub(super) fn objects(&self) -> Vec<Json> {
