@@ -77,12 +77,7 @@ impl ValueQuery {
     ) -> Result<Result<[S; 2], Missing>, Error> {
         let ended = || Missing { open: motion.ending().is_open(), why: motion.ending().to_string() };
         let bounce = || motion.contact_times(0).and_then(|(_, to)| to).ok_or_else(ended);
-        let event = |kind: EventKind, near: f64| {
-            let apart = |time: &S| (time.to_f64() - near).abs();
-            let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.t.clone());
-            let found = of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-            found.ok_or_else(ended)
-        };
+        let event = |kind, near| event_near(motion, kind, near).ok_or_else(ended);
         let lift = |number: &Number| S::spelling(number, &motion.end().precision());
         let near = self.time.as_ref().map(Number::to_f64);
         let found = match (self.quantity, near, self.quantity.needs()) {
@@ -130,4 +125,11 @@ impl ValueQuery {
             None => [value.clone(), value],
         }))
     }
+}
+
+/// Returns the time of the event of this kind that is next to a time, if one is.
+fn event_near<S: Scalar>(motion: &dyn Motion<S>, kind: EventKind, near: f64) -> Option<S> {
+    let apart = |time: &S| (time.to_f64() - near).abs();
+    let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.t.clone());
+    of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)))
 }

@@ -1,6 +1,7 @@
 //! The diagnosis of data: the causes that fit, and symptoms that need no fit.
 
 use super::agreement::Agreement;
+use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
 use super::cause_fits::{Candidate, CauseFits, Fitted};
 use super::hint::{Detectable, Hint};
@@ -97,17 +98,21 @@ impl Diagnosis {
             let symptom = unstable.or_else(|| half_step(reference, agreement));
             self.hints.extend(symptom.or_else(|| unlike_mass(reference, agreement)));
         }
-        for (count, kind, whose) in [
-            (agreement.audit.missed, "missed", "of ours that are not in theirs"),
-            (agreement.audit.invented, "invented", "of theirs that are not in ours"),
-        ] {
-            if count > 0 {
-                let text = format!("contacts {whose}: {count}; see the table of contacts");
-                self.hints.push(Hint { quantity: "contact", ..Hint::new(kind, count as f64, text) });
-            }
-        }
+        self.hints.extend(unpaired_hints(&agreement.audit));
         Ok(())
     }
+}
+
+/// Returns the hints at contacts without a partner.
+fn unpaired_hints(audit: &Audit) -> impl Iterator<Item = Hint> {
+    let unpaired = [
+        (audit.missed, "missed", "of ours that are not in theirs"),
+        (audit.invented, "invented", "of theirs that are not in ours"),
+    ];
+    unpaired.into_iter().filter(|(count, ..)| *count > 0).map(|(count, kind, whose)| {
+        let text = format!("contacts {whose}: {count}; see the table of contacts");
+        Hint { quantity: "contact", ..Hint::new(kind, count as f64, text) }
+    })
 }
 
 /// Returns the causes that concern one column each.

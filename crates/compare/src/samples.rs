@@ -98,15 +98,9 @@ impl Samples {
             }
         }
         times.iter_mut().for_each(|time| *time += shift);
-        for (k, found) in points.iter().flatten().enumerate() {
-            if !(0.0..=length).contains(found) {
-                return Err(refuse(k, Quantity::Point, DataErrorKind::PointOutside { found: *found, length }));
-            }
-            let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
-            let before = k.checked_sub(1).filter(same);
-            if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
-                return Err(refuse(k, Quantity::Point, DataErrorKind::PointsNotIncreasing { before, found: *found }));
-            }
+        let misplaced = points.as_ref().and_then(|points| misplaced_point(points, &times, &sides, length));
+        if let Some((row, kind)) = misplaced {
+            return Err(refuse(row, Quantity::Point, kind));
         }
         let from = times.partition_point(|time| *time < 0.0);
         let last = times.last().copied().unwrap_or(0.0);
@@ -140,6 +134,24 @@ fn sides_of(given: &[f64]) -> Result<Vec<Option<Side>>, (usize, DataErrorKind)> 
         other => Err((row, DataErrorKind::Side(other.to_string()))),
     };
     given.iter().enumerate().map(side).collect()
+}
+
+/// Returns the first row whose point is outside the rod, or not above the point before it at the same time.
+fn misplaced_point(
+    points: &[f64],
+    times: &[f64],
+    sides: &[Option<Side>],
+    length: f64,
+) -> Option<(usize, DataErrorKind)> {
+    let limits = [Some(Side::Left), Some(Side::Right)];
+    points.iter().copied().enumerate().find_map(|(k, found)| {
+        if !(0.0..=length).contains(&found) {
+            return Some((k, DataErrorKind::PointOutside { found, length }));
+        }
+        let is_same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
+        let before = points[k.checked_sub(1).filter(is_same)?];
+        (before >= found).then_some((k, DataErrorKind::PointsNotIncreasing { before, found }))
+    })
 }
 
 /// Returns the median of the steps between ascending times; zero without any.

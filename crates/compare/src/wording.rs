@@ -43,16 +43,7 @@ impl CauseFits<'_> {
                 let instead = if scene == 0.0 { "none".into() } else { scene.decimal(4) };
                 format!("damping r = {found} ± {error} where the scene has {instead}")
             }
-            Cause::SoftContact => {
-                let rod = reference.rod();
-                let (softness, error) = (p * rod.length, error * rod.length);
-                let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
-                let (softness, error) = (softness.decimal(4), error.decimal(2));
-                format!(
-                    "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and \
-                     the contact lasts longer by {longer}"
-                )
-            }
+            Cause::SoftContact => soft_contact(p, error, reference),
             Cause::EndMass => format!("the ends carry {off} of the mass of the rod besides: check end masses"),
             Cause::Clock => format!("clock off by {off}: check the step of time"),
             Cause::TimeShift => {
@@ -86,6 +77,18 @@ impl CauseFits<'_> {
         };
         hint
     }
+}
+
+/// Returns the hint at a contact whose softness is this share of that of the rod.
+fn soft_contact(share: f64, error: f64, reference: &Reference<'_>) -> String {
+    let rod = reference.rod();
+    let (softness, error) = (share * rod.length, error * rod.length);
+    let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
+    let (softness, error) = (softness.decimal(4), error.decimal(2));
+    format!(
+        "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and the contact \
+         lasts longer by {longer}"
+    )
 }
 
 /// Returns the questions about the known factors of a quantity that are near `factor`.

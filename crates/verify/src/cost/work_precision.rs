@@ -6,7 +6,7 @@ use super::family::{Family, OmissionReason};
 use super::ladder::{Candidate, Ladder, ladders};
 use super::timing::{Timing, check_budget, repeat};
 use crate::error::VerifyError;
-use crate::routes::{RouteQuestion, Truth};
+use crate::routes::{Route, RouteQuestion, Truth};
 use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::quantity::Quantity;
@@ -104,16 +104,10 @@ pub fn work_precision(
             continue;
         }
         let began = Instant::now();
-        // A run that can stop itself leaves most of the time to others.
-        let answer = candidate.route.run(question, left / 4.0);
-        let once = began.elapsed().as_secs_f64();
-        let mut took = once;
+        let answer = measure(question, candidate.route, slot, left);
+        let mut took = began.elapsed().as_secs_f64();
         match answer {
-            Ok(value) => {
-                let left = (seconds - spent()).max(0.0);
-                // Three samples at least, where that is little of what is left.
-                let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
-                let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
+            Ok((value, timing)) => {
                 took = timing.seconds;
                 measured.push(Measured { candidate, ladder, value, timing });
             }
@@ -129,17 +123,7 @@ pub fn work_precision(
     let truth = truth(question, &mut measured, &mut left_out, |digits| {
         observe(spent() / seconds, &format!("the truth, to {digits} digits"));
     })?;
-    let mut rows: Vec<CostRow> = measured
-        .into_iter()
-        .map(|Measured { candidate, ladder, value, timing }| CostRow {
-            family: candidate.family,
-            ladder,
-            setting: candidate.setting,
-            log10_error: truth.log10_error(&value),
-            timing,
-            chosen: candidate.chosen,
-        })
-        .collect();
+    let mut rows: Vec<CostRow> = measured.into_iter().map(|row| row.into_row(&truth)).collect();
     // Settings stay in the order of their ladder.
     rows.sort_by_key(|row| (row.family as u8, row.ladder));
     left_out.sort_by_key(|item| item.family as u8);
@@ -179,6 +163,26 @@ struct Measured {
     ladder: usize,
     value: Value,
     timing: Timing,
+}
+
+impl Measured {
+    fn into_row(self, truth: &Truth) -> CostRow {
+        let Measured { candidate: Candidate { family, setting, chosen, .. }, ladder, value, timing } = self;
+        CostRow { family, ladder, setting, log10_error: truth.log10_error(&value), timing, chosen }
+    }
+}
+
+/// Answers `question` by `route`, in the seconds that are `left`, and repeats the run for about as many seconds as
+/// `slot`.
+fn measure(question: &RouteQuestion, route: Route, slot: f64, left: f64) -> Result<(Value, Timing), VerifyError> {
+    let began = Instant::now();
+    // A run that can stop itself leaves most of the time to others.
+    let value = route.run(question, left / 4.0)?;
+    let once = began.elapsed().as_secs_f64();
+    let left = (left - once).max(0.0);
+    // Three samples at least, where that is little of what is left.
+    let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
+    Ok((value, repeat(once, Duration::from_secs_f64(room), || route.run(question, left))))
 }
 
 impl Candidate {
