@@ -1,4 +1,5 @@
-//! Scenes and problems as data: tables with the keys of a scene file, numbers as texts.
+//! Scenes and problems as data: tables with the keys of a scene file. A number is one of TOML where that spells it, and
+//! a text otherwise.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -7,7 +8,7 @@ use toml::{Table, Value};
 use super::{Scene, Target};
 
 use crate::number::Number;
-use crate::problem::{Parameter, Problem, Top};
+use crate::problem::{Parameter, Problem, Top, Written};
 use crate::quantity::{Needs, UnitSystem};
 
 /// Writes the parameters that are given, in the tables of a scene file.
@@ -16,11 +17,9 @@ fn problem_table(problem: &Problem) -> Table {
     for parameter in Parameter::ALL.iter().copied() {
         let value = match (parameter, parameter.given(problem), parameter.list(problem)) {
             (Parameter::Top, ..) if problem.top() == Top::Fixed => Value::from("fixed"),
-            // A scene file has a whole number of impacts.
-            (Parameter::Impacts, Some(count), _) => Value::from(count.to_f64() as i64),
-            (_, Some(number), _) => text(&number),
+            (_, Some(number), _) => written(&number),
             (_, None, Some(points)) if !points.is_empty() => {
-                points.iter().map(|(x, value)| Value::from(vec![text(x), text(value)])).collect::<Vec<_>>().into()
+                points.iter().map(|(x, value)| Value::from(vec![written(x), written(value)])).collect::<Vec<_>>().into()
             }
             _ => continue,
         };
@@ -33,20 +32,27 @@ fn problem_table(problem: &Problem) -> Table {
     tables
 }
 
-fn text(number: &Number) -> Value {
-    Value::from(number.to_string())
+/// Writes a number: a whole number or a double where these spell it, otherwise its text.
+fn written(number: &Number) -> Value {
+    let text = number.to_string();
+    let double = || Some(number.to_f64()).filter(|x| Written::from(*x).number() == Ok(number));
+    match (text.parse::<i64>(), double()) {
+        (Ok(whole), _) => whole.into(),
+        (_, Some(double)) => double.into(),
+        _ => text.into(),
+    }
 }
 
 fn target_table(target: &Target) -> Table {
     let is_over_time = target.quantity.needs() == Needs::Time;
     let entries = [
         ("quantity", Some(target.quantity.name().into())),
-        ("time", target.time.as_ref().map(text)),
+        ("time", target.time.as_ref().map(written)),
         ("side", is_over_time.then(|| target.side.name().into())),
         ("contact", (!is_over_time).then(|| Value::from(target.contact as i64))),
         ("origin", target.from_start.then(|| "start".into())),
-        ("published", Some(text(&target.published))),
-        ("within", target.within.as_ref().map(text)),
+        ("published", Some(target.published.to_string().into())),
+        ("within", target.within.as_ref().map(written)),
         ("source", Some(target.source.as_str().into())),
     ];
     entries.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?))).collect()
@@ -60,7 +66,7 @@ fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Scene, D::Error> {
         .map_err(|error| D::Error::custom(format_args!("found {}, expected {}", error.found, error.expected)))
 }
 
-/// Writes the tables of a scene file; numbers are texts, which keep fractions as they are.
+/// Writes the tables of a scene file.
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         problem_table(self).serialize(serializer)
@@ -74,14 +80,15 @@ impl<'de> Deserialize<'de> for Problem {
     }
 }
 
-/// Writes the structure of a scene file; numbers are texts, which keep fractions as they are.
+/// Writes the structure of a scene file.
 impl Serialize for Scene {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut table = problem_table(&self.problem);
         if let Some(title) = &self.title {
             table.insert("title".into(), title.as_str().into());
         }
-        if let Some((name, _)) = UnitSystem::ALL.iter().find(|(_, units)| *units == self.units) {
+        let units = UnitSystem::ALL.iter().find(|(_, units)| *units == self.units && *units != UnitSystem::default());
+        if let Some((name, _)) = units {
             table.insert("units".into(), (*name).into());
         }
         if let Some((accuracy, run)) = self.accuracy.zip(table.get_mut("run").and_then(Value::as_table_mut)) {
@@ -92,6 +99,30 @@ impl Serialize for Scene {
             table.insert("target".into(), targets.into());
         }
         table.serialize(serializer)
+    }
+}
+
+/// Builds the scene of a problem in SI units, without a title.
+impl From<Problem> for Scene {
+    fn from(problem: Problem) -> Self {
+        let source = toml::to_string(&problem).unwrap_or_default();
+        let (title, units, accuracy) = (None, UnitSystem::default(), None);
+        Scene { title, units, problem, accuracy, targets: Vec::new(), source, lines: Vec::new() }
+    }
+}
+
+impl Scene {
+    /// Returns the scene as TOML, from its values: without the comments of its [source](Scene::source).
+    ///
+    /// ```
+    /// use dalembert::{Problem, Scene};
+    /// let rod = Problem::builder().length(1).wave_speed("0.5").impact_speed("10/3").build()?;
+    /// let text = Scene::from(rod).to_toml();
+    /// assert!(text.contains("[impact]\nspeed = \"10/3\"\n") && text.contains("[rod]\nlength = 1\nwave_speed = 0.5\n"));
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).unwrap_or_default()
     }
 }
 

@@ -318,9 +318,10 @@ impl Plan {
         }
     }
 
-    pub(crate) fn in_digits(&self, problem: &Problem, digits: u32) -> Self {
+    /// Returns the plan of the same run in other `numbers`.
+    pub(super) fn in_numbers(&self, problem: &Problem, numbers: Numbers) -> Self {
         let keeps = (self.keep_from, self.settles_events);
-        Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
+        Self::with(problem, numbers, self.engine, self.reach.clone(), keeps)
     }
 
     /// Returns the question that the plan answers: events and contacts.

@@ -167,7 +167,8 @@ fn no_number_is_no_time() {
             let columns = over_time.iter().map(|quantity| history.columns(&[*quantity], &[0.5, time], None));
             said.extend(columns.filter_map(Result::err));
             let slices = [Slice::Points, Slice::Averages, Slice::P1];
-            said.extend(slices.iter().filter_map(|slice| history.slices(*slice, &[0.0, 1.0], &[time], None).err()));
+            let grid = |_: &dyn Motion<_>| Ok(([0.0, 1.0].map(Estimate::exact).into(), vec![Estimate::exact(time)]));
+            said.extend(slices.iter().filter_map(|slice| history.ask_slices(*slice, None, grid).err()));
             assert_eq!(said.len(), 10 + over_time.len());
             assert!(said.iter().all(|error| matches!(error, Error::TimeOutside { .. })), "{said:?}");
         }
