@@ -32,11 +32,7 @@ fn rounded<S: Rounded>(x: &Estimate<S>) -> Estimate<S> {
 
 impl<S: RoundedSpecial> EstimatedContact<S> {
     /// Solves the first contact of `problem`, which ends as `bounce` says.
-    pub(crate) fn new(
-        problem: &Problem,
-        precision: &S::Precision,
-        bounce: Bounce<Estimate<S>>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(problem: &Problem, precision: &S::Precision, bounce: Bounce<Estimate<S>>) -> Result<Self, Error> {
         let asked = match problem.run() {
             Run::Time(time) => Some(S::from_number(time, precision).carry()),
             Run::Impacts(_) => None,

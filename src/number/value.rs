@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use serde::{Serialize, Serializer};
 
 use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, shown_bound};
-use super::{Bounded, Estimate, Float, Interval, Number, Rational, Scalar};
+use super::{Bounded, Estimate, Float, Interval, Number, Rational, Reads, Scalar};
 
 /// A number of an answer, with its bound, its digits and its unit.
 ///
@@ -68,6 +68,14 @@ impl Value {
     /// The same number, printed to `digits` digits (0: all of them), in `unit`.
     pub(crate) fn printed_in(self, digits: u32, unit: &'static str) -> Self {
         Value { digits, unit, ..self }
+    }
+
+    /// Rounds a long number to a double, and includes the rounding in the bound.
+    pub(crate) fn in_double(self) -> Self {
+        match self.stored {
+            Stored::Float(number) => Value { stored: Stored::Double(Reads::read(*number)), ..self },
+            _ => self,
+        }
     }
 
     /// Returns the nearest double; of an enclosure, that of its middle.

@@ -1,6 +1,9 @@
 //! The answer in `Value`s, for every number system.
 
+use std::sync::Arc;
+
 use super::derivative::{Derivative, Derivatives};
+use super::finer::Finer;
 use super::ladder::Target;
 use super::places::Places;
 use super::plan::Plan;
@@ -9,7 +12,7 @@ use super::solution::{ExactnessEnd, Solution};
 use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, Waves, straight};
-use crate::number::{IntoValue, List, Number, Scalar, Value};
+use crate::number::{Float, IntoValue, List, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
     self, Flight, Measure, Missing, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
@@ -44,6 +47,7 @@ pub struct History {
     solution: Solution,
     exactness_end: Option<ExactnessEnd>,
     units: Units,
+    finer: Finer,
 }
 
 /// Evaluates `$body` for the typed history inside `$history`, in any number system.
@@ -56,6 +60,18 @@ macro_rules! typed {
             Solution::Certified($typed) => $body,
         }
     };
+}
+
+/// Evaluates `$body` for the longer run that `$places` need, if there is one and it answers; otherwise for the typed
+/// history inside `$history`.
+macro_rules! typed_at {
+    ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
+        let finer = $history.finer(&$places).map(|$typed| (|| -> Result<_, Error> { $body })());
+        match finer {
+            Some(Ok(found)) => Ok(found),
+            Some(Err(_)) | None => typed!($history, $typed => $body),
+        }
+    }};
 }
 
 /// Values of quantities by row; a missing value is replaced by the reason.
@@ -272,11 +288,11 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed!(self, history => {
+        typed_at!(self, [times], history => {
             let columns = history.ask_columns_in(&self.units, quantities, side, |motion| times.lift(motion))?;
             let column = |(quantity, column): (&Quantity, Vec<_>)| {
                 let unit = quantity.unit(&self.units);
-                column.into_iter().map(|x| Value::from(x).printed_in(self.digits(), unit)).collect()
+                column.into_iter().map(|x| self.printed(x, unit)).collect()
             };
             Ok(quantities.iter().zip(columns).map(column).collect())
         })
@@ -308,7 +324,7 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed!(self, history => {
+        typed_at!(self, [points, times], history => {
             let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
             let scales = history.carried_scales();
             let column = |quantity: &Quantity| {
@@ -321,7 +337,7 @@ impl History {
 
     /// Returns `u`, `v`, `strain` at pairs of a point and a time, column by column.
     pub fn sample_pairs(&self, points: &Places<'_>, times: &Places<'_>, side: Side) -> Result<[Vec<Value>; 3], Error> {
-        typed!(self, history => {
+        typed_at!(self, [points, times], history => {
             let fields = history.ask(
                 |motion| {
                     let (points, times) = (points.lift(motion)?, times.lift(motion)?);
@@ -411,7 +427,8 @@ impl History {
 
     /// Returns one number, or the reason of its absence.
     pub fn query(&self, query: &ValueQuery) -> Result<Result<Value, Missing>, Error> {
-        typed!(self, history => {
+        let [point, time] = [&query.point, &query.time].map(|number| List::Numbers(number.iter().cloned().collect()));
+        typed_at!(self, [&Places::from(&point), &Places::from(&time)], history => {
             let run = self.problem().run();
             let found = history.ask(
                 |motion| query.evaluate(motion, &self.units, run),
@@ -442,13 +459,25 @@ impl History {
 
     fn value(&self, number: impl IntoValue, measure: Option<Measure>) -> Value {
         let unit = measure.map_or("", |measure| self.units.name(measure));
-        number.into().printed_in(self.digits(), unit)
+        self.printed(number, unit)
+    }
+
+    /// Returns a number as the history prints its numbers.
+    fn printed(&self, number: impl IntoValue, unit: &'static str) -> Value {
+        let value = number.into().printed_in(self.digits(), unit);
+        if matches!(self.solution, Solution::Double(_)) { value.in_double() } else { value }
+    }
+
+    /// Returns the run in the digits that `places` need, if the numbers of this history do not hold them.
+    fn finer(&self, places: &[&Places<'_>]) -> Option<Arc<TypedHistory<Float>>> {
+        let observe = typed!(self, history => &history.observe);
+        self.finer.run(self.problem(), self.plan(), observe, places)
     }
 
     /// Returns the value of a quantity from its `number` without a unit.
     fn quantity<S: IntoValue>(&self, quantity: Quantity, number: S, scales: &Scales<S>) -> Value {
         let number = quantity.in_unit(number, scales, &self.units);
-        number.into().printed_in(self.digits(), quantity.unit(&self.units))
+        self.printed(number, quantity.unit(&self.units))
     }
 
     fn rows<S: IntoValue>(&self, quantities: &[Quantity], rows: Vec<quantity::Row<S>>, scales: &Scales<S>) -> Rows {
@@ -490,7 +519,8 @@ impl Plan {
     /// ```
     pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
         let (solution, exactness_end) = self.solution(problem, observe)?;
-        Ok(History { solution, exactness_end, units: Units::new(problem, UnitSystem::default()) })
+        let (units, finer) = (Units::new(problem, UnitSystem::default()), Finer::default());
+        Ok(History { solution, exactness_end, units, finer })
     }
 }
 

@@ -150,12 +150,10 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
         Engine::Cells if !problem.has_closed_form() => proved(problem, plan, bits, observe),
         // For more digits than a march can prove, the first contact provides all of them.
-        Engine::Cells if bits <= MOST_PROVED && bounces(problem, bits)? => {
-            match proved(problem, plan, bits, observe) {
-                Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
-                run => run,
-            }
-        }
+        Engine::Cells if bits <= MOST_PROVED && bounces(problem, bits)? => match proved(problem, plan, bits, observe) {
+            Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
+            run => run,
+        },
         Engine::Cells | Engine::ClosedForm => contact(problem, bits),
     }
 }

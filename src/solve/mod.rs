@@ -5,6 +5,7 @@ mod converted;
 mod derivative;
 mod differences;
 mod engines;
+mod finer;
 mod foresee;
 mod history;
 mod in_floats;

@@ -193,12 +193,8 @@ const SERIES_GUARD_BITS: f64 = 6.0;
 const EFFORT_BITS: f64 = 20.0;
 /// Default limits of cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits.
 /// The cost of more digits grows with their cube.
-const CELLS: CellLimits = CellLimits {
-    double_digits: 13.0,
-    double_cells: 20_000_000,
-    long_cells: Some(30_000),
-    most_digits: MOST_DIGITS,
-};
+const CELLS: CellLimits =
+    CellLimits { double_digits: 13.0, double_cells: 20_000_000, long_cells: Some(30_000), most_digits: MOST_DIGITS };
 /// Maximum bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is reported as undecided, unless the requested digits need more.

@@ -4,9 +4,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use dalembert::engine::{
-    ContactHistory, Damped, Limits, Motion, RayRegister, Scales, Undamped, unobserved,
-};
+use dalembert::engine::{ContactHistory, Damped, Limits, Motion, RayRegister, Scales, Undamped, unobserved};
 use dalembert::number::{Bounded, Scalar};
 use dalembert::special::RoundedSpecial;
 use dalembert::{Error, Estimate, Field, Problem, Rational, Run, Side};

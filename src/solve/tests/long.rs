@@ -1,6 +1,6 @@
-use crate::number::Scalar;
 use super::*;
 use crate::motion::{Pair, Side};
+use crate::number::Scalar;
 use crate::solve::question::{Question, unobserved};
 
 /// A rod that bounces three times, damped or not.
