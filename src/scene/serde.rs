@@ -1,5 +1,4 @@
-//! Scenes and problems as data: tables with the keys of a scene file. A number is one of TOML where that spells it, and
-//! a text otherwise.
+//! Scenes and problems as data: tables with the keys of a scene file, numbers as texts.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -17,9 +16,11 @@ fn problem_table(problem: &Problem) -> Table {
     for parameter in Parameter::ALL.iter().copied() {
         let value = match (parameter, parameter.given(problem), parameter.list(problem)) {
             (Parameter::Top, ..) if problem.top() == Top::Fixed => Value::from("fixed"),
-            (_, Some(number), _) => written(&number),
+            // A scene file has a whole number of impacts.
+            (Parameter::Impacts, Some(count), _) => Value::from(count.to_f64() as i64),
+            (_, Some(number), _) => text(&number),
             (_, None, Some(points)) if !points.is_empty() => {
-                points.iter().map(|(x, value)| Value::from(vec![written(x), written(value)])).collect::<Vec<_>>().into()
+                points.iter().map(|(x, value)| Value::from(vec![text(x), text(value)])).collect::<Vec<_>>().into()
             }
             _ => continue,
         };
@@ -32,14 +33,25 @@ fn problem_table(problem: &Problem) -> Table {
     tables
 }
 
-/// Writes a number: a whole number or a double where these spell it, otherwise its text.
-fn written(number: &Number) -> Value {
-    let text = number.to_string();
-    let double = || Some(number.to_f64()).filter(|x| Written::from(*x).number() == Ok(number));
-    match (text.parse::<i64>(), double()) {
-        (Ok(whole), _) => whole.into(),
-        (_, Some(double)) => double.into(),
-        _ => text.into(),
+fn text(number: &Number) -> Value {
+    Value::from(number.to_string())
+}
+
+/// Replaces the texts of numbers by numbers of TOML where these spell them.
+fn spell_plainly(value: &mut Value) {
+    match value {
+        Value::Table(table) => table.iter_mut().for_each(|(_, value)| spell_plainly(value)),
+        Value::Array(list) => list.iter_mut().for_each(spell_plainly),
+        Value::String(text) => {
+            let Ok(number) = text.parse::<Number>() else { return };
+            let double = Some(number.to_f64()).filter(|x| Written::from(*x).number() == Ok(&number));
+            *value = match (text.parse::<i64>(), double) {
+                (Ok(whole), _) => whole.into(),
+                (_, Some(double)) => double.into(),
+                _ => return,
+            };
+        }
+        _ => (),
     }
 }
 
@@ -47,12 +59,12 @@ fn target_table(target: &Target) -> Table {
     let is_over_time = target.quantity.needs() == Needs::Time;
     let entries = [
         ("quantity", Some(target.quantity.name().into())),
-        ("time", target.time.as_ref().map(written)),
+        ("time", target.time.as_ref().map(text)),
         ("side", is_over_time.then(|| target.side.name().into())),
         ("contact", (!is_over_time).then(|| Value::from(target.contact as i64))),
         ("origin", target.from_start.then(|| "start".into())),
-        ("published", Some(target.published.to_string().into())),
-        ("within", target.within.as_ref().map(written)),
+        ("published", Some(text(&target.published))),
+        ("within", target.within.as_ref().map(text)),
         ("source", Some(target.source.as_str().into())),
     ];
     entries.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?))).collect()
@@ -66,7 +78,7 @@ fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Scene, D::Error> {
         .map_err(|error| D::Error::custom(format_args!("found {}, expected {}", error.found, error.expected)))
 }
 
-/// Writes the tables of a scene file.
+/// Writes the tables of a scene file; numbers are texts, which keep fractions as they are.
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         problem_table(self).serialize(serializer)
@@ -80,7 +92,7 @@ impl<'de> Deserialize<'de> for Problem {
     }
 }
 
-/// Writes the structure of a scene file.
+/// Writes the structure of a scene file; numbers are texts, which keep fractions as they are.
 impl Serialize for Scene {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut table = problem_table(&self.problem);
@@ -112,7 +124,8 @@ impl From<Problem> for Scene {
 }
 
 impl Scene {
-    /// Returns the scene as TOML, from its values: without the comments of its [source](Scene::source).
+    /// Returns the scene as TOML, from its values: without the comments of its [source](Scene::source), and with plain
+    /// numbers where these spell the same.
     ///
     /// ```
     /// use dalembert::{Problem, Scene};
@@ -122,7 +135,9 @@ impl Scene {
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).unwrap_or_default()
+        let mut table = Table::try_from(self).unwrap_or_default();
+        table.iter_mut().filter(|(_, value)| value.is_table()).for_each(|(_, value)| spell_plainly(value));
+        toml::to_string(&table).unwrap_or_default()
     }
 }
 
