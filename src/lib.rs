@@ -57,6 +57,7 @@
 //! is a quarter as large.
 
 mod cells;
+pub mod chain;
 pub mod engine;
 mod error;
 mod first_contact;
@@ -82,7 +83,7 @@ pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{Effect, EffectUse, Scene, SceneError, Target, builtin};
+pub use scene::{ChainEffect, ChainScene, Effect, EffectUse, Scene, SceneError, Target, builtin};
 pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, TypedHistory};
 
 #[cfg(doctest)]

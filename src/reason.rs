@@ -70,6 +70,12 @@ pub enum Reason {
         /// Bound of the difference of `v(0,t)` in the round trip that follows.
         spread: f64,
     },
+    /// The order of the next events of a chain is open.
+    #[error("{bits} bits do not decide the order of the next events")]
+    Order {
+        /// Bits of the numbers.
+        bits: u32,
+    },
     /// The motion takes more than is computed of it.
     #[error(
         "after {cells} cells the motion is followed no farther: the rod carries {rays} rays, two for each bounce \

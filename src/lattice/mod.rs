@@ -29,4 +29,5 @@ mod trace;
 pub use history::Undamped;
 pub use march::{GroundMotion, Halt, Limits, Until, march};
 pub use start::{Scaled, Units};
+pub(crate) use trace::place_to;
 pub use trace::{GroundEvent, Line, Piece, Trace};

@@ -26,7 +26,7 @@ impl<N: Bounded> Line<N> {
     }
 
     /// Returns the value at the stored `age`, without the error of the age.
-    pub(super) fn value_at_stored(&self, age: &N) -> N {
+    pub(crate) fn value_at_stored(&self, age: &N) -> N {
         self.slope.clone().times_stored(age) + &self.intercept
     }
 
@@ -36,7 +36,7 @@ impl<N: Bounded> Line<N> {
     }
 
     /// Returns whether both lines are proved equal, or agree within their bounds.
-    pub(super) fn same(&self, other: &Self) -> bool {
+    pub(crate) fn same(&self, other: &Self) -> bool {
         self.slope.same(&other.slope) && self.intercept.same(&other.intercept)
     }
 }
@@ -134,7 +134,7 @@ const ON_A_RAY: f64 = 64.0;
 /// Compares a queried age with the age of a ray.
 ///
 /// **Errors**: [`Open`] if only the error of the ray's own age leaves the order undecided.
-pub(super) fn place_to<N: Bounded>(age: &N, ray: &N) -> Result<Ordering, Open> {
+pub(crate) fn place_to<N: Bounded>(age: &N, ray: &N) -> Result<Ordering, Open> {
     let order = age.compare(ray)?;
     let own = age.roundoffs() + ON_A_RAY;
     if order.is_ne() || ray.roundoffs() <= own {

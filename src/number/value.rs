@@ -70,10 +70,21 @@ impl Value {
         Value { digits, unit, ..self }
     }
 
-    /// Rounds a long number to a double, and includes the rounding in the bound.
-    pub(crate) fn in_double(self) -> Self {
+    /// Returns the number as a double with its bound.
+    pub(crate) fn to_double(&self) -> Value {
+        let number: Estimate<f64> = match &self.stored {
+            Stored::Double(number) => number.clone(),
+            Stored::Enclosure(number) => Reads::read((**number).clone()),
+            Stored::Float(number) => Reads::read((**number).clone()),
+            Stored::Fraction(number) => Reads::read((**number).clone()),
+        };
+        number.into()
+    }
+
+    /// Returns the middle of an enclosure with its bound; any other number as it is.
+    pub(crate) fn without_ends(self) -> Value {
         match self.stored {
-            Stored::Float(number) => Value { stored: Stored::Double(Reads::read(*number)), ..self },
+            Stored::Enclosure(number) => Estimate::<Float>::read(*number).into(),
             _ => self,
         }
     }

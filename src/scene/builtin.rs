@@ -47,7 +47,24 @@ pub const ALL: &[Builtin] = &[
     scene!("steel-bar", "a damped steel bar hits at 1 m/s: a contact of 0.4 ms"),
 ];
 
-/// The names of the built-in scenes.
+/// Every built-in scene with several bodies, or with loads, for [`ChainScene`](crate::ChainScene).
+pub const CHAINS: &[Builtin] = &[
+    scene!("openfoam-7-1-1", "two equal bars exchange their velocities: contact for 2L/c"),
+    scene!("openfoam-7-1-2", "two dissimilar bars: 7/170, then 21/2890, released at 27/70"),
+    scene!("code-aster-sdnl111-a", "a bar against a clamped one: contact for 4L/c"),
+    scene!("code-aster-sdnl111-c", "the same with sides held, after a gap"),
+    scene!("schwarz-two-bars", "two equal bars meet: 100 N for 0.5 ms"),
+    scene!("schwarz-unequal-bars", "a long bar against a short one"),
+    scene!("schwarz-three-bars", "three bars: 50, 100, 50 N"),
+    scene!("cirak-west", "two bars that touch at the start: contact for 2L/c"),
+    scene!("abaqus-1-3-15", "a bar against a rigid wall after a gap"),
+    scene!("hopkinson-striker", "a striker on a half-infinite bar: a force in steps"),
+    scene!("mpm-py-pile", "a pile on a fixed base under a sudden load"),
+    scene!("kratos-drained-column", "a soil column, sides held, under a ramped load"),
+    scene!("rose-column", "a column on a fixed base under a sudden load"),
+];
+
+/// The names of the built-in scenes of a single rod.
 ///
 /// ```
 /// assert!(dalembert::builtin::names().any(|name| name == "doyen-ern-piperno"));
@@ -65,5 +82,5 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// # Ok::<(), dalembert::SceneError>(())
 /// ```
 pub fn get(name: &str) -> Option<&'static Builtin> {
-    ALL.iter().find(|builtin| builtin.name == name)
+    ALL.iter().chain(CHAINS).find(|builtin| builtin.name == name)
 }

@@ -1,6 +1,7 @@
 //! A scene: what a person wrote in a file, checked, with the line of every value.
 
 pub mod builtin;
+mod chain;
 mod effects;
 mod error;
 mod read;
@@ -9,6 +10,7 @@ mod serde;
 mod suggest;
 mod target;
 
+pub use chain::{ChainEffect, ChainScene};
 pub use effects::{Effect, EffectUse};
 pub use error::SceneError;
 pub use read::Scene;

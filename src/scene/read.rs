@@ -157,7 +157,7 @@ impl Scene {
 }
 
 /// Returns the error of the TOML reader, with its place; a number with a unit and a bare fraction are recognised.
-fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
+pub(super) fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let value = value_around(source, span.start);
     let text = source.get(value.clone()).unwrap_or_default();
@@ -280,7 +280,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn units(&self) -> Result<UnitSystem, SceneError> {
+    pub(super) fn units(&self) -> Result<UnitSystem, SceneError> {
         let Some((text, span)) = self.text("units")? else { return Ok(UnitSystem::default()) };
         UnitSystem::ALL.iter().find(|(name, _)| *name == text).map(|(_, units)| *units).ok_or_else(|| {
             let known = UnitSystem::ALL.map(|(name, _)| format!("\"{name}\"")).join(", ");
@@ -289,7 +289,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    fn accuracy(&self) -> Result<Option<f64>, SceneError> {
+    pub(super) fn accuracy(&self) -> Result<Option<f64>, SceneError> {
         let Some(written) = self.number("run.accuracy")? else { return Ok(None) };
         let given = Given::new("run.accuracy", "accuracy", &written).map_err(|error| self.located(error))?;
         let accuracy = given.number.to_f64();
@@ -317,7 +317,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The line of every key.
-    fn lines(&self) -> Vec<(String, usize)> {
+    pub(super) fn lines(&self) -> Vec<(String, usize)> {
         let line = |key: &Key<'_>| position(self.source, key.span().start).0;
         let mut lines = Vec::new();
         for (name, value) in self.document {

@@ -464,8 +464,9 @@ impl History {
 
     /// Returns a number as the history prints its numbers.
     fn printed(&self, number: impl IntoValue, unit: &'static str) -> Value {
-        let value = number.into().printed_in(self.digits(), unit);
-        if matches!(self.solution, Solution::Double(_)) { value.in_double() } else { value }
+        let value = number.into();
+        let value = if matches!(self.solution, Solution::Double(_)) { value.to_double() } else { value };
+        value.printed_in(self.digits(), unit)
     }
 
     /// Returns the run in the digits that `places` need, if the numbers of this history do not hold them.

@@ -26,6 +26,7 @@ pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::{History, Listing, Rows, StressForm};
 pub use ladder::Target;
 pub use places::Places;
+pub(crate) use plan::LONG;
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, MAX_DIGITS, Plan, Reach, Rung};
 pub use question::unobserved;
 pub use question::{Numbers, Observer, Question, Want};

@@ -203,7 +203,7 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 pub(super) const MOST_PROVED: u32 = 900;
 
 /// Whether answers in doubles may take longer numbers.
-pub(super) const LONG: bool = cfg!(feature = "long");
+pub(crate) const LONG: bool = cfg!(feature = "long");
 
 /// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.
 fn size(bits: u32) -> u32 {

@@ -76,12 +76,17 @@ impl NumberArgs {
 
     /// Returns the requested numbers; without an option, doubles to the accuracy of the scene.
     pub(crate) fn numbers(self, scene: &Scene) -> Numbers {
+        self.numbers_to(scene.accuracy)
+    }
+
+    /// Returns the requested numbers; without an option, doubles to `default`.
+    pub(crate) fn numbers_to(self, default: Option<f64>) -> Numbers {
         match self {
             NumberArgs { certified: true, digits, .. } => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
             NumberArgs { exact: true, digits: None, .. } => Numbers::Exact,
             NumberArgs { exact: true, digits: Some(digits), .. } => Numbers::ExactThenDigits(digits),
             NumberArgs { digits: Some(digits), .. } => Numbers::Digits(digits),
-            NumberArgs { accuracy, .. } => Numbers::Double(accuracy.or(scene.accuracy)),
+            NumberArgs { accuracy, .. } => Numbers::Double(accuracy.or(default)),
         }
     }
 }

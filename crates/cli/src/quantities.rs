@@ -92,7 +92,11 @@ impl Scope {
 
 /// A parser of the names of some scopes. Spaces around a name do not count.
 #[derive(Clone)]
-pub(crate) struct NameParser(Vec<PossibleValue>);
+pub(crate) struct NameParser {
+    values: Vec<PossibleValue>,
+    /// Whether names such as `u_top.2`, of one body or joint of a chain, are accepted as they are.
+    with_places: bool,
+}
 
 impl NameParser {
     /// Returns a parser of the names of `scopes`, each name once, and of `others`.
@@ -103,7 +107,12 @@ impl NameParser {
                 values.push(value);
             }
         }
-        NameParser(values)
+        NameParser { values, with_places: false }
+    }
+
+    /// Returns a parser that also accepts names with a place in a chain, which the chain resolves.
+    pub(crate) fn with_places(self) -> Self {
+        NameParser { with_places: true, ..self }
     }
 }
 
@@ -117,10 +126,13 @@ impl TypedValueParser for NameParser {
         value: &OsStr,
     ) -> Result<String, clap::Error> {
         let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
-        PossibleValuesParser::new(self.0.clone()).parse_ref(command, argument, trimmed)
+        if let Some(name) = trimmed.to_str().filter(|name| self.with_places && name.contains('.')) {
+            return Ok(name.into());
+        }
+        PossibleValuesParser::new(self.values.clone()).parse_ref(command, argument, trimmed)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(self.0.iter().cloned()))
+        Some(Box::new(self.values.iter().cloned()))
     }
 }

@@ -4,15 +4,37 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::failure::{Failure, cannot};
-use dalembert::{Scene, builtin};
+use dalembert::{ChainScene, Scene, builtin};
 
 /// Most bytes that are read of a scene: one more than a scene may have.
 const MAX_BYTES: u64 = (16 << 20) + 1;
 /// Least similarity, by Jaro and Winkler, of a name that is suggested.
 const MIN_SIMILARITY: f64 = 0.8;
 
-/// Returns the scene called `name`: `-` for standard input, a file, or a built-in scene.
+/// A scene of either kind.
+pub(crate) enum AnyScene {
+    /// A single rod.
+    Rod(Box<Scene>),
+    /// Several bodies.
+    Chain(Box<ChainScene>),
+}
+
+/// Returns the scene of a single rod called `name`.
+///
+/// **Errors**: also for a scene with several bodies.
 pub(crate) fn read(name: &str) -> Result<Scene, Failure> {
+    match read_any(name)? {
+        AnyScene::Rod(scene) => Ok(*scene),
+        AnyScene::Chain(_) => {
+            let failure =
+                failure!("found several bodies in `{name}`, expected a single rod, [rod]: this is not done for chains");
+            Err(failure.help("`solve`, `sample` and `explain` take a scene with [[body]]"))
+        }
+    }
+}
+
+/// Returns the scene called `name`: `-` for standard input, a file, or a built-in scene.
+pub(crate) fn read_any(name: &str) -> Result<AnyScene, Failure> {
     let path = Path::new(name);
     let builtin = builtin::get(name).filter(|_| !path.is_file());
     let (shown, text) = if name == "-" {
@@ -32,7 +54,11 @@ pub(crate) fn read(name: &str) -> Result<Scene, Failure> {
         let failure = failure!("found no file and no built-in scene called `{name}`");
         return Err(failure.help(format!("expected {expected}{suggestion}")));
     };
-    Scene::parse(&text).map_err(|error| Failure::in_file(error, shown))
+    let scene = match ChainScene::is_chain(&text) {
+        true => ChainScene::parse(&text).map(|scene| AnyScene::Chain(Box::new(scene))),
+        false => Scene::parse(&text).map(|scene| AnyScene::Rod(Box::new(scene))),
+    };
+    scene.map_err(|error| Failure::in_file(error, shown))
 }
 
 fn read_text(from: impl Read, name: &str) -> Result<String, Failure> {

@@ -3,10 +3,12 @@
 use clap::Args;
 use serde_json::json;
 
+use super::chain;
 use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{Format, write_all};
 use crate::output::{json_bytes, wrapped};
+use crate::source::{self, AnyScene};
 use crate::terminal;
 use dalembert::solve::{Numbers, Plan, Question, Sensitivity};
 use dalembert::{Effect, EffectUse, Scene};
@@ -26,8 +28,14 @@ const FORMATS: &[Format] = &[Format::Table, Format::Json];
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let (scene, numbers) = self.scene.read()?;
-        let plan = Plan::of(&scene.problem, &Question::run(numbers))?;
+        let scene = match source::read_any(&self.scene.scene)? {
+            AnyScene::Rod(scene) => *scene,
+            AnyScene::Chain(scene) => {
+                let numbers = self.scene.numbers.numbers_to(scene.accuracy);
+                return chain::explain(&scene, numbers, &self.scene.output.destinations(FORMATS)?);
+            }
+        };
+        let plan = Plan::of(&scene.problem, &Question::run(self.scene.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
         write_all(&self.scene.output.destinations(FORMATS)?, |format| {
             if format == Format::Table {

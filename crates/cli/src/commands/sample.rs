@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::chain;
 use crate::answer::{Answer, solve};
 use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
@@ -15,12 +16,13 @@ use crate::output::{
     Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
 };
 use crate::quantities::{NameParser, Scope, has_material};
+use crate::source::{self, AnyScene};
 use crate::terminal;
 use dalembert::number::{List, Number};
 use dalembert::problem::Parameter;
 use dalembert::quantity::{Quantity, SLICE, Slice};
 use dalembert::solve::{Derivatives, History, Places, Question};
-use dalembert::{Ending, Error, Scene, Side, Value};
+use dalembert::{ChainScene, Ending, Error, Scene, Side, Value};
 
 #[derive(Args, Debug)]
 #[command(after_help = "Without times, the rows are the start, every impact and release, and the end.\n\n\
@@ -56,9 +58,10 @@ struct SampleArgs {
     #[command(flatten)]
     scene: SceneArgs,
     /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
-    /// golden file has the columns as they are listed, by default all
+    /// golden file has the columns as they are listed, by default all. Of a chain they are u_top.2 of the second body,
+    /// force.bottom, force.1 of the joint above the first body, force.top, and so on; by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
-    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []))]
+    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).with_places())]
     quantity: Vec<String>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B. The scene is followed
     /// to the last of them, whatever its own run says
@@ -136,7 +139,15 @@ impl Reference {
 
 impl SampleArgs {
     fn run(&self, is_golden: bool) -> Result<(), Failure> {
-        let (scene, numbers) = self.scene.read()?;
+        let scene = match source::read_any(&self.scene.scene)? {
+            AnyScene::Rod(scene) => *scene,
+            AnyScene::Chain(scene) if is_golden => {
+                let name = scene.title.as_deref().unwrap_or(&self.scene.scene);
+                return Err(failure!("found a chain of bodies, {name}, expected a single rod; `sample` takes chains"));
+            }
+            AnyScene::Chain(scene) => return self.chain(&scene),
+        };
+        let numbers = self.scene.numbers.numbers(&scene);
         let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
         let destinations = self.scene.output.destinations(known)?;
         if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
@@ -170,6 +181,28 @@ impl SampleArgs {
         };
         let rows = Rows { args: self, scene: &scene, times, points, quantities, side };
         rows.write(solve(&scene, &question)?, &destinations)
+    }
+
+    /// Writes values of a scene with several bodies.
+    fn chain(&self, scene: &ChainScene) -> Result<(), Failure> {
+        let refused = [
+            (self.points.is_some(), "--points"),
+            (!self.derivatives.is_empty(), "--derivatives"),
+            (self.bare, "--bare"),
+        ];
+        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
+            return Err(failure!("found {option} with a chain of bodies, expected it with a single rod, [rod]"));
+        }
+        let times =
+            self.times()?.ok_or_else(|| failure!("found no times of a chain, expected --times or --dt and --to"))?;
+        let sides: &[Side] = match self.side {
+            Some(SideArg::Left) => &[Side::Left],
+            Some(SideArg::Both) => &[Side::Left, Side::Right],
+            Some(SideArg::Right) | None => &[Side::Right],
+        };
+        let destinations = self.scene.output.destinations(FORMATS)?;
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
+        chain::sample(scene, numbers, (&self.quantity, &times), sides, &destinations, self.uncertainty)
     }
 
     /// Returns the columns of the rows.

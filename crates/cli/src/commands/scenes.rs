@@ -45,14 +45,16 @@ impl Scenes {
         }
         let text = match &self.name {
             None => {
-                let rows = builtin::ALL.iter().map(|scene| vec![scene.name.to_string(), scene.summary.to_string()]);
+                let scenes = builtin::ALL.iter().chain(builtin::CHAINS);
+                let rows = scenes.map(|scene| vec![scene.name.to_string(), scene.summary.to_string()]);
                 table(&["scene", "what it shows"], rows.collect(), 2) + "\n"
             }
             Some(name) => match builtin::get(name) {
                 Some(scene) => scene.source.to_string(),
                 None => {
                     let failure = failure!("found no built-in scene called `{name}`");
-                    let suggestion = source::nearest(name, builtin::names());
+                    let names = builtin::names().chain(builtin::CHAINS.iter().map(|scene| scene.name));
+                    let suggestion = source::nearest(name, names);
                     let suggestion = suggestion.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
                     let expected = "expected one of the names that `dalembert scenes` lists";
                     return Err(failure.help(format!("{expected}{suggestion}")));

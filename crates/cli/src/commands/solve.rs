@@ -4,11 +4,14 @@ use std::io::IsTerminal;
 
 use clap::Args;
 
+use super::chain;
 use crate::answer::{Answer, note_end, solve};
 use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{Destination, Format, ROWS, write_all};
 use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
+use crate::source::{self, AnyScene};
+use dalembert::ChainScene;
 use dalembert::number::Number;
 use dalembert::problem::{Parameter, Run};
 use dalembert::quantity::Table;
@@ -69,7 +72,11 @@ impl Solve {
         if self.part == Some(HistoryPart::Stress) && !self.derivatives.is_empty() {
             return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
-        let (mut scene, numbers) = self.scene.read()?;
+        let mut scene = match source::read_any(&self.scene.scene)? {
+            AnyScene::Rod(scene) => *scene,
+            AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
+        };
+        let numbers = self.scene.numbers.numbers(&scene);
         if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
             scene.problem = scene.problem.with_run(run)?;
         }
@@ -109,6 +116,27 @@ impl Solve {
             Format::Json => Ok(json_bytes(&tables.json(&info))),
             _ => rows_bytes(&tables.part(self.part.unwrap_or_default(), self.coefficients, &info), format),
         })
+    }
+}
+
+impl Solve {
+    /// Solves a scene with several bodies.
+    fn chain(&self, mut scene: ChainScene, destinations: &[Destination]) -> Result<(), Failure> {
+        let refused = [
+            (self.impacts.is_some(), "--impacts"),
+            (self.part.is_some_and(|part| part != HistoryPart::Events), "--part"),
+            (!self.derivatives.is_empty(), "--derivatives"),
+            (self.coefficients, "--coefficients"),
+            (self.legend, "--legend"),
+        ];
+        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
+            return Err(failure!("found {option} with a chain of bodies, expected it with a single rod, [rod]"));
+        }
+        if let Some(to) = &self.to {
+            scene.chain = scene.chain.with_until(to.clone())?;
+        }
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
+        chain::solve(&scene, numbers, destinations)
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) use code::{Language, code};
 pub(crate) use column::Column;
 pub(crate) use compare::{compare_data, compare_svg};
 pub(crate) use cost::{cost_data, cost_svg, effects_data};
-pub(crate) use dataset::Cell;
+pub(crate) use dataset::{Cell, Dataset};
 pub(crate) use derivatives::{derivative_rows, derivative_table};
 pub(crate) use figures::{figure_data, figure_sheet, figures_index};
 pub(crate) use header::Header;

@@ -1,0 +1,231 @@
+//! Scenes with several bodies: `solve`, `sample` and `explain`.
+
+use serde_json::{Value as Json, json};
+
+use crate::failure::Failure;
+use crate::file::{Destination, Format, write_all};
+use crate::output::{Cell, Column, Dataset, json_bytes, rows_bytes};
+use crate::terminal;
+use dalembert::chain::{ChainColumn, ChainHistory, ChainListing};
+use dalembert::number::{List, Value};
+use dalembert::solve::Numbers;
+use dalembert::{ChainScene, Side};
+
+/// Returns the history of the scene, after its notes.
+fn history(scene: &ChainScene, numbers: Numbers) -> Result<ChainHistory, Failure> {
+    Ok(scene.chain.solve(numbers)?)
+}
+
+/// Prints what an answer does not decide.
+fn note(history: &ChainHistory) -> Result<(), Failure> {
+    if let Some(warning) = history.warning() {
+        terminal::note(warning);
+    }
+    let ending = history.ending()?;
+    if ending.is_open() {
+        terminal::note(ending);
+    }
+    Ok(())
+}
+
+fn digits(numbers: Numbers) -> u32 {
+    match numbers {
+        Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => digits,
+        Numbers::Double(_) | Numbers::Exact => 0,
+    }
+}
+
+fn column(name: &'static str) -> Column {
+    Column::new(name).bounded()
+}
+
+/// Returns the name of a node as it stands after the dot of a column: `bottom`, `1`, `top`.
+fn place(scene: &ChainScene, node: usize) -> Cell {
+    scene.chain.node_name(node).into()
+}
+
+fn events(scene: &ChainScene, listing: &ChainListing) -> Dataset {
+    let row = |event: &dalembert::chain::ChainEvent<Value>| {
+        let number = |value: &Value| Cell::Number(value.clone());
+        vec![
+            (Column::new("node").text(), place(scene, event.node)),
+            (Column::new("event").text(), event.kind.name().into()),
+            (column("t"), number(&event.t)),
+            (column("gap_rate_before"), number(&event.before)),
+            (column("gap_rate_after"), number(&event.after)),
+        ]
+    };
+    Dataset::from_rows(listing.events.iter().map(row))
+}
+
+fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
+    let row = |touch: &dalembert::chain::Touch<Value>| {
+        vec![(Column::new("node").text(), place(scene, touch.node)), (column("t"), Cell::Number(touch.t.clone()))]
+    };
+    Dataset::from_rows(listing.touches.iter().map(row))
+}
+
+fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
+    let row = |contact: &dalembert::chain::ChainContact<Value>| {
+        let number = |value: &Value| Cell::Number(value.clone());
+        vec![
+            (Column::new("node").text(), place(scene, contact.node)),
+            (column("impact"), number(&contact.impact)),
+            (column("release"), Cell::number(contact.release.clone())),
+            (column("impulse"), number(&contact.impulse)),
+            (column("peak_force"), number(&contact.peak)),
+            (column("peak_time"), number(&contact.peak_time)),
+        ]
+    };
+    Dataset::from_rows(listing.contacts.iter().map(row))
+}
+
+fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
+    let rows =
+        listing.forces.iter().enumerate().flat_map(|(node, pieces)| pieces.iter().map(move |piece| (node, piece)));
+    Dataset::from_rows(rows.map(|(node, piece)| {
+        let number = |value: &Value| Cell::Number(value.clone());
+        vec![
+            (Column::new("node").text(), place(scene, node)),
+            (column("start"), number(&piece.start)),
+            (column("end"), number(&piece.end)),
+            (column("force_start"), number(&piece.first)),
+            (column("force_end"), number(&piece.last)),
+        ]
+    }))
+}
+
+/// Runs `solve`: events, touches, contacts and forces.
+pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
+    let history = history(scene, numbers)?;
+    let listing = history.listing()?;
+    note(&history)?;
+    let digits = digits(numbers);
+    let in_digits = |data: Dataset| Dataset { digits, ..data };
+    let parts = [events(scene, &listing), touches(scene, &listing), contacts(scene, &listing), forces(scene, &listing)];
+    let [events, touches, contacts, forces] = parts.map(in_digits);
+    let ending = history.ending()?.at(&listing.end.to_string());
+    write_all(destinations, |format| match format {
+        Format::Json => Ok(json_bytes(&json!({
+            "schema": 1,
+            "title": scene.title,
+            "bodies": bodies(scene),
+            "number": numbers.to_string(),
+            "events": events.json(),
+            "touches": touches.json(),
+            "contacts": contacts.json(),
+            "forces": forces.json(),
+            "end": listing.end,
+            "ending": ending,
+            "warnings": history.warning().into_iter().map(|warning| warning.to_string()).collect::<Vec<_>>(),
+        }))),
+        Format::Csv => rows_bytes(&events, Format::Csv),
+        _ => {
+            let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
+            for (name, data) in
+                [("events", &events), ("touches", &touches), ("contacts", &contacts), ("forces", &forces)]
+            {
+                if !data.rows.is_empty() {
+                    text += &format!("{name}\n{}\n", data.table());
+                }
+            }
+            Ok(format!("{text}{ending}\n").into_bytes())
+        }
+    })
+}
+
+/// Returns the bodies, from the bottom up.
+fn bodies(scene: &ChainScene) -> Json {
+    let body = |(k, body): (usize, &dalembert::chain::Body)| json!({ "body": k + 1, "name": body.name(), "length": body.length().to_string() });
+    scene.chain.bodies().iter().enumerate().map(body).collect()
+}
+
+/// Runs `sample`: the columns `names` at `times`, as the limits from `sides`.
+pub(crate) fn sample(
+    scene: &ChainScene,
+    numbers: Numbers,
+    (names, times): (&[String], &List),
+    sides: &[Side],
+    destinations: &[Destination],
+    uncertainty: bool,
+) -> Result<(), Failure> {
+    let chain = &scene.chain;
+    let read = |name: &String| {
+        ChainColumn::read(name, chain).ok_or_else(|| {
+            let known: Vec<String> = ChainColumn::all(chain).into_iter().map(|column| column.name(chain)).collect();
+            failure!("found the quantity {name} of a chain, expected one of {}", known.join(", "))
+        })
+    };
+    let columns = match names.is_empty() {
+        true => ChainColumn::all(chain),
+        false => names.iter().map(read).collect::<Result<_, _>>()?,
+    };
+    let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
+    let history = history(scene, numbers)?;
+    let mut rows = Vec::new();
+    for time in &times {
+        for side in sides {
+            let mut row = vec![
+                (Column::new("t"), Cell::Plain(time_json(time, numbers))),
+                (Column::new("side").text(), side.name().into()),
+            ];
+            for column in &columns {
+                let value = history.value(*column, time, *side)?;
+                let head = Column::new(column.name(chain));
+                row.push((if uncertainty { head.bounded() } else { head }, Cell::Number(value)));
+            }
+            rows.push(row);
+        }
+    }
+    note(&history)?;
+    let mut data = Dataset::from_rows(rows.into_iter());
+    (data.digits, data.keys, data.list) = (digits(numbers), Some(2), "rows");
+    data.header = json!({"schema": 1, "title": scene.title, "number": numbers.to_string()});
+    write_all(destinations, |format| match format {
+        Format::Table => Ok(data.table().into_bytes()),
+        Format::Json => Ok(json_bytes(&data.json())),
+        format => rows_bytes(&data, format),
+    })
+}
+
+/// Returns a time as it was asked for; as a number if the answers are doubles.
+fn time_json(time: &dalembert::Number, numbers: Numbers) -> Json {
+    match numbers {
+        Numbers::Double(_) => json!(time.to_f64()),
+        _ => json!(time.to_string()),
+    }
+}
+
+/// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.
+pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
+    let effects = scene.effects();
+    let foreseen = scene.chain.solve(Numbers::default()).map(|history| history.pieces());
+    let cost = match &foreseen {
+        Ok(pieces) => format!("{pieces} wave pieces up to t = {}", scene.chain.until()),
+        Err(error) => error.to_string(),
+    };
+    write_all(destinations, |format| {
+        if format == Format::Json {
+            return Ok(json_bytes(&json!({
+                "schema": 1,
+                "title": scene.title,
+                "effects": effects,
+                "engine": "chain",
+                "number": numbers.to_string(),
+                "pieces": foreseen.as_ref().ok(),
+                "cost": cost,
+            })));
+        }
+        let row = |effect: &dalembert::ChainEffect| {
+            let line = effect.line.map_or(Json::Null, Json::from);
+            vec![
+                (Column::new("effect").text(), effect.effect.into()),
+                (Column::new("called").text(), (if effect.called { "yes" } else { "no" }).into()),
+                (Column::new("line").text(), Cell::Plain(line)),
+                (Column::new("because").text(), effect.because.as_str().into()),
+            ]
+        };
+        let table = Dataset::from_rows(effects.iter().map(row)).table();
+        Ok(format!("{table}\nengine: a chain, from node to node, in {numbers}\ncost: {cost}\n").into_bytes())
+    })
+}

@@ -1,0 +1,404 @@
+//! A chain of bodies in exact numbers, checked once.
+
+use crate::error::{ProblemError, ProblemErrorKind as Kind};
+use crate::number::{Number, Rational, Scalar, short};
+
+/// Points `(t, value)` or `(x, value)`, linear between neighbours; a repeated place is a jump.
+pub type Points = Vec<(Number, Number)>;
+
+/// Limit of the wave pieces of a run, unless the chain states another one.
+pub const MAX_PIECES: usize = 2_000_000;
+
+/// An undamped elastic bar of a [`Chain`].
+///
+/// **Units**: any consistent units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    pub(super) name: Option<String>,
+    pub(super) length: Number,
+    pub(super) material: BodyMaterial,
+    pub(super) velocity: Points,
+    pub(super) displacement: Points,
+}
+
+/// The material of a [`Body`], which sets its wave speed `c` and its impedance `Z = ρcA`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodyMaterial {
+    /// Both numbers themselves.
+    Impedance {
+        /// `c > 0`.
+        wave_speed: Number,
+        /// `Z > 0`.
+        impedance: Number,
+    },
+    /// `c = √(M/ρ)` and `Z = A√(Mρ)`.
+    Elastic {
+        /// `M > 0`: Young's modulus, or the constrained modulus under uniaxial strain.
+        modulus: Number,
+        /// `ρ > 0`.
+        density: Number,
+        /// `A > 0`.
+        area: Number,
+    },
+}
+
+/// The connection of a body to the body below it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Joint {
+    /// Unilateral contact: the bodies push and never pull.
+    Contact {
+        /// Distance of the two ends at the start, displacements included.
+        gap: Number,
+    },
+    /// Both ends move as one.
+    Bonded,
+}
+
+/// The condition at the bottom or the top of a [`Chain`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// No force.
+    Free,
+    /// An axial force over time; it pulls where it is positive.
+    Force(Points),
+    /// A velocity over time; zero holds the end.
+    Velocity(Points),
+    /// A rigid stop in unilateral contact, at a distance and with a velocity over time.
+    Ground {
+        /// Distance at the start.
+        gap: Number,
+        /// Velocity over time; empty for a stop at rest.
+        velocity: Points,
+    },
+    /// A half-infinite bar, at rest at the start.
+    Infinite {
+        /// Impedance of the bar; that of the last body if absent, which absorbs every wave.
+        impedance: Option<Number>,
+        /// Distance at the start for a bar in unilateral contact; absent for a bonded one.
+        gap: Option<Number>,
+    },
+}
+
+/// A chain of undamped elastic bars along one axis, from the bottom up.
+///
+/// ```
+/// use dalembert::chain::{Body, Chain, End};
+/// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
+/// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
+/// assert_eq!(chain.bodies().len(), 2);
+/// let error = Chain::builder(bar(0)).contact((-1).into(), bar(-1)).until(4.into()).build().unwrap_err();
+/// assert_eq!(error.path, "body[1].gap");
+/// # Ok::<(), dalembert::problem::ProblemError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    pub(super) bodies: Vec<Body>,
+    pub(super) joints: Vec<Joint>,
+    pub(super) ends: [End; 2],
+    pub(super) gravity: Number,
+    pub(super) until: Number,
+    pub(super) max_pieces: usize,
+}
+
+/// A chain that is not checked.
+#[derive(Clone, Debug)]
+pub struct ChainBuilder(Chain);
+
+impl Body {
+    /// Returns an undeformed bar at rest, with this length, wave speed and impedance.
+    pub fn new(length: Number, wave_speed: Number, impedance: Number) -> Self {
+        Body::of(length, BodyMaterial::Impedance { wave_speed, impedance })
+    }
+
+    /// Returns an undeformed bar at rest, with this length, modulus, density and cross-section.
+    pub fn elastic(length: Number, modulus: Number, density: Number, area: Number) -> Self {
+        Body::of(length, BodyMaterial::Elastic { modulus, density, area })
+    }
+
+    pub(super) fn of(length: Number, material: BodyMaterial) -> Self {
+        Body { name: None, length, material, velocity: Vec::new(), displacement: Vec::new() }
+    }
+
+    /// Returns the body with one velocity everywhere, upward where it is positive.
+    pub fn with_velocity(self, velocity: Number) -> Self {
+        let velocity = vec![(0.into(), velocity.clone()), (self.length.clone(), velocity)];
+        Body { velocity, ..self }
+    }
+
+    /// Returns the body with a start that is linear between points `(x, v_t)` and `(x, v)`; an empty list means zero.
+    pub fn with_start(self, velocity: Points, displacement: Points) -> Self {
+        Body { velocity, displacement, ..self }
+    }
+
+    /// Returns the body with a displacement of the start, linear between points `(x, v)`.
+    pub fn with_displacement(self, displacement: Points) -> Self {
+        Body { displacement, ..self }
+    }
+
+    /// Returns the body with a name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Body { name: Some(name.into()), ..self }
+    }
+
+    /// Returns the name, if the body has one.
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Returns the length.
+    pub fn length(&self) -> &Number {
+        &self.length
+    }
+
+    /// Returns the material.
+    pub fn material(&self) -> &BodyMaterial {
+        &self.material
+    }
+
+    /// Returns `Z²` and `c²`, which are fractions.
+    pub(super) fn squares(&self) -> [Rational; 2] {
+        match &self.material {
+            BodyMaterial::Impedance { wave_speed, impedance } => {
+                [impedance, wave_speed].map(|number| Scalar::square(&number.to_rational()))
+            }
+            BodyMaterial::Elastic { modulus, density, area } => {
+                let [modulus, density, area] = [modulus, density, area].map(Number::to_rational);
+                [Scalar::square(&area) * &modulus * &density, modulus / density]
+            }
+        }
+    }
+}
+
+impl Chain {
+    /// Begins a chain with its lowest body; both ends are free until they are given.
+    pub fn builder(lowest: Body) -> ChainBuilder {
+        let (zero, ends) = (Number::from(0), [End::Free, End::Free]);
+        let bodies = vec![lowest];
+        ChainBuilder(Chain {
+            bodies,
+            joints: Vec::new(),
+            ends,
+            gravity: zero.clone(),
+            until: zero,
+            max_pieces: MAX_PIECES,
+        })
+    }
+
+    /// Returns the bodies, from the bottom up.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Returns the connection of each body but the lowest to the body below it.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Returns the conditions at the bottom and at the top.
+    pub fn ends(&self) -> &[End; 2] {
+        &self.ends
+    }
+
+    /// Returns the acceleration of gravity, downward.
+    pub fn gravity(&self) -> &Number {
+        &self.gravity
+    }
+
+    /// Returns the last time of the run, which is included.
+    pub fn until(&self) -> &Number {
+        &self.until
+    }
+
+    /// Returns the limit of the wave pieces of a run.
+    pub fn max_pieces(&self) -> usize {
+        self.max_pieces
+    }
+
+    /// Returns the chain with another last time.
+    ///
+    /// **Errors**: those of [`ChainBuilder::build`].
+    pub fn with_until(&self, until: Number) -> Result<Chain, ProblemError> {
+        ChainBuilder(Chain { until, ..self.clone() }).build()
+    }
+
+    /// Returns the name of a node in messages and output: `joint 1` lies between the bodies 1 and 2.
+    pub fn node_name(&self, node: usize) -> String {
+        match node {
+            0 => "bottom".into(),
+            node if node == self.bodies.len() => "top".into(),
+            node => format!("joint {node}"),
+        }
+    }
+
+    /// Returns the gap of a node at the start if it is a unilateral contact.
+    pub(super) fn start_gap(&self, node: usize) -> Option<Rational> {
+        let top = self.bodies.len();
+        let gap = match (node.checked_sub(1), &self.ends) {
+            (None, [End::Ground { gap, .. } | End::Infinite { gap: Some(gap), .. }, _]) => gap,
+            (_, [_, End::Ground { gap, .. } | End::Infinite { gap: Some(gap), .. }]) if node == top => gap,
+            (Some(joint), _) if node < top => match &self.joints[joint] {
+                Joint::Contact { gap } => gap,
+                Joint::Bonded => return None,
+            },
+            _ => return None,
+        };
+        Some(gap.to_rational())
+    }
+}
+
+impl ChainBuilder {
+    /// Adds a body in unilateral contact with the one below it, at this distance.
+    pub fn contact(self, gap: Number, body: Body) -> Self {
+        self.joined(Joint::Contact { gap }, body)
+    }
+
+    /// Adds a body that is bonded to the one below it.
+    pub fn bonded(self, body: Body) -> Self {
+        self.joined(Joint::Bonded, body)
+    }
+
+    pub(crate) fn joined(mut self, joint: Joint, body: Body) -> Self {
+        self.0.joints.push(joint);
+        self.0.bodies.push(body);
+        self
+    }
+
+    /// Sets the condition at the bottom.
+    pub fn bottom(mut self, end: End) -> Self {
+        self.0.ends[0] = end;
+        self
+    }
+
+    /// Sets the condition at the top.
+    pub fn top(mut self, end: End) -> Self {
+        self.0.ends[1] = end;
+        self
+    }
+
+    /// Sets the acceleration of gravity, downward.
+    pub fn gravity(mut self, gravity: Number) -> Self {
+        self.0.gravity = gravity;
+        self
+    }
+
+    /// Sets the last time.
+    pub fn until(mut self, until: Number) -> Self {
+        self.0.until = until;
+        self
+    }
+
+    /// Sets the limit of the wave pieces of a run.
+    pub fn max_pieces(mut self, max_pieces: usize) -> Self {
+        self.0.max_pieces = max_pieces;
+        self
+    }
+
+    /// Checks the chain.
+    ///
+    /// **Errors**: [`ProblemError`] with the path of the value: `body[1].gap`, `ends.top`, `gravity.acceleration`.
+    pub fn build(self) -> Result<Chain, ProblemError> {
+        let chain = self.0;
+        for (k, body) in chain.bodies.iter().enumerate() {
+            let path = |key: &str| format!("body[{k}].{key}");
+            positive(&path("length"), "length", &body.length)?;
+            match &body.material {
+                BodyMaterial::Impedance { wave_speed, impedance } => {
+                    positive(&path("wave_speed"), "wave_speed", wave_speed)?;
+                    positive(&path("impedance"), "impedance", impedance)?;
+                }
+                BodyMaterial::Elastic { modulus, density, area } => {
+                    positive(&path("modulus"), "modulus", modulus)?;
+                    positive(&path("density"), "density", density)?;
+                    positive(&path("area"), "area", area)?;
+                }
+            }
+            for (key, points) in [("velocity", &body.velocity), ("displacement", &body.displacement)] {
+                let may_jump = key == "velocity";
+                check_points(&path(key), (key, "x"), points, Some(&body.length), may_jump)?;
+            }
+        }
+        for node in 0..=chain.bodies.len() {
+            let gap = chain.start_gap(node);
+            let path = match node {
+                0 => "ends.bottom".to_string(),
+                node if node == chain.bodies.len() => "ends.top".to_string(),
+                node => format!("body[{node}].gap"),
+            };
+            if let Some(gap) = gap
+                && gap < Rational::default()
+            {
+                let found = format!("a gap of {} at the {}", short(&gap.to_string()), chain.node_name(node));
+                let expected = "zero or more: bodies do not overlap at the start";
+                return Err(ProblemError::new(Kind::OutOfRange, &path, found, expected));
+            }
+        }
+        for (end, name) in chain.ends.iter().zip(["bottom", "top"]) {
+            let path = format!("ends.{name}");
+            match end {
+                End::Force(points) => check_points(&path, ("force", "t"), points, None, true)?,
+                End::Velocity(points) => check_points(&path, ("velocity", "t"), points, None, true)?,
+                End::Ground { velocity, .. } => check_points(&path, ("velocity", "t"), velocity, None, true)?,
+                End::Infinite { impedance: Some(impedance), .. } => positive(&path, "impedance", impedance)?,
+                End::Free | End::Infinite { impedance: None, .. } => (),
+            }
+        }
+        if chain.gravity.to_f64() < 0.0 {
+            let found = format!("acceleration = {}", chain.gravity);
+            return Err(ProblemError::new(Kind::OutOfRange, "gravity.acceleration", found, "zero or more"));
+        }
+        positive("run.time", "time", &chain.until)?;
+        Ok(chain)
+    }
+}
+
+/// Limits of every number that must be above zero.
+const LIMITS: (f64, f64) = (1e-40, 1e40);
+
+fn positive(path: &str, name: &str, number: &Number) -> Result<(), ProblemError> {
+    let value = number.to_f64();
+    if value > 0.0 && (LIMITS.0..=LIMITS.1).contains(&value) {
+        return Ok(());
+    }
+    let expected = if value > 0.0 { "a number between 1e-40 and 1e40" } else { "a number above zero" };
+    let found = format!("{name} = {}", short(&number.to_string()));
+    Err(ProblemError::new(Kind::OutOfRange, path, found, expected))
+}
+
+/// Checks points in the order of their place: from zero on, up to `end` if it is given, each place at most twice.
+fn check_points(
+    path: &str,
+    (name, place): (&str, &str),
+    points: &Points,
+    end: Option<&Number>,
+    may_jump: bool,
+) -> Result<(), ProblemError> {
+    let refuse = |k: usize, expected: &str| {
+        let found = points.get(k).map_or("no points".into(), |(at, _)| format!("{place} = {at} of the {name}"));
+        let path = if k < points.len() { format!("{path}[{k}].{place}") } else { path.to_string() };
+        Err(ProblemError::new(Kind::Profile, &path, found, expected.to_string()))
+    };
+    let Some((first, _)) = points.first() else { return Ok(()) };
+    if !first.is_zero() {
+        return refuse(0, &format!("the first point at {place} = 0"));
+    }
+    for (k, pair) in points.windows(2).enumerate() {
+        let order = pair[0].0.compare(&pair[1].0);
+        let twice = k > 0 && points[k - 1].0.compare(&pair[1].0).is_eq();
+        if order.is_gt() {
+            return refuse(k + 1, "a place beyond the one before it");
+        }
+        if order.is_eq() && (!may_jump || twice) {
+            return refuse(k + 1, if may_jump { "each place at most twice" } else { "each place once" });
+        }
+        let at_end = end.is_some_and(|end| pair[1].0.compare(end).is_eq());
+        if order.is_eq() && end.is_some() && (pair[1].0.is_zero() || at_end) {
+            return refuse(k + 1, "a jump inside the body, not at its end");
+        }
+    }
+    match (points.last(), end) {
+        (Some((last, _)), Some(end)) if last.compare(end).is_ne() => {
+            refuse(points.len() - 1, &format!("the last point at the length {end}"))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,566 @@
+//! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::{Arc, OnceLock};
+
+use super::definition::Chain;
+use super::field::BodySums;
+use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
+use crate::error::Error;
+use crate::motion::{Ending, Field, Side};
+use crate::number::{
+    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Rational, Reads, Scalar, Value, Wide,
+    bits_for_digits,
+};
+use crate::quantity::Measure;
+use crate::reason::Warning;
+use crate::solve::{DEFAULT_ACCURACY, LONG, MAX_DIGITS, Numbers, Observer};
+
+/// A quantity of a chain over time.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray,
+)]
+pub enum ChainQuantity {
+    /// Displacement of the lower end of a body.
+    #[strum(serialize = "u_end")]
+    EndDisplacement,
+    /// Velocity of the lower end of a body.
+    #[strum(serialize = "v_end")]
+    EndVelocity,
+    /// Displacement of the upper end of a body.
+    #[strum(serialize = "u_top")]
+    TopDisplacement,
+    /// Velocity of the upper end of a body.
+    #[strum(serialize = "v_top")]
+    TopVelocity,
+    /// Displacement of the centre of mass of a body.
+    #[strum(serialize = "h")]
+    Centre,
+    /// Velocity of the centre of mass of a body.
+    #[strum(serialize = "h_rate")]
+    CentreVelocity,
+    /// Kinetic energy of a body.
+    #[strum(serialize = "kinetic")]
+    Kinetic,
+    /// Strain energy of a body.
+    #[strum(serialize = "strain_energy")]
+    StrainEnergy,
+    /// Kinetic and strain energy of a body, and its weight times the displacement of its centre.
+    #[strum(serialize = "E_total")]
+    Energy,
+    /// Compressive force of a node.
+    #[strum(serialize = "force")]
+    Force,
+    /// Gap of a node.
+    #[strum(serialize = "gap")]
+    Gap,
+}
+
+impl ChainQuantity {
+    /// Returns whether the quantity belongs to a node, and not to a body.
+    pub fn is_of_node(self) -> bool {
+        matches!(self, ChainQuantity::Force | ChainQuantity::Gap)
+    }
+
+    /// Returns the measure of the quantity.
+    pub fn measure(self) -> Measure {
+        match self {
+            ChainQuantity::Force => Measure::Force,
+            ChainQuantity::EndVelocity | ChainQuantity::TopVelocity | ChainQuantity::CentreVelocity => {
+                Measure::Velocity
+            }
+            ChainQuantity::Kinetic | ChainQuantity::StrainEnergy | ChainQuantity::Energy => Measure::Energy,
+            _ => Measure::Length,
+        }
+    }
+}
+
+/// A quantity of one body or node: `u_top.2` for the second body, `force.bottom`, `force.1` for the joint above the
+/// first body, `force.top`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChainColumn {
+    /// The quantity.
+    pub quantity: ChainQuantity,
+    /// The index of the body, from 0, or of the node, 0 at the bottom.
+    pub place: usize,
+}
+
+impl ChainColumn {
+    /// Reads the column `name` of `chain`; `None` if the chain has no such quantity or place.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn};
+    /// let bar = || Body::new(1.into(), 1.into(), 1.into());
+    /// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
+    /// assert_eq!(ChainColumn::read("u_top.2", &chain).map(|column| column.place), Some(1));
+    /// assert_eq!(ChainColumn::read("force.top", &chain).map(|column| column.place), Some(2));
+    /// assert_eq!(ChainColumn::read("u_top.3", &chain), None);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn read(name: &str, chain: &Chain) -> Option<Self> {
+        let (quantity, place) = name.split_once('.')?;
+        let (quantity, bodies) = (ChainQuantity::from_str(quantity).ok()?, chain.bodies().len());
+        let number = |most: usize| place.parse().ok().filter(|n| (1..=most).contains(n));
+        let place = match (quantity.is_of_node(), place) {
+            (true, "bottom") => 0,
+            (true, "top") => bodies,
+            (true, _) => number(bodies - 1)?,
+            (false, _) => number(bodies)? - 1,
+        };
+        Some(ChainColumn { quantity, place })
+    }
+
+    /// Returns the name of the column, which [`ChainColumn::read`] reads.
+    pub fn name(self, chain: &Chain) -> String {
+        let place = match (self.quantity.is_of_node(), self.place) {
+            (false, place) => (place + 1).to_string(),
+            (true, 0) => "bottom".into(),
+            (true, place) if place == chain.bodies().len() => "top".into(),
+            (true, place) => place.to_string(),
+        };
+        format!("{}.{place}", self.quantity)
+    }
+
+    /// Returns every column of `chain`.
+    pub fn all(chain: &Chain) -> Vec<Self> {
+        let bodies = chain.bodies().len();
+        let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
+        let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
+        quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place })).collect()
+    }
+}
+
+/// Events, contacts and forces of a chain.
+#[derive(Clone, Debug)]
+pub struct ChainListing {
+    /// Impacts and releases, in the order of time.
+    pub events: Vec<ChainEvent<Value>>,
+    /// Gaps that reach zero without a contact, in the order of time.
+    pub touches: Vec<Touch<Value>>,
+    /// Contacts, in the order of their impacts.
+    pub contacts: Vec<ChainContact<Value>>,
+    /// Pieces of the compressive force of each node.
+    pub forces: Vec<Vec<ForcePiece<Value>>>,
+    /// The last time.
+    pub end: Value,
+}
+
+/// A number of an answer with the scale that its bound is held against.
+type Judged<'a> = (&'a Value, Measure);
+
+impl ChainListing {
+    fn numbers(&self) -> Vec<Judged<'_>> {
+        let mut all = Vec::new();
+        for event in &self.events {
+            all.extend([
+                (&event.t, Measure::Time),
+                (&event.before, Measure::Velocity),
+                (&event.after, Measure::Velocity),
+            ]);
+        }
+        for contact in &self.contacts {
+            all.extend([&contact.impact, &contact.peak_time].map(|t| (t, Measure::Time)));
+            all.extend(contact.release.iter().map(|t| (t, Measure::Time)));
+            all.extend([(&contact.impulse, Measure::Impulse), (&contact.peak, Measure::Force)]);
+        }
+        for piece in self.forces.iter().flatten() {
+            all.extend([&piece.start, &piece.end].map(|t| (t, Measure::Time)));
+            all.extend([&piece.first, &piece.last].map(|force| (force, Measure::Force)));
+        }
+        all
+    }
+}
+
+/// A number that can be handed out as a [`Value`].
+trait ToValue: Bounded {
+    fn to_value(self) -> Value;
+}
+
+macro_rules! to_value {
+    ($($type:ty),*) => {$(
+        impl ToValue for $type {
+            fn to_value(self) -> Value {
+                self.into()
+            }
+        }
+    )*};
+}
+to_value!(Estimate<f64>, Estimate<Float>, Rational, Interval);
+
+impl<const N: usize> ToValue for Estimate<Wide<N>> {
+    fn to_value(self) -> Value {
+        Estimate::<Float>::read(self).into()
+    }
+}
+
+/// A run in any number system.
+trait Answers: fmt::Debug + Send + Sync {
+    fn listing(&self) -> ChainListing;
+    fn column(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error>;
+    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
+    fn ending(&self) -> &Ending;
+    fn doubt(&self) -> Option<f64>;
+    fn pieces(&self) -> usize;
+}
+
+impl<N: ToValue> Answers for ChainRun<N> {
+    fn listing(&self) -> ChainListing {
+        let value = N::to_value;
+        let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
+        let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
+        let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
+        let forces = |node| self.force_pieces(node).into_iter().map(|piece| piece.map(value)).collect();
+        let forces = (0..self.nodes.len()).map(forces).collect();
+        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
+    }
+
+    fn column(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
+        let ChainColumn { quantity, place } = column;
+        let time = N::spelling(time, &self.end.precision());
+        let end = |is_top: bool| self.end_field(place, is_top, &time, side);
+        let sums = || self.sums(place, &time);
+        let found = match quantity {
+            ChainQuantity::EndDisplacement => end(false)?.displacement,
+            ChainQuantity::EndVelocity => end(false)?.velocity,
+            ChainQuantity::TopDisplacement => end(true)?.displacement,
+            ChainQuantity::TopVelocity => end(true)?.velocity,
+            ChainQuantity::Centre => sums()?.displacement,
+            ChainQuantity::CentreVelocity => sums()?.velocity,
+            ChainQuantity::Kinetic => sums()?.kinetic,
+            ChainQuantity::StrainEnergy => sums()?.strain,
+            ChainQuantity::Energy => {
+                let BodySums { kinetic, strain, potential, .. } = sums()?;
+                kinetic + strain + potential
+            }
+            ChainQuantity::Force => self.force(place, &time, side)?,
+            ChainQuantity::Gap => self.gap(place, &time)?,
+        };
+        Ok(found.to_value())
+    }
+
+    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
+        let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
+        Ok(ChainRun::field(self, body, &point, &time, side)?.map(N::to_value))
+    }
+
+    fn ending(&self) -> &Ending {
+        ChainRun::ending(self)
+    }
+
+    fn doubt(&self) -> Option<f64> {
+        self.undetermined_from()
+    }
+
+    fn pieces(&self) -> usize {
+        ChainRun::pieces(self)
+    }
+}
+
+/// Numbers of an attempt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rung {
+    Double,
+    Fractions,
+    /// Long numbers of this many bits, with their bound.
+    Bits(u32),
+    /// Enclosures with exact roots, of this many bits.
+    Enclosures(u32),
+}
+
+/// Bits of the enclosures that decide whether events coincide.
+const DECIDING_BITS: u32 = 256;
+/// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
+const EXACT_PIECES: usize = 20_000;
+/// Bits that a run in digits has beyond those of its digits.
+const SPARE_BITS: u32 = 64;
+
+impl Rung {
+    /// Returns the attempts for `numbers`, in order.
+    fn list(numbers: Numbers) -> Vec<Rung> {
+        let long =
+            |bits: u32| [Rung::Bits(bits), Rung::Enclosures(bits.max(DECIDING_BITS)), Rung::Bits(2 * bits + 256)];
+        let digits = |digits: u32| bits_for_digits(digits) + SPARE_BITS;
+        match numbers {
+            Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
+            Numbers::Double(_) => {
+                let [first, second] = [Rung::Double, Rung::Fractions];
+                vec![first, second, Rung::Bits(128), Rung::Bits(256), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
+            }
+            Numbers::Exact => vec![Rung::Fractions],
+            Numbers::Digits(n) => long(digits(n)).into(),
+            Numbers::ExactThenDigits(n) => [Rung::Fractions].into_iter().chain(long(digits(n))).collect(),
+            Numbers::Certified(n) => [1, 2, 4].map(|times| Rung::Enclosures(times * digits(n))).into(),
+        }
+    }
+
+    fn run(self, chain: &Chain, observe: &Observer) -> Result<Arc<dyn Answers>, Error> {
+        let observe = &|events: usize, pieces: usize| observe(events, pieces);
+        Ok(match self {
+            Rung::Double => Arc::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
+            Rung::Fractions => Arc::new(ChainRun::<Rational>::new(chain, &(), observe)?),
+            Rung::Bits(..=128) if LONG => Arc::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?),
+            Rung::Bits(129..=256) if LONG => Arc::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?),
+            Rung::Bits(bits) if LONG => Arc::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?),
+            Rung::Enclosures(bits) if LONG => {
+                let precision = IntervalPrecision { bits, exact: true };
+                Arc::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
+            }
+            Rung::Bits(bits) | Rung::Enclosures(bits) => {
+                return Err(Error::NotDecided { what: "what the answer is", bits });
+            }
+        })
+    }
+}
+
+type Attempt = OnceLock<Result<Arc<dyn Answers>, Error>>;
+
+/// A solved chain.
+///
+/// Each answer comes from the first attempt whose bound is small enough: doubles, fractions, longer numbers, or
+/// enclosures with exact roots where events coincide within their bounds.
+///
+/// **Accuracy**: that of the [`Numbers`]: *within its bound* for doubles and digits, *exact* for fractions, *enclosure*
+/// for proved digits.
+///
+/// ```
+/// use dalembert::Numbers;
+/// use dalembert::chain::{Body, Chain, ChainColumn};
+/// // OpenFOAM's bars of E = 49 and 100: f = 7/170 until the wave returns from the softer one.
+/// let number = |text: &str| text.parse::<dalembert::Number>();
+/// let bar = |modulus: i64| Ok::<_, dalembert::number::NumberError>(
+///     Body::elastic(10.into(), modulus.into(), number("0.01")?, 1.into()));
+/// let chain = Chain::builder(bar(49)?.with_velocity(number("0.1")?))
+///     .contact(number("0.01")?, bar(100)?)
+///     .until(number("0.5")?)
+///     .build()?;
+/// let exact = chain.solve(Numbers::Exact)?;
+/// assert_eq!(exact.listing()?.contacts[0].peak.to_string(), "7/170");
+/// assert_eq!(exact.listing()?.events[1].t.to_string(), "27/70");
+/// let doubles = chain.solve(Numbers::default())?;
+/// let force = ChainColumn::read("force.1", &chain).ok_or("no such joint")?;
+/// let value = doubles.value(force, &number("0.2")?, dalembert::Side::Right)?;
+/// assert!((value.to_f64() - 7.0 / 170.0).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct ChainHistory {
+    chain: Chain,
+    numbers: Numbers,
+    observe: Observer,
+    attempts: Vec<(Rung, Attempt)>,
+}
+
+impl fmt::Debug for ChainHistory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ChainHistory")
+            .field("chain", &self.chain)
+            .field("numbers", &self.numbers)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Chain {
+    /// Solves the chain in `numbers`.
+    ///
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] if fractions cannot hold a parameter;
+    /// [`Error::Digits`].
+    pub fn solve(&self, numbers: Numbers) -> Result<ChainHistory, Error> {
+        self.solve_observed(numbers, crate::solve::unobserved())
+    }
+
+    /// Solves the chain as [`Chain::solve`] does; `observe` receives the number of events and of wave pieces.
+    pub fn solve_observed(&self, numbers: Numbers, observe: Observer) -> Result<ChainHistory, Error> {
+        if let Numbers::Digits(found) | Numbers::ExactThenDigits(found) | Numbers::Certified(found) = numbers
+            && !(1..=MAX_DIGITS).contains(&found)
+        {
+            return Err(Error::Digits { found, most: MAX_DIGITS });
+        }
+        let attempts = Rung::list(numbers).into_iter().map(|rung| (rung, Attempt::new())).collect();
+        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts };
+        history.attempt(0).map(|_| ()).or_else(|error| match error {
+            Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
+            error => Err(error),
+        })?;
+        Ok(history)
+    }
+
+    /// Returns the largest number of each measure that the chain can be expected to have.
+    fn scale(&self, measure: Measure) -> f64 {
+        let size = |points: &[(Number, Number)]| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
+        let mut velocity = self.gravity.to_f64() * self.until.to_f64();
+        let (mut impedance, mut length) = (0.0f64, 0.0f64);
+        let mut forces = 0.0f64;
+        for body in &self.bodies {
+            let [z, c] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
+            let strained = size(&body.displacement) / body.length.to_f64() * c;
+            velocity = velocity.max(size(&body.velocity)).max(strained);
+            (impedance, length) = (impedance.max(z), length.max(body.length.to_f64()));
+        }
+        for end in &self.ends {
+            match end {
+                super::End::Force(points) => forces = forces.max(size(points)),
+                super::End::Velocity(points) | super::End::Ground { velocity: points, .. } => {
+                    velocity = velocity.max(size(points));
+                }
+                _ => (),
+            }
+        }
+        velocity = velocity.max(forces / impedance);
+        let time = self.until.to_f64();
+        let force = (impedance * velocity).max(forces);
+        match measure {
+            Measure::Time => time,
+            Measure::Length => velocity * time,
+            Measure::Velocity => velocity,
+            Measure::Force | Measure::Stress => force,
+            Measure::Impulse => force * time,
+            Measure::Energy => force * velocity * time,
+            Measure::Strain => velocity * time / length,
+        }
+    }
+}
+
+impl ChainHistory {
+    /// Returns the chain.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// Returns events, contacts and forces.
+    ///
+    /// **Errors**: the errors of the runs.
+    pub fn listing(&self) -> Result<ChainListing, Error> {
+        let listing = self.settled(|run| Ok(run.listing()), ChainListing::numbers)?;
+        let printed = |value: Value| self.printed(value);
+        let forces = listing.forces.into_iter();
+        Ok(ChainListing {
+            events: listing.events.into_iter().map(|event| event.map(printed)).collect(),
+            touches: listing.touches.into_iter().map(|touch| touch.map(printed)).collect(),
+            contacts: listing.contacts.into_iter().map(|contact| contact.map(printed)).collect(),
+            forces: forces.map(|pieces| pieces.into_iter().map(|piece| piece.map(printed)).collect()).collect(),
+            end: printed(listing.end),
+        })
+    }
+
+    /// Returns the value of a column at a time; at a jump, the limit from `side`.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if no attempt tells the time from that of a jump.
+    pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
+        let value =
+            self.settled(|run| run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
+        Ok(self.printed(value))
+    }
+
+    /// Returns displacement, velocity and strain of a body at its point; on a ray, the limit in time from `side`.
+    ///
+    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if no attempt tells the point from a
+    /// ray.
+    pub fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
+        fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
+            field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
+        }
+        let field = self.settled(|run| run.field(body, point, time, side), judged)?;
+        Ok(field.map(|value| self.printed(value)))
+    }
+
+    /// Returns the reason of the end, by the attempt that gives the listing.
+    ///
+    /// **Errors**: the errors of the runs.
+    pub fn ending(&self) -> Result<Ending, Error> {
+        self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers())
+            .map(|(_, end)| end)
+    }
+
+    /// Returns the number of wave pieces of the first attempt that reaches its end.
+    pub fn pieces(&self) -> usize {
+        self.reached().map_or(0, |run| run.pieces())
+    }
+
+    /// Returns the warning of events that even the last attempt does not tell apart.
+    pub fn warning(&self) -> Option<Warning> {
+        let runs = || self.attempts.iter().filter_map(|(_, attempt)| attempt.get()?.as_ref().ok());
+        let doubtful = runs().all(|run| !is_whole(&**run));
+        let from = runs()
+            .filter_map(|run| run.doubt())
+            .fold(None, |least: Option<f64>, t| Some(least.map_or(t, |l| l.min(t))));
+        from.filter(|_| doubtful).map(|from| Warning::Coincidence { from })
+    }
+
+    fn reached(&self) -> Option<&Arc<dyn Answers>> {
+        self.attempts.iter().find_map(|(_, attempt)| attempt.get()?.as_ref().ok())
+    }
+
+    /// Returns an attempt, which runs when it is needed first.
+    fn attempt(&self, k: usize) -> Result<&Arc<dyn Answers>, Error> {
+        let (rung, attempt) = &self.attempts[k];
+        let run = || {
+            let doubles = matches!(self.numbers, Numbers::Double(_));
+            let limited = *rung == Rung::Fractions && doubles && self.chain.max_pieces > EXACT_PIECES;
+            let chain = Chain { max_pieces: EXACT_PIECES, ..self.chain.clone() };
+            rung.run(if limited { &chain } else { &self.chain }, &self.observe)
+        };
+        attempt.get_or_init(run).as_ref().map_err(Clone::clone)
+    }
+
+    /// Returns the answer to `query` of the first attempt that leaves no event open and whose bounds are small enough;
+    /// if there is none, that with the smallest bounds.
+    fn settled<T>(
+        &self,
+        query: impl Fn(&dyn Answers) -> Result<T, Error>,
+        numbers: impl Fn(&T) -> Vec<Judged<'_>>,
+    ) -> Result<T, Error> {
+        let mut best: Option<(bool, f64, T)> = None;
+        let mut failed = None;
+        let tolerance = match self.numbers {
+            Numbers::Double(accuracy) => accuracy.unwrap_or(DEFAULT_ACCURACY).log2(),
+            Numbers::Exact => 0.0,
+            Numbers::Digits(n) | Numbers::ExactThenDigits(n) | Numbers::Certified(n) => -f64::from(bits_for_digits(n)),
+        };
+        for k in 0..self.attempts.len() {
+            let answer = self.attempt(k).and_then(|run| Ok((query(&**run)?, is_whole(&**run))));
+            let (answer, whole) = match answer {
+                Ok(answer) => answer,
+                // The first attempt says what is wrong with the question.
+                Err(error) => {
+                    let open = matches!(error, Error::Open(_) | Error::NotDecided { .. } | Error::Irrational { .. });
+                    if !open && !matches!(self.attempts[k].0, Rung::Fractions) || self.attempts.len() == 1 {
+                        return best.map(|(_, _, answer)| answer).ok_or(error);
+                    }
+                    failed = Some(error);
+                    continue;
+                }
+            };
+            let excess = |(value, measure): Judged<'_>| {
+                value.log2_error() - value.to_f64().abs().max(self.chain.scale(measure)).log2() - tolerance
+            };
+            let worst = numbers(&answer).into_iter().map(excess).fold(f64::NEG_INFINITY, f64::max);
+            if whole && worst <= 0.0 || self.attempts.len() == 1 {
+                return Ok(answer);
+            }
+            let better =
+                best.as_ref().is_none_or(|(whole_before, before, _)| (!whole, worst) < (!whole_before, *before));
+            if better {
+                best = Some((whole, worst, answer));
+            }
+        }
+        best.map(|(_, _, answer)| answer).ok_or_else(|| failed.unwrap_or(Error::Open(crate::number::Open)))
+    }
+
+    /// Returns a number of the requested system, with its digits.
+    fn printed(&self, value: Value) -> Value {
+        match self.numbers {
+            Numbers::Double(_) => value.to_double(),
+            Numbers::Exact => value,
+            Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => {
+                let is_enclosed = value.as_interval().is_some() && !matches!(self.numbers, Numbers::Certified(_));
+                let value = if is_enclosed { value.without_ends() } else { value };
+                value.printed_in(digits, "")
+            }
+        }
+    }
+}
+
+/// Returns whether a run reaches its end with every event decided.
+fn is_whole(run: &dyn Answers) -> bool {
+    *run.ending() == Ending::Time && run.doubt().is_none()
+}

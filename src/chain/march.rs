@@ -1,0 +1,120 @@
+//! The event loop over the nodes of a chain.
+
+use std::ops::ControlFlow;
+
+use super::definition::Chain;
+use super::node::{Node, Occurrence, Stop};
+use super::run::{ChainEvent, ChainRun, Touch};
+use super::start::Start;
+use crate::error::Error;
+use crate::motion::Ending;
+use crate::number::{Bounded, Open};
+use crate::reason::Reason;
+
+impl<N: Bounded> ChainRun<N> {
+    /// Runs `chain`; `observe` receives the number of events and of wave pieces, and may end the run.
+    ///
+    /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bounds* that the numbers
+    /// carry.
+    ///
+    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance;
+    /// [`Error::TooManyPieces`]; [`Error::Interrupted`].
+    ///
+    /// ```
+    /// use dalembert::Rational;
+    /// use dalembert::chain::{Body, Chain, ChainRun};
+    /// // Two equal bars exchange their velocities: contact for 2L/c.
+    /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
+    /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
+    /// let run = ChainRun::<Rational>::new(&chain, &(), &|_, _| std::ops::ControlFlow::Continue(()))?;
+    /// assert_eq!(run.events()[0].t, 1.into());
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn new(
+        chain: &Chain,
+        precision: &N::Precision,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+    ) -> Result<Self, Error> {
+        let Start { bars, mut nodes, mut waves, gravity, until } = Start::<N>::of(chain, precision)?;
+        let (mut events, mut touches) = (Vec::new(), Vec::new());
+        let mut ending = Ending::Time;
+        let mut end = until.clone();
+        let mut record = |node: usize, occurrence: Option<Occurrence<N>>, events: &mut Vec<ChainEvent<N>>| {
+            let Some(Occurrence { kind, t, drive: [before, after] }) = occurrence else { return };
+            match kind {
+                Some(kind) => events.push(ChainEvent { kind, node, t, before, after }),
+                None => touches.push(Touch { node, t, before, after }),
+            }
+        };
+        let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
+        for at in 0..nodes.len() {
+            match nodes[at].begin(&mut waves) {
+                Ok(occurrence) => record(at, occurrence, &mut events),
+                Err(Stop::Open) => (ending, end) = (open(), until.zero()),
+                Err(Stop::Irrational { .. }) => return Err(Error::Open(Open)),
+            }
+        }
+        for node in &mut nodes {
+            node.look_up(&waves);
+        }
+        let last = until.to_f64();
+        let mut reached = until.zero();
+        let mut steps = 0;
+        while ending == Ending::Time {
+            let Some(at) = (0..nodes.len()).min_by(|a, b| nodes[*a].key.total_cmp(&nodes[*b].key)) else { break };
+            // The double of an enclosure is its outer end.
+            if nodes[at].key > last * (1.0 + 1e-12) {
+                break;
+            }
+            match nodes[at].process(&until, &mut waves) {
+                Ok(None) => nodes[at].key = f64::INFINITY,
+                Ok(Some((t, occurrence))) => {
+                    record(at, occurrence, &mut events);
+                    reached = t;
+                    for near in &mut nodes[at.saturating_sub(1)..(at + 2).min(waves.len() + 1)] {
+                        near.look_up(&waves);
+                    }
+                }
+                Err(Stop::Open) => (ending, end) = (open(), reached.clone()),
+                Err(Stop::Irrational { kind, surd, near }) => {
+                    let before = until.double(near * (1.0 - 4.0 * f64::EPSILON));
+                    end = reached.clone().larger(before);
+                    ending = Ending::ExactnessEnds { kind, time: surd, near };
+                }
+            }
+            steps += 1;
+            if steps % 64 == 0 {
+                let pieces = waves.iter().flatten().map(|wave| wave.pieces.len()).sum();
+                if pieces > chain.max_pieces() {
+                    return Err(Error::TooManyPieces { limit: chain.max_pieces(), time: reached.to_f64() });
+                }
+                if observe(events.len(), pieces).is_break() {
+                    return Err(Error::Interrupted);
+                }
+            }
+        }
+        sort(&mut events, |event| (&event.t, event.node));
+        sort(&mut touches, |touch| (&touch.t, touch.node));
+        let doubt = nodes.iter().filter_map(|node| node.doubt).min_by(f64::total_cmp);
+        let nodes = nodes.into_iter().map(Node::into_stages).collect();
+        Ok(ChainRun { bars, nodes, waves, gravity, end, ending, events, touches, doubt })
+    }
+}
+
+/// Sorts a nearly sorted list by time, then by node; an undecided order stays as it is.
+fn sort<T, N: Bounded>(items: &mut [T], key: impl Fn(&T) -> (&N, usize)) {
+    let precedes = |a: &T, b: &T| {
+        let ((t, node), (s, other)) = (key(a), key(b));
+        match t.compare(s) {
+            Ok(order) => order.is_lt() || order.is_eq() && node < other,
+            Err(Open) => false,
+        }
+    };
+    for k in 1..items.len() {
+        let mut at = k;
+        while at > 0 && precedes(&items[at], &items[at - 1]) {
+            items.swap(at, at - 1);
+            at -= 1;
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Undamped chains of bars: bodies one above the other, joined by contact or bonded, between two ends.
+//!
+//! The invariants `p = v_t − c v_x` (upward) and `q = v_t + c v_x` (downward) travel through a body unchanged in the
+//! frame that falls with `g`. All that happens, happens at the nodes: the ends of the chain and the joints. With
+//! `Y = 1/Z` and the compressive force `f`, every node obeys one law,
+//!
+//! ```text
+//! v₋ = A₋ − Y₋f    leaving downward  A₋ − 2Y₋f
+//! v₊ = A₊ + Y₊f    leaving upward    A₊ + 2Y₊f    gap′ = (A₊ − A₋) + (Y₋ + Y₊) f
+//! ```
+//!
+//! where `A₋`, `A₊` arrive from below and from above: a wave, or the velocity of a ground (`Y = 0`), or that of an
+//! undisturbed half-infinite bar. The laws differ in `f` alone.
+//!
+//! The code is generic over [`crate::number::Bounded`]: estimates, fractions and enclosures.
+//!
+//! Reading order: `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers and initial
+//! waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop), `run`
+//! (a finished run), `field` (queries along a body), `history` (answers in
+//! numbers that are long enough).
+
+mod definition;
+mod field;
+mod history;
+mod law;
+mod march;
+mod node;
+mod run;
+mod start;
+mod wave;
+
+pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points};
+pub use field::BodySums;
+pub use history::{ChainColumn, ChainHistory, ChainListing, ChainQuantity};
+pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
+
+#[cfg(test)]
+#[path = "tests"]
+#[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+mod tests {
+    mod conformance;
+    mod properties;
+    mod published;
+    mod reference;
+}

@@ -1,0 +1,462 @@
+//! A node: the signals that arrive at it, its state, and its next event.
+
+use std::cmp::Ordering;
+
+use super::law::{Law, Leaving, Mix};
+use super::wave::{Wave, is_exact_zero};
+use crate::lattice::Line;
+use crate::motion::EventKind;
+use crate::number::{Bounded, Open};
+
+/// Origin of a signal that arrives at a node.
+#[derive(Clone, Debug)]
+pub(super) enum Source<N> {
+    /// Zero for ever.
+    Nothing,
+    /// The wave through the body with this index.
+    Wave(usize),
+    /// Given lines, each with its beginning.
+    Data(Vec<(N, Line<N>)>),
+}
+
+/// The signal that arrives from one side.
+#[derive(Clone, Debug)]
+pub(super) struct Arrival<N> {
+    pub(super) source: Source<N>,
+    /// Travel time through the body of a wave.
+    delay: Option<N>,
+    /// Index of the piece that arrives.
+    cursor: usize,
+    line: Line<N>,
+    /// Arrival of the next break, as far as it is known.
+    next: Option<N>,
+}
+
+/// The next event that a contact has by itself, if no signal changes before it.
+#[derive(Clone, Debug)]
+enum Root<N> {
+    None,
+    At(N),
+    /// An irrational time: its surd, and the nearest double.
+    Irrational {
+        surd: String,
+        near: f64,
+    },
+}
+
+/// The state of a node between two breaks.
+#[derive(Clone, Debug)]
+pub(super) struct Stage<N> {
+    /// Its beginning.
+    pub(super) from: N,
+    /// The compressive force.
+    pub(super) force: Line<N>,
+    /// `y`: the rate of the gap between free ends.
+    pub(super) drive: Line<N>,
+    /// The gap at the stored beginning.
+    pub(super) gap: N,
+    /// Whether a contact is closed.
+    pub(super) closed: bool,
+}
+
+/// An occurrence at a contact.
+#[derive(Clone, Debug)]
+pub(super) struct Occurrence<N> {
+    /// Impact or release; `None` for a touch: the gap reaches zero without a contact.
+    pub(super) kind: Option<EventKind>,
+    pub(super) t: N,
+    /// `y` before and after.
+    pub(super) drive: [N; 2],
+}
+
+/// Reason that a node cannot continue.
+pub(super) enum Stop {
+    /// An undecided comparison.
+    Open,
+    /// An event at an irrational time.
+    Irrational { kind: EventKind, surd: String, near: f64 },
+}
+
+impl From<Open> for Stop {
+    fn from(_: Open) -> Self {
+        Stop::Open
+    }
+}
+
+/// A node of the chain.
+#[derive(Clone, Debug)]
+pub(super) struct Node<N> {
+    pub(super) sides: [Arrival<N>; 2],
+    pub(super) law: Law,
+    mix: Mix<N>,
+    leaving: Leaving<N>,
+    /// The states of the node, in order; empty before the start.
+    pub(super) stages: Vec<Stage<N>>,
+    gap: N,
+    closed: bool,
+    /// Whether the gap of an open contact is zero.
+    resting: bool,
+    root: Root<N>,
+    /// The next time at which the node changes, as a double.
+    pub(super) key: f64,
+    /// The first time of a decision that the bounds leave open.
+    pub(super) doubt: Option<f64>,
+}
+
+impl<N: Bounded> Arrival<N> {
+    fn new(source: Source<N>, delay: Option<N>, zero: &N) -> Self {
+        let line = Line { intercept: zero.clone(), slope: zero.clone() };
+        Arrival { source, delay, cursor: 0, line, next: None }
+    }
+
+    /// Returns the line that arrives at the start.
+    fn first(&self, waves: &[[Wave<N>; 2]], side: usize) -> Line<N> {
+        match (&self.source, &self.delay) {
+            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[0].line.delayed(delay),
+            (Source::Data(lines), _) => lines[0].1.clone(),
+            _ => self.line.clone(),
+        }
+    }
+
+    /// Looks up the next break, if it has left its origin.
+    fn look_up(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
+        if self.next.is_none() {
+            self.next = match (&self.source, &self.delay) {
+                (Source::Wave(body), Some(delay)) => {
+                    waves[*body][side].pieces.get(self.cursor + 1).map(|piece| piece.from.clone() + delay)
+                }
+                (Source::Data(lines), _) => lines.get(self.cursor + 1).map(|(from, _)| from.clone()),
+                _ => None,
+            };
+        }
+    }
+
+    /// Passes on to the next piece.
+    fn advance(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
+        self.cursor += 1;
+        self.line = match (&self.source, &self.delay) {
+            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[self.cursor].line.delayed(delay),
+            (Source::Data(lines), _) => lines[self.cursor].1.clone(),
+            _ => return,
+        };
+        self.next = None;
+        self.look_up(waves, side);
+    }
+}
+
+impl<N: Bounded> Node<N> {
+    pub(super) fn new(sources: [Source<N>; 2], delays: [Option<N>; 2], law: Law, mix: Mix<N>, gap: N) -> Self {
+        let [below, above] = sources;
+        let [first, second] = delays;
+        let sides = [Arrival::new(below, first, &gap), Arrival::new(above, second, &gap)];
+        let (stages, root) = (Vec::new(), Root::None);
+        let leaving = mix.leaving(law, false, sides.each_ref().map(|side| &side.line));
+        Node { sides, law, mix, leaving, stages, gap, closed: false, resting: false, root, key: 0.0, doubt: None }
+    }
+
+    /// Returns the states of the node.
+    pub(super) fn into_stages(self) -> Vec<Stage<N>> {
+        self.stages
+    }
+
+    /// Looks up the breaks that have left the neighbours since.
+    pub(super) fn look_up(&mut self, waves: &[[Wave<N>; 2]]) {
+        for (side, arrival) in self.sides.iter_mut().enumerate() {
+            arrival.look_up(waves, side);
+        }
+        let fronts = self.sides.iter().filter_map(|side| side.next.as_ref()).map(N::to_f64);
+        let root = match &self.root {
+            Root::None => f64::INFINITY,
+            Root::At(t) => t.to_f64(),
+            Root::Irrational { near, .. } => *near,
+        };
+        self.key = fronts.fold(root, f64::min);
+    }
+
+    /// Lets the signals of the start arrive.
+    pub(super) fn begin(&mut self, waves: &mut [[Wave<N>; 2]]) -> Result<Option<Occurrence<N>>, Stop> {
+        for side in 0..2 {
+            self.sides[side].line = self.sides[side].first(waves, side);
+        }
+        let zero = self.gap.zero();
+        let drive = self.drive();
+        let mut impact = None;
+        if self.law == Law::Contact && self.gap.vanishes()? {
+            self.closed = self.closes(&drive, &zero)?;
+            self.resting = !self.closed && drive.value_at(&zero).vanishes()? && drive.slope.vanishes()?;
+            self.gap = zero.clone();
+            let (kind, y) = (Some(EventKind::Impact), drive.value_at(&zero));
+            impact = self.closed.then(|| Occurrence { kind, t: zero.clone(), drive: [y.clone(), y] });
+        }
+        self.cross(&zero, &mut [zero.clone(), zero.clone()]);
+        self.settle(zero.clone(), drive, [zero.clone(), zero], waves)?;
+        Ok(impact)
+    }
+
+    /// Returns `y`.
+    fn drive(&self) -> Line<N> {
+        let [below, above] = &self.sides;
+        above.line.clone().minus(&below.line)
+    }
+
+    /// Processes all that happens at the next time of the node; returns `None` if that is after `until`.
+    pub(super) fn process(
+        &mut self,
+        until: &N,
+        waves: &mut [[Wave<N>; 2]],
+    ) -> Result<Option<(N, Option<Occurrence<N>>)>, Stop> {
+        let (stored, hits) = self.next_time()?;
+        if until.below(&stored)? {
+            return Ok(None);
+        }
+        let [below, above, root] = hits;
+        let (before, was_closed, was_resting) = (self.drive(), self.closed, self.resting);
+        let is_open_contact = self.law == Law::Contact && !self.closed;
+        if let Some(stage) = self.stages.last().filter(|_| is_open_contact) {
+            self.gap = before.integral(&stage.from, &stored) + &self.gap;
+        }
+        // The drive after the break from above alone, if two coincide.
+        let other = (below.is_some() && above.is_some()).then(|| self.sides[0].line.clone());
+        let (mut t, mut drive, mut alone) = (stored.clone(), before.clone(), None);
+        let crossed = below.is_some() || above.is_some();
+        let mut off = [t.zero(), t.zero()];
+        // Each signal is passed on by itself, so that bounds count the slivers between coincident breaks.
+        for (side, place) in [below, above].into_iter().enumerate() {
+            let Some(place) = place else { continue };
+            let place = stored.clone().nominal().joined(&place);
+            self.sides[side].advance(waves, side);
+            let new = self.drive();
+            if is_open_contact {
+                let [a, b] = [&drive, &new].map(|line| line.value_at_stored(&stored));
+                self.gap.cross_break(&place, [&a, &drive.slope], [&b, &new.slope]);
+            }
+            self.cross(&place, &mut off);
+            t = t.joined(&place);
+            alone = Some(std::mem::replace(&mut drive, new)).filter(|_| side == 1);
+        }
+        let alone = other.zip(alone).map(|(below, alone)| [alone, self.sides[1].line.clone().minus(&below)]);
+        let mut touched = false;
+        if self.law == Law::Contact && self.closed {
+            self.closed = !self.opens(&drive, alone.as_ref(), root.is_some() && !crossed, &t)?;
+            if !self.closed {
+                (self.gap, self.resting) = (t.zero(), false);
+                let y = drive.value_at_stored(&t);
+                self.gap.cross_break(&t, [&t.zero(), &t.zero()], [&y, &drive.slope]);
+            }
+        } else if is_open_contact {
+            let near = if root.is_some() { Some(None) } else { self.touch([&before, &drive], &stored)? };
+            if let Some(deviation) = near {
+                t = deviation.map_or(t.clone(), |by| t.widened(&by));
+                self.closed = self.closes(&drive, &t)?;
+                touched = !self.closed && !was_resting;
+                if touched && root.is_none() {
+                    let gap = self.gap.clone();
+                    self.doubts(&gap, &t);
+                }
+                self.resting = !self.closed && drive.value_at(&t).vanishes()? && drive.slope.vanishes()?;
+                self.gap = if self.closed { t.zero() } else { self.gap.taken_for_zero() };
+            } else {
+                self.resting = false;
+            }
+        }
+        if was_closed != self.closed {
+            let place = stored.nominal().joined(root.as_ref().unwrap_or(&t)).joined(&t);
+            self.cross(&place, &mut off);
+        }
+        let kind = match (was_closed, self.closed) {
+            (false, true) => Some(EventKind::Impact),
+            (true, false) => Some(EventKind::Release),
+            _ => None,
+        };
+        let occurrence = (kind.is_some() || touched).then(|| {
+            let drive = [&before, &drive].map(|line| line.value_at(&t));
+            Occurrence { kind, t: t.clone(), drive }
+        });
+        self.settle(t.clone(), drive, off, waves)?;
+        Ok(Some((t, occurrence)))
+    }
+
+    /// Returns the time that comes next, and which of the two breaks and the root of a contact are there.
+    fn next_time(&self) -> Result<(N, [Option<N>; 3]), Stop> {
+        let [below, above] = self.sides.each_ref().map(|side| side.next.clone());
+        let root = match &self.root {
+            Root::At(t) => Some(t.clone()),
+            Root::None => None,
+            Root::Irrational { surd, near } => {
+                let mut lands = true;
+                for front in [&below, &above].into_iter().flatten() {
+                    lands = lands && self.lands_before(front)?;
+                }
+                if lands {
+                    let kind = if self.closed { EventKind::Release } else { EventKind::Impact };
+                    return Err(Stop::Irrational { kind, surd: surd.clone(), near: *near });
+                }
+                None
+            }
+        };
+        let mut candidates = [below, above, root];
+        let mut first: Option<N> = None;
+        for candidate in candidates.iter().flatten() {
+            let earlier = first.as_ref().map(|first| candidate.below(first)).transpose()?;
+            if earlier != Some(false) {
+                first = Some(candidate.clone());
+            }
+        }
+        let first = first.ok_or(Stop::Open)?;
+        for candidate in &mut candidates {
+            let order = candidate.as_ref().map(|t| t.compare(&first)).transpose()?;
+            if order.is_some_and(Ordering::is_ne) {
+                *candidate = None;
+            }
+        }
+        Ok((first, candidates))
+    }
+
+    /// Returns whether the gap closes before or at `t`, given that it does so at all while no signal changes.
+    fn lands_before(&self, t: &N) -> Result<bool, Open> {
+        let Some(stage) = self.stages.last() else { return Ok(false) };
+        let gap = stage.drive.integral(&stage.from, t) + &stage.gap;
+        Ok(!gap.positive()? || (stage.drive.slope.positive()? && !stage.drive.value_at(t).negative()?))
+    }
+
+    /// Returns whether a closed contact opens. `alone` has the drives after one of two coincident breaks each, and
+    /// `rooted` says that nothing but a root of the drive is there.
+    fn opens(&mut self, drive: &Line<N>, alone: Option<&[Line<N>; 2]>, rooted: bool, t: &N) -> Result<bool, Open> {
+        let y = drive.value_at(t);
+        if rooted || y.positive()? {
+            return Ok(true);
+        }
+        if !y.negative()? {
+            self.doubts(&y, t);
+            return drive.slope.positive();
+        }
+        // One of two coincident breaks alone may open the contact for a moment.
+        for line in alone.into_iter().flatten() {
+            if !line.value_at(t).negative()? {
+                self.doubts(t, t);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Returns whether a contact whose gap is zero closes.
+    fn closes(&mut self, drive: &Line<N>, t: &N) -> Result<bool, Open> {
+        let y = drive.value_at(t);
+        if y.negative()? {
+            return Ok(true);
+        }
+        if y.positive()? {
+            return Ok(false);
+        }
+        self.doubts(&y, t);
+        drive.slope.negative()
+    }
+
+    /// Notes a decision by a number that is known within a bound only.
+    fn doubts(&mut self, number: &N, t: &N) {
+        if number.roundoffs() > 0.0 && self.doubt.is_none() {
+            self.doubt = Some(t.to_f64());
+        }
+    }
+
+    /// Returns whether the gap is zero at a break within its bound, and if so its deviation in time.
+    fn touch(&self, drives: [&Line<N>; 2], t: &N) -> Result<Option<Option<N>>, Open> {
+        if self.resting || is_exact_zero(&self.gap) {
+            return Ok(Some(None));
+        }
+        if self.gap.positive()? {
+            return Ok(None);
+        }
+        let mut found: Option<N> = None;
+        for line in drives {
+            let speed = line.value_at_stored(t);
+            if speed.negative()?
+                && let Some(by) = self.gap.root_deviation(&speed, &line.slope)
+            {
+                found = Some(found.map_or(by.clone(), |sum| sum.widened(&by)));
+            }
+        }
+        Ok(Some(found))
+    }
+
+    /// Lets the waves that leave follow the state, and widens `off` for the step, which is at `place`.
+    fn cross(&mut self, place: &N, off: &mut [N; 2]) {
+        let new = self.mix.leaving(self.law, self.closed, self.sides.each_ref().map(|side| &side.line));
+        if place.roundoffs() > 0.0 {
+            for ((off, old), new) in off.iter_mut().zip(&self.leaving.waves).zip(&new.waves) {
+                let [a, b] = [old, new].map(|line| line.value_at_stored(place));
+                off.cross_break(place, [&a, &old.slope], [&b, &new.slope]);
+            }
+        }
+        self.leaving = new;
+    }
+
+    /// Sends out the waves from `t` on, records the state, and looks for the next event.
+    fn settle(&mut self, t: N, drive: Line<N>, off: [N; 2], waves: &mut [[Wave<N>; 2]]) -> Result<(), Stop> {
+        // The downward wave of a body has the index 1 there, and leaves to the side below.
+        for (side, off) in off.into_iter().enumerate() {
+            if let Source::Wave(body) = &self.sides[side].source {
+                waves[*body][1 - side].push(&t, self.leaving.waves[side].clone(), off);
+            }
+        }
+        self.root = if self.law == Law::Contact { self.find_root(&drive, &t)? } else { Root::None };
+        let (gap, closed, force) = (self.gap.clone(), self.closed, self.leaving.force.clone());
+        self.stages.push(Stage { from: t, force, drive, gap, closed });
+        Ok(())
+    }
+
+    /// Finds the next event of a contact from `from` on under a constant drive.
+    ///
+    /// **Source**: closed, the root of `y`. Open, the first root of `G + y s + a s²/2` that the gap crosses downward or
+    /// touches; the form of the root avoids cancellation.
+    fn find_root(&mut self, drive: &Line<N>, from: &N) -> Result<Root<N>, Stop> {
+        let slope = &drive.slope;
+        if self.closed {
+            return Ok(if slope.positive()? { Root::At(-(drive.intercept.clone() / slope)) } else { Root::None });
+        }
+        if self.resting {
+            return Ok(Root::None);
+        }
+        let from = from.clone().nominal();
+        let (gap, y) = (&self.gap, drive.value_at(&from));
+        let (speed, bend) = (y.sign()?, slope.sign()?);
+        if bend.is_ge() && speed.is_ge() {
+            return Ok(Root::None);
+        }
+        if bend.is_eq() {
+            let wait = gap.clone() / &(-y.clone());
+            // A slope that may be other than zero moves the root; twice its first order is counted.
+            let wait = match slope.deviation() {
+                Some(_) => gap.clone() / &(-(slope.taken_for_zero() * &wait + &y)),
+                None => wait,
+            };
+            return Ok(Root::At(wait + &from));
+        }
+        let square = y.square() - (slope.clone() * gap).doubled();
+        match square.sign()? {
+            Ordering::Less => return Ok(Root::None),
+            Ordering::Equal => {
+                self.doubts(&square, &from);
+                let at = -(y / slope) + &from;
+                // The values of the parabola at its lowest point are within this of zero.
+                let depth = square / &slope.clone().doubled();
+                let deviation = depth.root_deviation(&depth.zero(), slope);
+                return Ok(Root::At(deviation.map_or(at.clone(), |by| at.widened(&by))));
+            }
+            Ordering::Greater => (),
+        }
+        let Some(root) = square.try_sqrt() else {
+            let middle = from - &(y / slope);
+            let radicand = square / &slope.square();
+            // An opening parabola has landed at its earlier root, a falling one at its later root.
+            let (plus, size) = (bend.is_lt(), radicand.to_f64().sqrt());
+            let near = middle.to_f64() + if plus { size } else { -size };
+            return Ok(Root::Irrational { surd: middle.surd(plus, &radicand), near });
+        };
+        let wait = match speed.is_ge() {
+            true => (y + root) / &(-slope.clone()),
+            false => gap.clone().doubled() / (root - y),
+        };
+        Ok(Root::At(wait + &from))
+    }
+}

@@ -1,0 +1,253 @@
+//! A finished run of a chain: events, contacts, forces and gaps.
+
+use super::node::Stage;
+use super::start::Bar;
+use super::wave::{Wave, index_at};
+use crate::error::Error;
+use crate::lattice::Line;
+use crate::motion::{Ending, EventKind, Side};
+use crate::number::Bounded;
+
+/// An impact or a release at a node of a chain.
+#[derive(Clone, Debug)]
+pub struct ChainEvent<N> {
+    /// Impact or release.
+    pub kind: EventKind,
+    /// The node: 0 at the bottom, `n` above the n-th body.
+    pub node: usize,
+    /// The time.
+    pub t: N,
+    /// Rate of the gap that free ends would have just before.
+    pub before: N,
+    /// The same rate just after.
+    pub after: N,
+}
+
+/// A gap that reaches zero without a contact.
+#[derive(Clone, Debug)]
+pub struct Touch<N> {
+    /// The node: 0 at the bottom, `n` above the n-th body.
+    pub node: usize,
+    /// The time.
+    pub t: N,
+    /// Rate of the gap that free ends would have just before.
+    pub before: N,
+    /// The same rate just after.
+    pub after: N,
+}
+
+/// A period of contact at a node of a chain.
+#[derive(Clone, Debug)]
+pub struct ChainContact<N> {
+    /// The node: 0 at the bottom, `n` above the n-th body.
+    pub node: usize,
+    /// Its beginning.
+    pub impact: N,
+    /// Its end; `None` if the run ends before.
+    pub release: Option<N>,
+    /// Integral of the force over the contact.
+    pub impulse: N,
+    /// Greatest force.
+    pub peak: N,
+    /// The first time of the greatest force.
+    pub peak_time: N,
+}
+
+/// A stretch of time on which the force of a node is linear.
+#[derive(Clone, Debug)]
+pub struct ForcePiece<N> {
+    /// Its beginning.
+    pub start: N,
+    /// Its end.
+    pub end: N,
+    /// Compressive force just after the beginning.
+    pub first: N,
+    /// Compressive force just before the end.
+    pub last: N,
+}
+
+impl<N> ChainEvent<N> {
+    /// Converts the event to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainEvent<T> {
+        let ChainEvent { kind, node, t, before, after } = self;
+        ChainEvent { kind, node, t: f(t), before: f(before), after: f(after) }
+    }
+}
+
+impl<N> Touch<N> {
+    /// Converts the touch to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> Touch<T> {
+        Touch { node: self.node, t: f(self.t), before: f(self.before), after: f(self.after) }
+    }
+}
+
+impl<N> ChainContact<N> {
+    /// Converts the contact to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainContact<T> {
+        ChainContact {
+            node: self.node,
+            impact: f(self.impact),
+            release: self.release.map(&f),
+            impulse: f(self.impulse),
+            peak: f(self.peak),
+            peak_time: f(self.peak_time),
+        }
+    }
+}
+
+impl<N> ForcePiece<N> {
+    /// Converts the piece to other numbers.
+    pub fn map<T>(self, f: impl Fn(N) -> T) -> ForcePiece<T> {
+        ForcePiece { start: f(self.start), end: f(self.end), first: f(self.first), last: f(self.last) }
+    }
+}
+
+/// A finished run of a [`Chain`](super::Chain) in one number system.
+///
+/// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bound* that each number carries.
+#[derive(Clone, Debug)]
+pub struct ChainRun<N> {
+    pub(super) bars: Vec<Bar<N>>,
+    pub(super) nodes: Vec<Vec<Stage<N>>>,
+    pub(super) waves: Vec<[Wave<N>; 2]>,
+    pub(super) gravity: N,
+    pub(super) end: N,
+    pub(super) ending: Ending,
+    pub(super) events: Vec<ChainEvent<N>>,
+    pub(super) touches: Vec<Touch<N>>,
+    pub(super) doubt: Option<f64>,
+}
+
+impl<N: Bounded> ChainRun<N> {
+    /// Returns the impacts and releases, in the order of time.
+    pub fn events(&self) -> &[ChainEvent<N>] {
+        &self.events
+    }
+
+    /// Returns the gaps that reach zero without a contact, in the order of time.
+    pub fn touches(&self) -> &[Touch<N>] {
+        &self.touches
+    }
+
+    /// Returns the last time.
+    pub fn end(&self) -> &N {
+        &self.end
+    }
+
+    /// Returns the reason of the end.
+    pub fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    /// Returns the first time at which events that agree within their bounds count as one; `None` if there is none.
+    pub fn undetermined_from(&self) -> Option<f64> {
+        self.doubt
+    }
+
+    /// Returns the number of wave pieces that left the nodes after the start.
+    pub fn pieces(&self) -> usize {
+        self.waves.iter().flatten().map(|wave| wave.pieces.len() - wave.given).sum()
+    }
+
+    /// Returns the contacts, in the order of their impacts.
+    pub fn contacts(&self) -> Vec<ChainContact<N>> {
+        let impacts = self.events.iter().enumerate().filter(|(_, event)| event.kind == EventKind::Impact);
+        impacts.map(|(k, impact)| self.contact(k, impact)).collect()
+    }
+
+    fn contact(&self, k: usize, impact: &ChainEvent<N>) -> ChainContact<N> {
+        let node = impact.node;
+        let release = self.events[k + 1..].iter().find(|event| event.node == node).map(|event| event.t.clone());
+        let stages = &self.nodes[node];
+        let first = stages.partition_point(|stage| stage.from.to_f64() < impact.t.to_f64());
+        let first =
+            (first.saturating_sub(2)..stages.len()).find(|k| stages[*k].closed && stages[*k].from.alike(&impact.t));
+        let zero = self.end.zero();
+        let (mut impulse, mut peak, mut peak_time) = (zero, None::<N>, impact.t.clone());
+        let mut later = first.map_or(&[][..], |first| &stages[first..]).iter().peekable();
+        while let Some(stage) = later.next().filter(|stage| stage.closed) {
+            let to = later.peek().map_or(&self.end, |next| &next.from);
+            // A break at the end of the run does not count.
+            if peak.is_some() && later.peek().is_none() && stage.from.same(to) {
+                break;
+            }
+            let force = &stage.force;
+            impulse = impulse + force.integral(&stage.from, to);
+            for at in [&stage.from, to] {
+                // An uncertain end of the stage moves the area of the force that ends there.
+                if let Some(late) = at.deviation() {
+                    impulse = impulse + late * force.value_at_stored(at);
+                }
+                let value = force.value_at(at);
+                if peak.as_ref().is_none_or(|peak| peak.below(&value) == Ok(true)) {
+                    (peak, peak_time) = (Some(value), at.clone());
+                }
+            }
+        }
+        let peak = peak.unwrap_or_else(|| self.end.zero());
+        ChainContact { node, impact: impact.t.clone(), release, impulse, peak, peak_time }
+    }
+
+    /// Returns the pieces of the compressive force of a node, in order and without a gap.
+    pub fn force_pieces(&self, node: usize) -> Vec<ForcePiece<N>> {
+        let stages = &self.nodes[node];
+        let mut pieces: Vec<(&Line<N>, ForcePiece<N>)> = Vec::new();
+        for (k, stage) in stages.iter().enumerate() {
+            let end = stages.get(k + 1).map_or(&self.end, |next| &next.from);
+            let line = &stage.force;
+            if let Some((before, piece)) = pieces.last_mut().filter(|(before, _)| before.same(line)) {
+                (piece.end, piece.last) = (end.clone(), before.value_at(end));
+                continue;
+            }
+            let [first, last] = [&stage.from, end].map(|t| line.value_at(t));
+            pieces.push((line, ForcePiece { start: stage.from.clone(), end: end.clone(), first, last }));
+        }
+        // A break at the end of the run begins no piece.
+        if pieces.len() > 1 {
+            pieces.pop_if(|(_, piece)| piece.start.same(&piece.end));
+        }
+        pieces.into_iter().map(|(_, piece)| piece).collect()
+    }
+
+    /// Returns the compressive force of a node.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    pub fn force(&self, node: usize, time: &N, side: Side) -> Result<N, Error> {
+        Ok(self.stage(node, time, side)?.force.value_at(time))
+    }
+
+    /// Returns the gap of a contact; zero where the node is none.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    pub fn gap(&self, node: usize, time: &N) -> Result<N, Error> {
+        let stage = self.stage(node, time, Side::Right)?;
+        if stage.closed || stage.gap.alike(&time.zero()) && stage.drive.intercept.alike(&time.zero()) {
+            return Ok(time.zero());
+        }
+        let from = stage.from.clone().nominal();
+        let middle = (from.clone() + time).halved();
+        Ok(stage.drive.value_at(&middle) * (time.clone() - from) + &stage.gap)
+    }
+
+    /// Returns whether a contact is closed.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    pub fn is_closed(&self, node: usize, time: &N, side: Side) -> Result<bool, Error> {
+        Ok(self.stage(node, time, side)?.closed)
+    }
+
+    fn stage(&self, node: usize, time: &N, side: Side) -> Result<&Stage<N>, Error> {
+        self.check_time(time)?;
+        let stages = &self.nodes[node];
+        let begun = index_at(stages, |stage| &stage.from, time, side)?;
+        Ok(&stages[begun.max(1) - 1])
+    }
+
+    /// Refuses times outside of the run.
+    pub(super) fn check_time(&self, time: &N) -> Result<(), Error> {
+        if time.negative()? || self.end.below(time)? {
+            return Err(Error::TimeOutside { found: time.text(), end: self.end.text() });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,216 @@
+//! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
+
+use super::definition::{Body, Chain, End, Joint, Points};
+use super::law::{Law, Mix};
+use super::node::{Node, Source};
+use super::wave::{Piece, Wave};
+use crate::error::Error;
+use crate::lattice::Line;
+use crate::number::{Bounded, Number, Rational, Scalar};
+
+/// A body in the numbers of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Bar<N> {
+    pub(super) length: N,
+    pub(super) wave_speed: N,
+    pub(super) impedance: N,
+    /// `L/c`.
+    pub(super) travel: N,
+}
+
+/// A chain in the numbers of a run, at the start. Velocities are those in the frame that falls with `g` from rest.
+#[derive(Clone, Debug)]
+pub(super) struct Start<N> {
+    pub(super) bars: Vec<Bar<N>>,
+    pub(super) nodes: Vec<Node<N>>,
+    /// The upward and the downward wave of each body.
+    pub(super) waves: Vec<[Wave<N>; 2]>,
+    pub(super) gravity: N,
+    pub(super) until: N,
+}
+
+/// Converts a fraction, rounded once.
+fn lift<N: Bounded>(x: &Rational, precision: &N::Precision) -> N {
+    match Number::of_rational(x) {
+        Some(number) => N::from_number(&number, precision),
+        None => N::from_number(&Number::from(0), precision).double(Scalar::to_f64(x)),
+    }
+}
+
+/// Returns the square root of a fraction.
+fn root<N: Bounded>(quantity: &'static str, square: &Rational, precision: &N::Precision) -> Result<N, Error> {
+    if let Some(root) = square.try_sqrt() {
+        return Ok(lift(&root, precision));
+    }
+    let irrational = || Error::Irrational { quantity, square: square.to_string() };
+    lift::<N>(square, precision).try_sqrt().ok_or_else(irrational)
+}
+
+impl<N: Bounded> Start<N> {
+    /// Converts `chain`.
+    ///
+    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance.
+    pub(super) fn of(chain: &Chain, precision: &N::Precision) -> Result<Self, Error> {
+        let number = |x: &Number| N::from_number(x, precision);
+        let gravity = number(&chain.gravity);
+        let mut squares = Vec::new();
+        let mut bars = Vec::new();
+        for body in &chain.bodies {
+            let [impedance, wave_speed] = body.squares();
+            let speed: N = root("wave speed", &wave_speed, precision)?;
+            let length = number(&body.length);
+            let travel = match wave_speed.try_sqrt() {
+                Some(speed) => lift(&(body.length.to_rational() / speed), precision),
+                None => length.clone() / &speed,
+            };
+            let force = root("impedance", &impedance, precision)?;
+            bars.push(Bar { length, wave_speed: speed, impedance: force, travel });
+            squares.push(impedance);
+        }
+        let waves = chain.bodies.iter().zip(&bars).map(|(body, bar)| waves(body, bar, precision)).collect();
+        let top = bars.len();
+        let mut nodes = Vec::with_capacity(top + 1);
+        for at in 0..=top {
+            let (below, above) = (at.checked_sub(1), (at < top).then_some(at));
+            let wave = |body: usize| (Source::Wave(body), Some(squares[body].clone()));
+            // The outer side of an end, with the square of its impedance; a rigid one has none.
+            let (outer, law) = match (below, above) {
+                (Some(joint), Some(_)) => {
+                    let contact = matches!(chain.joints[joint], Joint::Contact { .. });
+                    ((Source::Nothing, None), if contact { Law::Contact } else { Law::Held })
+                }
+                _ => {
+                    let signal = |points: &Points, fall: &N| Source::Data(signal(points, fall, precision));
+                    let zero = gravity.zero();
+                    let own = squares[if at == 0 { 0 } else { top - 1 }].clone();
+                    match &chain.ends[usize::from(at == top)] {
+                        End::Free => ((Source::Nothing, None), Law::Force),
+                        End::Force(points) => ((signal(points, &zero), None), Law::Force),
+                        End::Velocity(points) => ((signal(points, &gravity), None), Law::Held),
+                        End::Ground { velocity, .. } => ((signal(velocity, &gravity), None), Law::Contact),
+                        End::Infinite { impedance, gap } => {
+                            let law = if gap.is_some() { Law::Contact } else { Law::Held };
+                            let square = impedance.as_ref().map_or(own, |z| Scalar::square(&z.to_rational()));
+                            ((signal(&Vec::new(), &gravity), Some(square)), law)
+                        }
+                    }
+                }
+            };
+            let [(lower, below_square), (upper, above_square)] = match (below, above) {
+                (Some(below), Some(above)) => [wave(below), wave(above)],
+                (None, Some(above)) => [outer, wave(above)],
+                (Some(below), None) => [wave(below), outer],
+                (None, None) => [(Source::Nothing, None), outer],
+            };
+            let impedance = |square: &Option<Rational>| {
+                square.as_ref().map(|square| root::<N>("impedance", square, precision)).transpose()
+            };
+            let impedances = [impedance(&below_square)?, impedance(&above_square)?];
+            let reflection = match (&below_square, &above_square) {
+                (Some(below), Some(above)) => match (below.clone() / above).try_sqrt() {
+                    Some(ratio) => lift(&((ratio.clone() - &ratio.one()) / &(ratio.clone() + &ratio.one())), precision),
+                    None => {
+                        let ratio = lift::<N>(&(below.clone() / above), precision);
+                        let irrational = || Error::Irrational { quantity: "ratio of impedances", square: ratio.text() };
+                        let ratio = ratio.try_sqrt().ok_or_else(irrational)?;
+                        (ratio.clone() - ratio.one()) / (ratio.clone() + ratio.one())
+                    }
+                },
+                (None, _) => gravity.one(),
+                (_, None) => -gravity.one(),
+            };
+            let gap = chain.start_gap(at).map_or_else(|| gravity.zero(), |gap| lift(&gap, precision));
+            let delays = [below, above].map(|body| body.map(|body| bars[body].travel.clone()));
+            nodes.push(Node::new([lower, upper], delays, law, Mix::new(reflection, impedances, &gravity), gap));
+        }
+        Ok(Start { bars, nodes, waves, gravity, until: number(&chain.until) })
+    }
+}
+
+/// Returns the data through `points`, with `fall·t` added: constant after the last point, and zero without points.
+fn signal<N: Bounded>(points: &Points, fall: &N, precision: &N::Precision) -> Vec<(N, Line<N>)> {
+    let number = |x: &Number| N::from_number(x, precision);
+    let constant = |value: N| Line { intercept: value, slope: fall.clone() };
+    let Some((last_time, last)) = points.last() else {
+        return vec![(fall.zero(), constant(fall.zero()))];
+    };
+    let mut lines = Vec::new();
+    for pair in points.windows(2) {
+        let [(from, a), (to, b)] = [&pair[0], &pair[1]];
+        if from.compare(to).is_lt() {
+            let [time, a, b] = [number(from), number(a), number(b)];
+            let slope = (b - &a) / (number(to) - &time);
+            let intercept = a - slope.clone() * &time;
+            lines.push((time, Line { intercept, slope: slope + fall }));
+        }
+    }
+    lines.push((number(last_time), constant(number(last))));
+    lines
+}
+
+/// Builds the waves that are in a body at the start.
+///
+/// **Source**: the upward wave leaves the bottom at `s` with `p(−cs, 0)`, the downward one the top with `q(L + cs, 0)`,
+/// for `−L/c ≤ s < 0`. Their integrals are 0 and `2v(0,0)` where the bottom is at the start, so that
+/// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
+fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> [Wave<N>; 2] {
+    let Bar { length, wave_speed, travel, .. } = bar;
+    let fraction = |x: &Number| x.to_rational();
+    // Places at which the start has a break, in exact order.
+    let mut places: Vec<Rational> = vec![Rational::default(), fraction(&body.length)];
+    places.extend(body.velocity.iter().chain(&body.displacement).map(|(x, _)| fraction(x)));
+    places.sort();
+    places.dedup();
+    let mut up = Vec::new();
+    let mut down = Vec::new();
+    for pair in places.windows(2) {
+        let [from, to] = [&pair[0], &pair[1]];
+        let [(speed, rise), (_, strain)] = [&body.velocity, &body.displacement].map(|points| {
+            let within = |pair: &&[(Number, Number)]| {
+                fraction(&pair[0].0) <= *from && *to <= fraction(&pair[1].0) && pair[0].0.compare(&pair[1].0).is_lt()
+            };
+            points.windows(2).find(within).map_or_else(Default::default, |pair| {
+                let [x, v] = [fraction(&pair[0].0), fraction(&pair[0].1)];
+                let slope = (fraction(&pair[1].1) - &v) / (fraction(&pair[1].0) - &x);
+                (v - slope.clone() * x, slope)
+            })
+        });
+        // v_t = speed + rise·x, the first of which is extrapolated to either end.
+        let [speed, at_top, rise, strain, from, to] = [
+            speed.clone(),
+            speed + rise.clone() * fraction(&body.length),
+            rise,
+            strain,
+            from.clone(),
+            fraction(&body.length) - to,
+        ]
+        .map(|x| lift::<N>(&x, precision));
+        let (rate, stretch) = (rise * wave_speed, strain * wave_speed);
+        let up_line = Line { intercept: speed - &stretch, slope: -rate.clone() };
+        let down_line = Line { intercept: at_top + &stretch, slope: rate };
+        // A piece begins where its stretch of the body ends: at −to/c upward, at −(L − from)/c downward.
+        let up_from = if to.vanishes() == Ok(true) { -travel.clone() } else { (to - length) / wave_speed };
+        let down_from = if from.vanishes() == Ok(true) { -travel.clone() } else { (from - length) / wave_speed };
+        up.push((up_from, up_line));
+        down.push((down_from, down_line));
+    }
+    up.reverse();
+    let start = body.displacement.first().map_or_else(|| length.zero(), |(_, v)| N::from_number(v, precision));
+    let zero = length.zero();
+    let up = wave(up, |total| -total.clone(), &zero);
+    [up, wave(down, |_| start.doubled(), &zero)]
+}
+
+/// Builds a wave from its pieces before the start; `first` returns its integral at the first one, given that of all.
+fn wave<N: Bounded>(lines: Vec<(N, Line<N>)>, first: impl FnOnce(&N) -> N, zero: &N) -> Wave<N> {
+    let mut sums = vec![zero.clone()];
+    let ends = lines.iter().skip(1).map(|(from, _)| from).chain([zero]);
+    for ((from, line), to) in lines.iter().zip(ends) {
+        let last = &sums[sums.len() - 1];
+        sums.push(line.integral(from, to) + last);
+    }
+    let first = first(&sums[sums.len() - 1]);
+    let given = lines.len();
+    let pieces = lines.into_iter().zip(sums).map(|((from, line), sum)| Piece { from, line, sum: sum + &first });
+    Wave { pieces: pieces.collect(), given }
+}

@@ -1,0 +1,131 @@
+//! Signals that are linear between breaks, and waves with their integral.
+
+use crate::lattice::{Line, place_to};
+use crate::motion::Side;
+use crate::number::{Bounded, Open};
+
+/// A stretch of a wave without a break.
+#[derive(Clone, Debug)]
+pub(super) struct Piece<N> {
+    /// Its beginning.
+    pub(super) from: N,
+    /// Its value over time.
+    pub(super) line: Line<N>,
+    /// Integral of the wave up to the stored beginning.
+    pub(super) sum: N,
+}
+
+/// The wave that leaves one end of a body, from one travel time before the start.
+#[derive(Clone, Debug)]
+pub(super) struct Wave<N> {
+    pub(super) pieces: Vec<Piece<N>>,
+    /// Number of pieces before the start.
+    pub(super) given: usize,
+}
+
+/// Returns whether a number is zero without any error.
+pub(super) fn is_exact_zero<N: Bounded>(x: &N) -> bool {
+    x.roundoffs() == 0.0 && x.vanishes() == Ok(true)
+}
+
+/// Returns whether `new` needs no break after `old`: it is proved equal, or is stored alike with no larger error.
+fn continues<N: Bounded>(old: &N, new: &N) -> bool {
+    match new.compare(old) {
+        Ok(order) if old.roundoffs() == 0.0 && new.roundoffs() == 0.0 => order.is_eq(),
+        _ => new.alike(old) && new.roundoffs() <= old.roundoffs(),
+    }
+}
+
+/// Returns the product with a number that may be zero without any error, which costs no rounding.
+fn times<N: Bounded>(x: &N, by: &N) -> N {
+    if is_exact_zero(x) { x.clone() } else { x.clone() * by }
+}
+
+impl<N: Bounded> Line<N> {
+    /// Returns the line that arrives after the time `delay`.
+    pub(super) fn delayed(&self, delay: &N) -> Self {
+        if is_exact_zero(&self.slope) {
+            return self.clone();
+        }
+        Line { intercept: self.intercept.clone() - self.slope.clone() * delay, slope: self.slope.clone() }
+    }
+
+    pub(super) fn scaled(&self, by: &N) -> Self {
+        Line { intercept: times(&self.intercept, by), slope: times(&self.slope, by) }
+    }
+
+    pub(super) fn plus(self, other: &Self) -> Self {
+        let sum = |a: N, b: &N| if is_exact_zero(b) { a } else { a + b };
+        Line { intercept: sum(self.intercept, &other.intercept), slope: sum(self.slope, &other.slope) }
+    }
+
+    pub(super) fn minus(self, other: &Self) -> Self {
+        let difference = |a: N, b: &N| if is_exact_zero(b) { a } else { a - b };
+        Line { intercept: difference(self.intercept, &other.intercept), slope: difference(self.slope, &other.slope) }
+    }
+
+    /// Returns the integral between the stored values of two times.
+    pub(super) fn integral(&self, from: &N, to: &N) -> N {
+        let width = to.clone().minus_stored(from);
+        if is_exact_zero(&self.slope) {
+            return width * &self.intercept;
+        }
+        let middle = (from.clone().nominal() + to.clone().nominal()).halved();
+        self.value_at(&middle) * width
+    }
+}
+
+impl<N: Bounded> Wave<N> {
+    /// Continues the wave with `line` from `time` on. `off` is zero within the error of the integral that the uncertain
+    /// place of the break causes.
+    pub(super) fn push(&mut self, time: &N, line: Line<N>, off: N) {
+        let last = self.pieces.len() - 1;
+        let last = &mut self.pieces[last];
+        if continues(&last.line.intercept, &line.intercept) && continues(&last.line.slope, &line.slope) {
+            last.sum = last.sum.clone() + off;
+            return;
+        }
+        let sum = (last.line.integral(&last.from, time) + &last.sum + off).without_exact();
+        self.pieces.push(Piece { from: time.clone(), line, sum });
+    }
+
+    /// Returns the index of the piece at a time, as the limit from `side`.
+    pub(super) fn piece_at(&self, time: &N, side: Side) -> Result<usize, Open> {
+        let begun = index_at(&self.pieces, |piece| &piece.from, time, side)?;
+        Ok(begun.max(1) - 1)
+    }
+
+    /// Returns the integral of the wave up to a time in the piece with this index.
+    pub(super) fn sum_at(&self, piece: usize, time: &N) -> N {
+        let Piece { from, line, sum } = &self.pieces[piece];
+        let width = time.clone() - from.clone().nominal();
+        let middle = (from.clone().nominal() + time).halved();
+        line.value_at(&middle) * width + sum
+    }
+}
+
+/// Returns the number of `items` that have begun at a time, as the limit from `side`.
+///
+/// **Errors**: [`Open`] if the error of a beginning leaves it undecided.
+pub(super) fn index_at<T, N: Bounded>(
+    items: &[T],
+    from: impl Fn(&T) -> &N,
+    time: &N,
+    side: Side,
+) -> Result<usize, Open> {
+    let mut undecided = Ok(());
+    let begun = items.partition_point(|item| match place_to(time, from(item)) {
+        Ok(order) => {
+            if side == Side::Left {
+                order.is_gt()
+            } else {
+                order.is_ge()
+            }
+        }
+        Err(open) => {
+            undecided = Err(open);
+            false
+        }
+    });
+    undecided.map(|()| begun)
+}

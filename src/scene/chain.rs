@@ -1,0 +1,491 @@
+//! The reader of scenes with several bodies: `[[body]]`, `[ends]`, `[ground]`.
+
+use std::ops::Range;
+
+use serde::Serialize;
+use toml::de::DeTable;
+
+use super::error::{SceneError, position};
+use super::reader::{Reader, Value};
+use crate::chain::{Body, Chain, End, Joint, MAX_PIECES, Points};
+use crate::error::{ProblemError, ProblemErrorKind as Kind};
+use crate::names::nearest;
+use crate::number::{Number, Rational};
+use crate::problem::written::short;
+use crate::quantity::UnitSystem;
+
+const TOP_KEYS: &[&str] = &["title", "units", "body", "ends", "ground", "gravity", "run"];
+const BODY_KEYS: &[&str] = &[
+    "name",
+    "length",
+    "wave_speed",
+    "impedance",
+    "modulus",
+    "density",
+    "area",
+    "poisson",
+    "state",
+    "velocity",
+    "displacement",
+    "joint",
+    "gap",
+];
+const TABLES: [(&str, &[&str]); 4] = [
+    ("ends", &["bottom", "top"]),
+    ("ground", &["velocity"]),
+    ("gravity", &["acceleration"]),
+    ("run", &["time", "accuracy", "pieces"]),
+];
+const END_KEYS: &[&str] = &["force", "velocity", "infinite", "gap"];
+const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];
+
+/// A scene file with several bodies, checked: a chain in exact numbers, and the line that each value stands on.
+///
+/// ```toml
+/// title = "A moving bar hits another"
+/// [[body]]                 # from the bottom up
+/// name = "target"
+/// length = 10
+/// modulus = 100            # with density and area; or wave_speed and impedance
+/// density = 0.01
+/// area = 1                 # absent: 1
+/// [[body]]
+/// length = 10
+/// modulus = 49
+/// density = 0.01
+/// velocity = -0.1          # upward; a number, or points [[x, v_t], …]; displacement = [[x, v], …]
+/// joint = "contact"        # with the body below; or "bonded"
+/// gap = 0.01               # absent: 0
+/// [ends]
+/// bottom = "free"          # or "fixed", "ground", "absorbing", { gap = 0.1 } above the ground, { infinite = 2 },
+/// top = "free"             # { infinite = 2, gap = 0.1 }, { force = [[t, F], …] }, { velocity = [[t, v], …] }
+/// [ground]
+/// velocity = [[0, 0], [1, 2]]
+/// [gravity]
+/// acceleration = 0
+/// [run]
+/// time = 1
+/// ```
+///
+/// A body under uniaxial strain has `poisson = 0.3` and `state = "uniaxial strain"`: the modulus of its waves is
+/// `E(1 − ν)/((1 + ν)(1 − 2ν))`. A force pulls where it is positive.
+///
+/// ```
+/// use dalembert::{ChainScene, Numbers};
+/// let scene = ChainScene::parse(
+///     "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n\
+///      [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = -1\ngap = 1\n[run]\ntime = 4\n",
+/// )?;
+/// let listing = scene.chain.solve(Numbers::Exact)?.listing()?;
+/// assert_eq!(listing.contacts[0].impulse.to_string(), "1");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainScene {
+    /// `title`.
+    pub title: Option<String>,
+    /// `units`: the units of the numbers; SI if absent.
+    pub units: UnitSystem,
+    /// The chain to solve.
+    pub chain: Chain,
+    /// `run.accuracy`: the requested relative accuracy.
+    pub accuracy: Option<f64>,
+    source: String,
+    lines: Vec<(String, usize)>,
+}
+
+/// The use that a chain makes of one effect.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ChainEffect {
+    /// The effect.
+    pub effect: &'static str,
+    /// Whether the chain calls for it.
+    pub called: bool,
+    /// The line of the scene that calls for it, from 1.
+    pub line: Option<usize>,
+    /// The reason, or the computation that is left out.
+    pub because: String,
+}
+
+impl ChainScene {
+    /// Returns whether `source` is a scene with bodies: a TOML document with `[[body]]`.
+    pub fn is_chain(source: &str) -> bool {
+        DeTable::parse(source).is_ok_and(|document| document.get_ref().contains_key("body"))
+    }
+
+    /// Reads a scene.
+    ///
+    /// **Errors**: [`SceneError`] with the place of the value.
+    pub fn parse(source: &str) -> Result<Self, SceneError> {
+        let document = DeTable::parse(source).map_err(|error| super::read::syntax(source, &error))?;
+        Reader { source, document: document.get_ref() }.chain()
+    }
+
+    /// Returns the line, from 1, of a key such as `body[1].gap` or `ends.top`.
+    pub fn line_of(&self, key: &str) -> Option<usize> {
+        self.lines.iter().find(|(name, _)| name == key).map(|(_, line)| *line)
+    }
+
+    /// Returns the text that the scene was read from.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Returns every effect of a chain, with the line that calls for it.
+    pub fn effects(&self) -> Vec<ChainEffect> {
+        let chain = &self.chain;
+        let bodies = chain.bodies().len();
+        let first = |is: &dyn Fn(&Joint) -> bool| chain.joints().iter().position(is).map(|k| k + 1);
+        let bonded = first(&|joint| *joint == Joint::Bonded);
+        let contact = first(&|joint| *joint != Joint::Bonded);
+        let end = |is: &dyn Fn(&End) -> bool| {
+            chain.ends().iter().zip(["bottom", "top"]).find(|(end, _)| is(end)).map(|(_, name)| name)
+        };
+        let mut effects = Vec::new();
+        let mut add = |effect, key: Option<String>, because: String, otherwise: &str| {
+            let called = key.is_some();
+            let line = key.and_then(|key| self.line_of(&key).or_else(|| self.line_of(key.split('.').next()?)));
+            effects.push(ChainEffect {
+                effect,
+                called,
+                line,
+                because: if called { because } else { otherwise.into() },
+            });
+        };
+        add("bodies", Some("body[0]".into()), format!("{bodies} bodies, from the bottom up"), "");
+        add(
+            "contact_joints",
+            contact.map(|k| format!("body[{k}].joint")),
+            format!(
+                "{} of {} joints push and never pull",
+                chain.joints().iter().filter(|j| **j != Joint::Bonded).count(),
+                bodies - 1
+            ),
+            "no joint opens or closes",
+        );
+        add(
+            "bonded_joints",
+            bonded.map(|k| format!("body[{k}].joint")),
+            "waves are reflected and pass where impedances differ".into(),
+            "no joint is bonded",
+        );
+        let named = |is: &dyn Fn(&End) -> bool| end(is).map(|name| format!("ends.{name}"));
+        add(
+            "ground",
+            named(&|end| matches!(end, End::Ground { .. })),
+            "a rigid stop that pushes and never pulls".into(),
+            "no rigid stop is checked for contact",
+        );
+        add(
+            "moving_ground",
+            end(&|end| matches!(end, End::Ground { velocity, .. } if !velocity.is_empty()))
+                .map(|name| if name == "bottom" { "ground.velocity".into() } else { "ends.top".into() }),
+            "the stop moves by a velocity over time".into(),
+            "the ground rests",
+        );
+        add(
+            "end_loads",
+            named(&|end| matches!(end, End::Force(_))),
+            "a force over time pulls or pushes an end".into(),
+            "no end is loaded",
+        );
+        add(
+            "moved_ends",
+            named(&|end| matches!(end, End::Velocity(_))),
+            "an end is held or moved by a velocity over time".into(),
+            "no end is held",
+        );
+        add(
+            "infinite_ends",
+            named(&|end| matches!(end, End::Infinite { .. })),
+            "a half-infinite bar takes up waves for ever".into(),
+            "no wave leaves the chain",
+        );
+        add(
+            "gravity",
+            (!chain.gravity().is_zero()).then(|| "gravity.acceleration".into()),
+            format!("acceleration = {}", chain.gravity()),
+            "no acceleration: no weight",
+        );
+        effects
+    }
+}
+
+impl<'a> Reader<'a> {
+    fn chain(&self) -> Result<ChainScene, SceneError> {
+        let near = |key: &str, known: &[&'static str]| nearest(key, known.iter().copied()).map(String::from);
+        if let Some((key, _)) = ["rod", "impact", "start"].iter().find_map(|key| self.get(key)) {
+            let expected = "either [rod] or [[body]]: velocity and displacement of the start belong to each [[body]]";
+            return Err(self.error(
+                key.span(),
+                Kind::Contradiction,
+                format!("[{}] beside [[body]]", key.get_ref()),
+                expected,
+            ));
+        }
+        self.check_known((self.document, "the scene"), TOP_KEYS, |key| near(key, TOP_KEYS))?;
+        for (name, known) in TABLES {
+            let Some((_, value)) = self.get(name) else { continue };
+            let Some(table) = value.get_ref().as_table() else {
+                return Err(self.wrong_type(value, name, &format!("a table, [{name}]")));
+            };
+            self.check_known((table, &format!("[{name}]")), known, |key| near(key, known))?;
+        }
+        let tables = self.bodies()?;
+        let mut lines = self.lines();
+        let mut joined = Vec::new();
+        for (k, (table, span)) in tables.iter().enumerate() {
+            let reader = Reader { document: table, ..*self };
+            joined.push(reader.body(k, span.clone())?);
+            lines.push((format!("body[{k}]"), position(self.source, span.start).0));
+            let keys = table.keys().map(|key| (format!("body[{k}].{}", key.get_ref()), key.span().start));
+            lines.extend(keys.map(|(name, start)| (name, position(self.source, start).0)));
+        }
+        let mut joined = joined.into_iter();
+        let Some((_, lowest)) = joined.next() else {
+            return Err(self.error(0..0, Kind::Missing, "no body", "one [[body]] or more"));
+        };
+        let mut builder = joined.fold(Chain::builder(lowest), |builder, (joint, body)| builder.joined(joint, body));
+        let [bottom, top] = self.ends()?;
+        let run = self.table("run");
+        let time = run.plain_number("time")?;
+        let time =
+            time.ok_or_else(|| self.error(0..0, Kind::Missing, "no time in [run]", "the last time of the chain"))?;
+        let pieces = match run.plain_number("pieces")? {
+            Some(pieces) if pieces.to_f64() >= 1.0 => pieces.to_f64() as usize,
+            Some(pieces) => {
+                let span = self.get("run.pieces").map_or(0..0, |(_, value)| value.span());
+                return Err(self.error(span, Kind::OutOfRange, format!("pieces = {pieces}"), "1 wave piece or more"));
+            }
+            None => MAX_PIECES,
+        };
+        builder = builder.bottom(bottom).top(top).until(time).max_pieces(pieces);
+        if let Some(gravity) = self.table("gravity").plain_number("acceleration")? {
+            builder = builder.gravity(gravity);
+        }
+        let chain = builder.build().map_err(|error| self.placed(error))?;
+        Ok(ChainScene {
+            title: self.text("title")?.map(|(text, _)| text.to_string()),
+            units: self.units()?,
+            chain,
+            accuracy: self.accuracy()?,
+            source: self.source.to_string(),
+            lines,
+        })
+    }
+
+    /// Returns a reader of the table at `name`, or of an empty one.
+    fn table(&self, name: &str) -> Reader<'a> {
+        static EMPTY: std::sync::LazyLock<DeTable<'static>> = std::sync::LazyLock::new(DeTable::new);
+        let table = self.get(name).and_then(|(_, value)| value.get_ref().as_table());
+        Reader { document: table.unwrap_or(&EMPTY), ..*self }
+    }
+
+    /// Returns the tables of the bodies, each with its place.
+    fn bodies(&self) -> Result<Vec<(&'a DeTable<'a>, Range<usize>)>, SceneError> {
+        let Some((_, value)) = self.get("body") else { return Ok(Vec::new()) };
+        let refused = |value: &Value<'a>| self.wrong_type(value, "body", "tables, [[body]]");
+        let array = value.get_ref().as_array().ok_or_else(|| refused(value))?;
+        let table = |value: &'a Value<'a>| value.get_ref().as_table().map(|table| (table, value.span()));
+        array.into_iter().map(|value| table(value).ok_or_else(|| refused(value))).collect()
+    }
+
+    /// Reads the body in this table, and its joint with the body below.
+    fn body(&self, index: usize, span: Range<usize>) -> Result<(Joint, Body), SceneError> {
+        if let Some((key, _)) = self.get("damping") {
+            let expected = "undamped bodies: damping is solved for a single rod without loads, in a scene with [rod]";
+            return Err(self.error(key.span(), Kind::Contradiction, "damping of a [[body]]", expected));
+        }
+        let near = |key: &str| nearest(key, BODY_KEYS.iter().copied()).map(String::from);
+        self.check_known((self.document, "[[body]]"), BODY_KEYS, near)?;
+        let missing = |key: &str, expected: &str| {
+            self.error(span.clone(), Kind::Missing, format!("no {key} in [[body]] {}", index + 1), expected)
+        };
+        let contradiction = |key: &str, expected: &str| {
+            let span = self.get(key).map_or(span.clone(), |(key, _)| key.span());
+            self.error(span, Kind::Contradiction, format!("{key} of [[body]] {}", index + 1), expected)
+        };
+        let length = self.plain_number("length")?.ok_or_else(|| missing("length", "the length of the body"))?;
+        let [modulus, density, area, speed, impedance] = ["modulus", "density", "area", "wave_speed", "impedance"];
+        let body = match (self.plain_number(speed)?, self.plain_number(modulus)?) {
+            (Some(wave_speed), None) => {
+                for key in [density, area, "poisson", "state"] {
+                    if self.get(key).is_some() {
+                        return Err(contradiction(key, "it with a modulus, or wave_speed and impedance alone"));
+                    }
+                }
+                let expected = "an impedance Z = ρcA beside the wave speed";
+                let impedance = self.plain_number(impedance)?.ok_or_else(|| missing(impedance, expected))?;
+                Body::new(length, wave_speed, impedance)
+            }
+            (None, Some(modulus)) => {
+                if self.get(impedance).is_some() {
+                    return Err(contradiction(impedance, "modulus, density and area, or wave_speed and impedance"));
+                }
+                let density = self.plain_number(density)?.ok_or_else(|| missing(density, "a density"))?;
+                let area = self.plain_number(area)?.unwrap_or_else(|| 1.into());
+                Body::elastic(length, self.constrained(modulus)?, density, area)
+            }
+            (Some(_), Some(_)) => return Err(contradiction(speed, "wave_speed or modulus, not both")),
+            (None, None) => return Err(missing("wave_speed", "wave_speed and impedance, or modulus and density")),
+        };
+        let mut body = match self.get("velocity") {
+            Some((_, value)) if value.get_ref().as_array().is_some() => {
+                body.with_start(self.list("velocity")?, Vec::new())
+            }
+            _ => match self.plain_number("velocity")? {
+                Some(velocity) => body.with_velocity(velocity),
+                None => body,
+            },
+        };
+        body = body.with_displacement(self.list("displacement")?);
+        if let Some((name, _)) = self.text("name")? {
+            body = body.named(name);
+        }
+        let joint = match self.choice("joint", &["contact", "bonded"])? {
+            _ if index == 0 => {
+                for key in ["joint", "gap"] {
+                    if self.get(key).is_some() {
+                        return Err(contradiction(key, "a body below it: the bottom of the chain is in [ends]"));
+                    }
+                }
+                Joint::Bonded
+            }
+            Some(1) if self.get("gap").is_some() => return Err(contradiction("gap", "no gap of a bonded joint")),
+            Some(1) => Joint::Bonded,
+            _ => Joint::Contact { gap: self.plain_number("gap")?.unwrap_or_else(|| 0.into()) },
+        };
+        Ok((joint, body))
+    }
+
+    /// Returns the modulus of waves: `modulus` itself, or the constrained one under uniaxial strain.
+    fn constrained(&self, modulus: Number) -> Result<Number, SceneError> {
+        let state = self.choice("state", &["uniaxial stress", "uniaxial strain"])?;
+        let Some(poisson) = self.plain_number("poisson")? else {
+            return match (state, self.get("state")) {
+                (Some(1), Some((key, _))) => {
+                    let found = "state = \"uniaxial strain\" without poisson";
+                    Err(self.error(key.span(), Kind::Missing, found, "Poisson's ratio"))
+                }
+                _ => Ok(modulus),
+            };
+        };
+        if state != Some(1) {
+            return Ok(modulus);
+        }
+        let (one, nu) = (Rational::from(1), poisson.to_rational());
+        let span = self.get("poisson").map_or(0..0, |(_, value)| value.span());
+        let refused = || {
+            self.error(span.clone(), Kind::OutOfRange, format!("poisson = {poisson}"), "a ratio above −1 and below 1/2")
+        };
+        if nu <= -one.clone() || nu.clone() * Rational::from(2) >= one {
+            return Err(refused());
+        }
+        let factor = (one.clone() - &nu) / ((one.clone() + &nu) * (one - nu * Rational::from(2)));
+        Number::of_rational(&(modulus.to_rational() * factor)).ok_or_else(refused)
+    }
+
+    /// Reads points, or a single number that holds for ever.
+    fn list(&self, key: &str) -> Result<Points, SceneError> {
+        let Some((_, value)) = self.get(key) else { return Ok(Vec::new()) };
+        let Some(array) = value.get_ref().as_array() else {
+            return Ok(self.plain_number(key)?.map(|value| vec![(0.into(), value)]).unwrap_or_default());
+        };
+        let number = |value: &Value<'a>| {
+            let written = self.written(value, key)?;
+            written.number().cloned().map_err(|error| {
+                self.error(value.span(), Kind::NotANumber, error.to_string(), "a number such as 3, 0.1 or \"1/3\"")
+            })
+        };
+        let point = |point: &Value<'a>| match point.get_ref().as_array().map(|array| array.iter().as_slice()) {
+            Some([x, v]) => Ok((number(x)?, number(v)?)),
+            _ => {
+                let found = format!("{} among the points of the {key}", short(self.slice(&point.span())));
+                Err(self.error(point.span(), Kind::WrongType, found, "points such as [[0, 0], [1, 2]]"))
+            }
+        };
+        let points: Points = array.into_iter().map(point).collect::<Result<_, _>>()?;
+        if points.is_empty() {
+            return Err(self.error(
+                value.span(),
+                Kind::Profile,
+                format!("no points of the {key}"),
+                "one point or more",
+            ));
+        }
+        Ok(points)
+    }
+
+    /// Reads `[ends]` and `[ground]`.
+    fn ends(&self) -> Result<[End; 2], SceneError> {
+        let table = self.table("ends");
+        let ground = self.table("ground").list("velocity")?;
+        let [bottom, top] = ["bottom", "top"].map(|name| table.end(name));
+        let (bottom, top) = (bottom?, top?);
+        let Some((key, _)) = self.get("ground") else {
+            return Ok([bottom.unwrap_or(End::Free), top.unwrap_or(End::Free)]);
+        };
+        let bottom = match bottom {
+            None => End::Ground { gap: 0.into(), velocity: ground },
+            Some(End::Ground { gap, velocity }) if velocity.is_empty() => End::Ground { gap, velocity: ground },
+            Some(_) => {
+                let expected = "bottom = \"ground\" or { gap = … }: a body that is fixed or free there meets no ground";
+                return Err(self.error(key.span(), Kind::Contradiction, "[ground] under another bottom", expected));
+            }
+        };
+        Ok([bottom, top.unwrap_or(End::Free)])
+    }
+
+    /// Reads the end at `name`.
+    fn end(&self, name: &str) -> Result<Option<End>, SceneError> {
+        let Some((key, value)) = self.get(name) else { return Ok(None) };
+        let Some(table) = value.get_ref().as_table() else {
+            return Ok(self.choice(name, &END_WORDS)?.map(|word| match END_WORDS[word] {
+                "fixed" => End::Velocity(Vec::new()),
+                "ground" => End::Ground { gap: 0.into(), velocity: Vec::new() },
+                "absorbing" => End::Infinite { impedance: None, gap: None },
+                _ => End::Free,
+            }));
+        };
+        let near = |key: &str| nearest(key, END_KEYS.iter().copied()).map(String::from);
+        let reader = Reader { document: table, ..*self };
+        self.check_known((table, &format!("{name} of [ends]")), END_KEYS, near)?;
+        let gap = reader.plain_number("gap")?;
+        let has = |key: &str| table.contains_key(key);
+        Ok(Some(match [has("force"), has("velocity"), has("infinite"), has("gap")] {
+            [true, false, false, false] => End::Force(reader.list("force")?),
+            [false, true, false, false] => End::Velocity(reader.list("velocity")?),
+            [false, velocity, false, true] => {
+                let velocity = if velocity { reader.list("velocity")? } else { Vec::new() };
+                End::Ground { gap: gap.unwrap_or_else(|| 0.into()), velocity }
+            }
+            [false, false, true, _] => End::Infinite { impedance: reader.plain_number("infinite")?, gap },
+            _ => {
+                let expected = "one of a force, a velocity, a gap of a rigid stop (which may have a velocity), or \
+                     infinite = Z with a gap or without";
+                let found = format!(
+                    "{name} of [ends] with {}",
+                    table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(" and ")
+                );
+                return Err(self.error(key.span(), Kind::Contradiction, found, expected));
+            }
+        }))
+    }
+
+    /// Returns the error of a chain, at its place: `body[1].velocity[2].x`, `ends.top`.
+    fn placed(&self, error: ProblemError) -> SceneError {
+        let ProblemError { kind, path, found, expected } = error;
+        let body = path.strip_prefix("body[").and_then(|rest| rest.split_once("]."));
+        let span = match body {
+            Some((index, key)) => {
+                let tables = self.bodies().unwrap_or_default();
+                index.parse().ok().and_then(|index: usize| tables.get(index).cloned()).map(|(table, span)| {
+                    let key = key.split('[').next().unwrap_or(key);
+                    Reader { document: table, ..*self }.get(key).map_or(span, |(_, value)| value.span())
+                })
+            }
+            None => self.get(path.split('[').next().unwrap_or(&path)).map(|(_, value)| value.span()),
+        };
+        self.error(span.unwrap_or(0..0), kind, found, expected)
+    }
+}
