@@ -1,13 +1,15 @@
 //! The closed form of the first contact in numbers with bounds, roundings of times included.
 
 use super::bounds::bounded_piece;
+use super::effort::MOST_DIGITS;
 use super::uncertainty::{meant, within};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::motion::moments::Moments;
-use crate::motion::{Contact, Course, Field, Motion, Pair, Scales, Side, StressPiece};
+use crate::motion::{Contact, Course, Ending, Field, Motion, Pair, Scales, Side, StressPiece};
 use crate::number::{Answer, Estimate, Rounded, Scalar};
 use crate::problem::{Parameters, Problem, Run};
+use crate::reason::Reason;
 use crate::special::RoundedSpecial;
 
 /// The damped rod with the paper's initial data, through its first contact: a [`ContactHistory`] whose answers include
@@ -49,6 +51,14 @@ impl<S: RoundedSpecial> EstimatedContact<S> {
             |found: Contact<Estimate<S>>| Contact { peak_strain: within(found.peak_strain.value(), strain), ..found };
         let contacts = known.contacts.into_iter().map(bounded).collect();
         Ok(EstimatedContact { error, strain, course: Course { contacts, ..known }, contact })
+    }
+
+    /// Ends the run at the release, after which a march would need too many digits.
+    pub(crate) fn without_flight(mut self) -> Self {
+        if self.contact.rebound().is_some() && self.course.events.len() > 1 {
+            self.course.ending = Ending::Undecided(Reason::MostDigits(MOST_DIGITS as u32));
+        }
+        self
     }
 
     /// Returns the time of the nearest event if `time` differs from it by roundings alone; otherwise `time`, rounded.

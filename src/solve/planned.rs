@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::ladder::Engined;
 use super::plan::{Engine, LONG, Plan};
-use crate::cells::{Damped, EstimatedContact, Task};
+use crate::cells::{Damped, EstimatedContact, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -43,7 +43,13 @@ pub(super) fn estimates<S: RoundedSpecial>(
             }
             match plan.engine {
                 // A contact that never ends is known at all times.
-                Engine::Cells if matches!(bounce, Bounce::At { .. }) => marched(&march)?,
+                Engine::Cells if matches!(bounce, Bounce::At { .. }) => {
+                    if task.effort.digits > MOST_DIGITS {
+                        let contact = EstimatedContact::<S>::new(problem, precision, bounce)?;
+                        return Ok(Arc::new(contact.without_flight()));
+                    }
+                    marched(&march)?
+                }
                 Engine::ClosedForm if !plan.settles_events => Arc::new(ContactHistory::new(contact, bounce, None)?),
                 _ => Arc::new(EstimatedContact::<S>::new(problem, precision, bounce)?),
             }
