@@ -48,7 +48,7 @@ impl<N: Bounded> ChainRun<N> {
         };
         let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
         for at in 0..nodes.len() {
-            match nodes[at].begin(&mut waves) {
+            match nodes[at].begin(&until, &mut waves) {
                 Ok(occurrence) => record(at, occurrence, &mut events),
                 Err(Stop::Open) => (ending, end) = (open(), until.zero()),
                 Err(Stop::Irrational { .. }) => return Err(Error::Open(Open)),
@@ -66,7 +66,7 @@ impl<N: Bounded> ChainRun<N> {
             if nodes[at].key > last * (1.0 + 1e-12) {
                 break;
             }
-            match nodes[at].process(&until, &mut waves) {
+            match nodes[at].process(&mut waves) {
                 Ok(None) => nodes[at].key = f64::INFINITY,
                 Ok(Some((t, occurrence))) => {
                     record(at, occurrence, &mut events);

@@ -92,6 +92,8 @@ pub(super) struct Node<N> {
     leaving: Leaving<N>,
     /// The states of the node, in order; empty before the start.
     pub(super) stages: Vec<Stage<N>>,
+    /// The end of the run.
+    until: N,
     gap: N,
     closed: bool,
     /// Whether the gap of an open contact is zero.
@@ -151,7 +153,35 @@ impl<N: Bounded> Node<N> {
         let sides = [Arrival::new(below, first, &gap), Arrival::new(above, second, &gap)];
         let (stages, root) = (Vec::new(), Root::None);
         let leaving = mix.leaving(law, false, sides.each_ref().map(|side| &side.line));
-        Node { sides, law, mix, leaving, stages, gap, closed: false, resting: false, root, key: 0.0, doubt: None }
+        let until = gap.zero();
+        Node {
+            sides,
+            law,
+            mix,
+            leaving,
+            stages,
+            until,
+            gap,
+            closed: false,
+            resting: false,
+            root,
+            key: 0.0,
+            doubt: None,
+        }
+    }
+
+    /// Notes a doubt if a slope that may be other than zero can bring an event before the end of the run.
+    fn check_drift(&mut self, drive: &Line<N>, from: &N) -> Result<(), Open> {
+        let flat = Line { intercept: drive.intercept.clone(), slope: drive.slope.taken_for_zero() };
+        let stays = match self.closed {
+            true => flat.value_at(&self.until).negative()?,
+            false if drive.value_at(from).negative()? => true,
+            false => self.resting || (flat.integral(from, &self.until) + &self.gap).positive()?,
+        };
+        if !stays {
+            self.doubts(&flat.slope, from);
+        }
+        Ok(())
     }
 
     /// Returns the states of the node.
@@ -174,7 +204,8 @@ impl<N: Bounded> Node<N> {
     }
 
     /// Lets the signals of the start arrive.
-    pub(super) fn begin(&mut self, waves: &mut [[Wave<N>; 2]]) -> Result<Option<Occurrence<N>>, Stop> {
+    pub(super) fn begin(&mut self, until: &N, waves: &mut [[Wave<N>; 2]]) -> Result<Option<Occurrence<N>>, Stop> {
+        self.until = until.clone();
         for side in 0..2 {
             self.sides[side].line = self.sides[side].first(waves, side);
         }
@@ -199,14 +230,11 @@ impl<N: Bounded> Node<N> {
         above.line.clone().minus(&below.line)
     }
 
-    /// Processes all that happens at the next time of the node; returns `None` if that is after `until`.
-    pub(super) fn process(
-        &mut self,
-        until: &N,
-        waves: &mut [[Wave<N>; 2]],
-    ) -> Result<Option<(N, Option<Occurrence<N>>)>, Stop> {
+    /// Processes all that happens at the next time of the node; returns `None` if that is after the end of the
+    /// run.
+    pub(super) fn process(&mut self, waves: &mut [[Wave<N>; 2]]) -> Result<Option<(N, Option<Occurrence<N>>)>, Stop> {
         let (stored, hits) = self.next_time()?;
-        if until.below(&stored)? {
+        if self.until.below(&stored)? {
             return Ok(None);
         }
         let [below, above, root] = hits;
@@ -411,6 +439,9 @@ impl<N: Bounded> Node<N> {
     /// touches; the form of the root avoids cancellation.
     fn find_root(&mut self, drive: &Line<N>, from: &N) -> Result<Root<N>, Stop> {
         let slope = &drive.slope;
+        if slope.deviation().is_some() && slope.vanishes()? {
+            self.check_drift(drive, from)?;
+        }
         if self.closed {
             return Ok(if slope.positive()? { Root::At(-(drive.intercept.clone() / slope)) } else { Root::None });
         }

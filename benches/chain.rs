@@ -1,0 +1,47 @@
+//! Chains of bars in doubles with bounds: the elements are wave pieces, so that the throughput is breaks per second.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use std::hint::black_box;
+use std::ops::ControlFlow;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use dalembert::Estimate;
+use dalembert::chain::{Body, Chain, ChainRun, End, Joint};
+use dalembert::number::Number;
+
+/// Two bars of impedance 1 and 2 between walls; the second one has this length.
+fn two_bars(length: &str, joint: Joint, until: i64) -> Chain {
+    let number = |text: &str| text.parse::<Number>().unwrap();
+    let wall = || End::Ground { gap: number("0.1"), velocity: Vec::new() };
+    let lower = Body::new(1.into(), 1.into(), 1.into()).with_velocity(number("0.3"));
+    let upper = Body::new(number(length), 1.into(), 2.into()).with_velocity((-1).into());
+    let builder = Chain::builder(lower).bottom(wall()).top(wall()).until(until.into());
+    let builder = match joint {
+        Joint::Contact { gap } => builder.contact(gap, upper),
+        Joint::Bonded => builder.bonded(upper),
+    };
+    builder.build().unwrap()
+}
+
+fn breaks(c: &mut Criterion) {
+    let contact = || Joint::Contact { gap: "0.1".parse().unwrap() };
+    let cases = [
+        ("bonded, 7:5", "5/7", Joint::Bonded, 20),
+        ("in contact, 3:2", "2/3", contact(), 20),
+        ("in contact, 3:2", "2/3", contact(), 40),
+    ];
+    let mut group = c.benchmark_group("chain, a break");
+    for (name, length, joint, until) in cases {
+        let chain = two_bars(length, joint, until);
+        let run = |chain: &Chain| ChainRun::<Estimate<f64>>::new(chain, &(), &|_, _| ControlFlow::Continue(()));
+        let pieces = run(&chain).unwrap().pieces();
+        group.throughput(Throughput::Elements(pieces as u64));
+        group.bench_with_input(BenchmarkId::new(name, until), &chain, |b, chain| {
+            b.iter(|| run(black_box(chain)).unwrap().pieces());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, breaks);
+criterion_main!(benches);
