@@ -47,8 +47,8 @@ impl<N: Bounded> ChainRun<N> {
             }
         };
         let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
-        for at in 0..nodes.len() {
-            match nodes[at].begin(&until, &mut waves) {
+        for (at, node) in nodes.iter_mut().enumerate() {
+            match node.begin(&until, &mut waves) {
                 Ok(occurrence) => record(at, occurrence, &mut events),
                 Err(Stop::Open) => (ending, end) = (open(), until.zero()),
                 Err(Stop::Irrational { .. }) => return Err(Error::Open(Open)),

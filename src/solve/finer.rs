@@ -18,19 +18,16 @@ const MOST_DIGITS: u32 = 240;
 /// Digits of a longer run beyond those of the number.
 const MORE_DIGITS: u32 = 17;
 
-/// The longest run so far, and its digits; `None` for a run that failed.
+/// A run in long numbers; `None` if it failed.
+type LongRun = Option<Arc<TypedHistory<Float>>>;
+
+/// The longest run so far, and its digits.
 #[derive(Debug, Default)]
-pub(super) struct Finer(Mutex<Option<(u32, Option<Arc<TypedHistory<Float>>>)>>);
+pub(super) struct Finer(Mutex<Option<(u32, LongRun)>>);
 
 impl Finer {
     /// Returns a run of `plan` in the digits that `places` need; `None` if the numbers of the plan hold them.
-    pub(super) fn run(
-        &self,
-        problem: &Problem,
-        plan: &Plan,
-        observe: &Observer,
-        places: &[&Places<'_>],
-    ) -> Option<Arc<TypedHistory<Float>>> {
+    pub(super) fn run(&self, problem: &Problem, plan: &Plan, observe: &Observer, places: &[&Places<'_>]) -> LongRun {
         let held = |number: &Number| match plan.numbers {
             Numbers::Double(_) => Estimate::<f64>::spelling(number, &()).spelled_as() != Some(Spelling::Near),
             Numbers::Digits(digits) => number.written_digits() <= digits,
