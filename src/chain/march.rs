@@ -27,7 +27,7 @@ impl<N: Bounded> ChainRun<N> {
     /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
     /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
     /// let run = ChainRun::<Rational>::new(&chain, &(), &|_, _| std::ops::ControlFlow::Continue(()))?;
-    /// assert_eq!(run.events()[0].t, 1.into());
+    /// assert_eq!(run.events()[0].t, Rational::from(1));
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn new(
