@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use dalembert::engine::{Damped, Motion, Undamped};
-use dalembert::{Estimate, Number, Numbers, Plan, Problem, Question, Run, Scene, Solution};
+use dalembert::{Estimate, Number, Numbers, Plan, Problem, Question, Run, Scene, TypedHistory};
 
 /// A rod with c = L = g = 1, t₁ = 2.
 fn rod(damping: &str, speed: &str, run: Run) -> Problem {
@@ -26,10 +26,9 @@ fn periodic(trips: i64) -> Problem {
 
 /// The events of a run in doubles, as planned, and their error.
 fn planned(problem: &Problem, plan: &Plan) -> (usize, f64) {
-    match plan.solve_typed(black_box(problem), std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
-        Solution::Double(motion) => (motion.events().len(), motion.error_estimate()),
-        _ => unreachable!(),
-    }
+    let observe = std::sync::Arc::new(dalembert::engine::unobserved);
+    let motion = TypedHistory::<f64>::solve(black_box(problem), plan, observe).unwrap();
+    (motion.events().len(), motion.error_estimate())
 }
 
 /// Weakly damped real rods with twenty impacts: thousands of round trips between two of them.

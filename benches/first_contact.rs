@@ -42,7 +42,7 @@ fn first_contact(criterion: &mut Criterion) {
     let late = late.to_builder().damping(3).build().unwrap();
     let plan = Plan::of(&late, &Question::first_contact(Numbers::Double(Some(1e-12)))).unwrap();
     criterion.bench_function("t_b to 1e-12, g = 0, R = 3", |b| {
-        b.iter(|| plan.solve_typed(black_box(&late), Arc::new(dalembert::engine::unobserved)).unwrap());
+        b.iter(|| plan.solve(black_box(&late), Arc::new(dalembert::engine::unobserved)).unwrap());
     });
     criterion.bench_function("figure 4, 4 × 1000 speeds", |b| {
         b.iter(|| {

@@ -84,7 +84,7 @@ pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{ChainEffect, ChainScene, Effect, EffectUse, Scene, SceneError, Target, builtin};
-pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, Solution, TypedHistory};
+pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, TypedHistory};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -314,11 +314,12 @@ def _is_numpy(path: str) -> bool:
 
 
 def _doubles(column: Any) -> Array:
-    """Return the column as doubles, or as it is if it has none."""
+    """Return the column as aligned doubles, or as it is if it has none."""
     array, sides = np.asarray(column), {"left": -1, "both": 0, "right": 1}
     try:
         if array.dtype.kind in "OU":
             return np.array([sides.get(value, value) for value in array.tolist()], dtype=float)
-        return array.astype(float, copy=False) if array.dtype.kind in "biuf" else array
+        # An array that another process sent may begin at any byte.
+        return np.require(array, float, "A") if array.dtype.kind in "biuf" else array
     except (TypeError, ValueError):
         return array

@@ -8,7 +8,6 @@ Array = np.ndarray[Any, np.dtype[Any]]
 
 class Given(TypedDict):
     name: str
-    path: str
     number: str | None
     points: list[list[str]]
 
@@ -16,8 +15,6 @@ class ProblemFacts(TypedDict):
     given: list[Given]
     has_fixed_top: bool
     title: str | None
-    units: str
-    accuracy: float | None
     wave_speed: float
     round_trip: float
     damping_ratio: float
@@ -54,6 +51,7 @@ class Report(TypedDict):
     samples: list[list[tuple[str, Array]]]
 
 def main(arguments: list[str]) -> int: ...
+def run_command(arguments: list[str]) -> None: ...
 def scenes() -> list[list[str]]: ...
 def unknown_parameter(name: str) -> str | None: ...
 def sweep(
@@ -62,6 +60,7 @@ def sweep(
 
 class Problem:
     def __new__(cls, first: Mapping[str, Any] | str, *replaced: Mapping[str, Any]) -> Problem: ...
+    def to_toml(self) -> str: ...
     def facts(self) -> ProblemFacts: ...
     def solve(self, digits: Any, exact: Any, certified: Any, accuracy: Any, first_contact: Any) -> History: ...
 

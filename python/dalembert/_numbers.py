@@ -25,8 +25,8 @@ def objects(values: Any) -> Array:
 
 
 def doubles(array: Array) -> Array:
-    """Return an array of ints or floats as contiguous doubles; a float32 is the double of its shortest decimal."""
-    return np.ascontiguousarray(array.astype(str) if is_short(array) else array, dtype=np.float64)
+    """Return an array of ints or floats as contiguous and aligned doubles; a float32 is the double of its shortest decimal."""
+    return np.require(array.astype(str) if is_short(array) else array, np.float64, ["C", "A"])
 
 
 def is_short(array: Array) -> bool:

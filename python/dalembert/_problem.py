@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from fractions import Fraction
 from importlib.metadata import version as _version
@@ -211,12 +210,12 @@ class Problem(Frozen):
         Examples
         --------
         >>> print(Problem(length=1, wave_speed=1, impact_speed="10/3").to_toml())
+        [impact]
+        speed = "10/3"
+        <BLANKLINE>
         [rod]
         length = 1
         wave_speed = 1
-        <BLANKLINE>
-        [impact]
-        speed = "10/3"
         <BLANKLINE>
         [run]
         impacts = 1
@@ -224,16 +223,7 @@ class Problem(Frozen):
         """
         if len(self._made) == 1 and isinstance(self._made[0], str):
             return self._made[0]
-        facts = self._compiled.facts()
-        lines = [(given["path"], _toml(given)) for given in facts["given"]]
-        lines += [("rod.top", '"fixed"')] if facts["has_fixed_top"] else []
-        lines += [] if facts["accuracy"] is None else [("run.accuracy", repr(facts["accuracy"]))]
-        head = {"title": self.title, "units": facts["units"] if facts["units"] != "SI" else None}
-        blocks = {"": [f"{key} = {json.dumps(word, ensure_ascii=False)}\n" for key, word in head.items() if word]}
-        for path, value in lines:
-            table, key = path.split(".")
-            blocks.setdefault(table, [f"[{table}]\n"]).append(f"{key} = {value}\n")
-        return "\n".join("".join(block) for block in blocks.values() if block)
+        return self._compiled.to_toml()
 
     def __repr__(self) -> str:
         return f"Problem({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
@@ -278,17 +268,6 @@ class Problem(Frozen):
 
         question = (digits, exact, certified, accuracy, first_contact)
         return History(self._compiled.solve(*question), self, question)
-
-
-def _toml(given: _core.Given) -> str:
-    if given["number"] is None:
-        return f"[{', '.join(f'[{_quoted(x)}, {_quoted(v)}]' for x, v in given['points'])}]"
-    return _quoted(given["number"])
-
-
-def _quoted(number: str) -> str:
-    # A TOML integer has at most 64 bits, and a fraction is a text.
-    return f'"{number}"' if "/" in number or len(number) > 15 else number
 
 
 def _problem(*made: Any) -> Problem:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 from fractions import Fraction
 from typing import Any
 
+from . import _core
 from ._history import History
 from ._numbers import Maybe, Names, Numbers, Side, objects
 from ._problem import Problem, Scene
@@ -184,16 +183,17 @@ def write_reference(
     }  # fmt: skip
     flags = [flag for flag, is_set in (("--exact", exact), ("--certified", certified)) if is_set]
     with tempfile.TemporaryDirectory() as folder:
+        files = {"scene": Problem.from_scene(scene).to_toml()}
         if t is not None:
-            listed["--times-from"] = os.path.join(folder, "times")
-            times = "".join(f"{time}\n" for time in objects(t).ravel().tolist())
-            pathlib.Path(listed["--times-from"]).write_text(times, encoding="utf-8")
+            files["t"] = "".join(f"{time}\n" for time in objects(t).ravel().tolist())
+            listed["--times-from"] = os.path.join(folder, "t")
+        for name, text in files.items():
+            pathlib.Path(folder, name).write_text(text, encoding="utf-8")
         arguments = [f"{option}={value}" for option, value in listed.items()] + flags
-        run = subprocess.run(
-            [sys.executable, "-m", "dalembert", "reference", "-", "-o", os.path.abspath(path), *arguments],
-            input=Problem.from_scene(scene).to_toml(), capture_output=True, encoding="utf-8",
-            cwd=pathlib.Path(__file__).parents[1],
-        )  # fmt: skip
-    if run.returncode:
-        text = run.stderr.removeprefix("error: ").split("\n\nFor more information")[0]
-        raise ValueError(text.replace(os.path.join(folder, "times"), "t").strip())
+        try:
+            _core.run_command(
+                ["reference", os.path.join(folder, "scene"), "-o", os.path.abspath(path), "--quiet", *arguments]
+            )
+        except ValueError as error:
+            text = str(error).removeprefix("error: ").split("\n\nFor more information")[0]
+            raise ValueError(text.replace(folder + os.sep, "").strip()) from None

@@ -99,7 +99,7 @@ impl Comparison {
         };
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
         let (rod, accuracy) = (problem.problem.clone(), problem.accuracy);
-        let units = Units::of(&rod, problem.units);
+        let units = Units::new(&rod, problem.units);
         let (stop, in_run) = (Arc::default(), units.clone());
         let observe = observer(&stop);
         let compared =

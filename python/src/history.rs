@@ -3,11 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use dalembert::engine::Motion;
-use dalembert::number::Scalar;
+use dalembert::engine::Scales;
 use dalembert::quantity::{Needs, SLICE, Slice};
-use dalembert::solve::{Derivatives, Solution, Target, TypedHistory, Visitor};
-use dalembert::{Derivative, Error, Estimate, Parameter, Quantity, Side, Units, Value};
+use dalembert::solve::Derivatives;
+use dalembert::{Derivative, Error, Numbers, Parameter, Quantity, Side, Value};
 use dalembert_plot::Drawing;
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
@@ -125,39 +124,6 @@ struct Facts {
     scales: [f64; 5],
 }
 
-struct NaturalScales;
-
-impl Visitor for NaturalScales {
-    type Output = [f64; 5];
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> [f64; 5] {
-        let scales = history.scales().map(|scale| scale.to_f64());
-        [scales.time, scales.velocity, scales.length, scales.wave_speed, scales.gravity]
-    }
-}
-
-/// The sheet of pictures, as SVG, in these units.
-struct Sheet(Units);
-
-impl Visitor for Sheet {
-    type Output = Result<String, Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        Ok(Drawing::default().draw(history, self.0)?.svg)
-    }
-}
-
-/// The first and the last time of the sheet.
-struct Span;
-
-impl Visitor for Span {
-    type Output = Result<[f64; 2], Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        Drawing::default().drawn_span(history)
-    }
-}
-
 /// Tables of a history, by name: a row for each event, contact, flight, or piece of the stress at the ground.
 const TABLES: [(&str, Needs); 4] = [
     ("events", Needs::Event),
@@ -200,19 +166,20 @@ impl History {
 impl History {
     fn facts(&self) -> Facts {
         let history = &*self.history;
-        let numbers = match history.typed() {
-            Solution::Double(_) => "double",
-            Solution::Exact(_) => "exact",
-            Solution::Digits(..) | Solution::DigitsAfter(..) => "digits",
-            Solution::Certified(..) => "certified",
+        let numbers = match history.plan().numbers {
+            Numbers::Double(_) => "double",
+            Numbers::Exact | Numbers::ExactThenDigits(_) => "exact",
+            Numbers::Digits(_) => "digits",
+            Numbers::Certified(_) => "certified",
         };
+        let Scales { time, velocity, length, wave_speed, gravity } = history.scales();
         Facts {
             numbers,
             question: history.plan().numbers.to_string(),
             end: Cell::from(&history.end()),
             ending: history.ending().to_string(),
             engine: history.plan().engine.to_string(),
-            scales: history.visit(NaturalScales),
+            scales: [time, velocity, length, wave_speed, gravity],
         }
     }
 
@@ -228,12 +195,14 @@ impl History {
 
     /// Returns the sheet of pictures of the scene, as SVG.
     fn sheet(&self, py: Python<'_>) -> PyResult<String> {
-        self.ask(py, |history| history.visit(Sheet(history.units().clone())))
+        self.ask(py, |history| {
+            history.in_doubles(|doubles| Ok(Drawing::default().draw(doubles, history.units().clone())?.svg))?
+        })
     }
 
     /// Returns the first and the last time of that sheet.
     fn span(&self, py: Python<'_>) -> PyResult<[f64; 2]> {
-        self.ask(py, |history| history.visit(Span))
+        self.ask(py, |history| history.in_doubles(|doubles| Drawing::default().drawn_span(doubles))?)
     }
 
     /// Returns the kind of each event, and the bound of the error of its time.
@@ -314,16 +283,14 @@ impl History {
         let quantities = named(quantities, Needs::Time)?;
         let (times, side) = (Given::new("time", times)?, side.map(side_of).transpose()?);
         self.ask(py, move |history| {
-            if let (Solution::Double(typed), Given::Doubles(times)) = (history.typed(), &times) {
+            if let (true, Given::Doubles(times)) = (history.end().is_double(), &times) {
                 // A million doubles take a quarter less time than a million values.
-                let lift = |motion: &dyn Motion<Estimate<f64>>| {
-                    Ok(times.iter().map(|time| motion.end().double(*time)).collect())
-                };
-                let columns =
-                    typed.ask_columns(&quantities, side, lift)?.into_iter().map(|column: Vec<Estimate<f64>>| {
-                        Column::Doubles(column.iter().map(|number| *number.value()).collect())
-                    });
-                return Ok(quantities.iter().map(|quantity| quantity.name()).zip(columns).collect());
+                let columns = history.in_doubles(|doubles| doubles.columns(&quantities, times, side))??;
+                return Ok(quantities
+                    .iter()
+                    .map(|it| it.name())
+                    .zip(columns.into_iter().map(Column::Doubles))
+                    .collect());
             }
             let columns = history.sample(&quantities, &times.places(), side)?;
             Ok(Column::all(&quantities, &columns, history.end().is_double()))

@@ -74,6 +74,13 @@ mod _core {
         [0, 1].into_iter().find(|known| code == std::process::ExitCode::from(*known)).unwrap_or(2)
     }
 
+    /// Runs the command `dalembert` on `arguments` after the name of the program; a failure is a `ValueError`.
+    #[pyfunction]
+    fn run_command(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> PyResult<()> {
+        let arguments = std::iter::once("dalembert".into()).chain(arguments);
+        super::run(py, &Default::default(), move || dalembert_cli::try_main(arguments).map(drop))
+    }
+
     /// Returns names, summaries and texts of the built-in scenes.
     #[pyfunction]
     fn scenes() -> Vec<[&'static str; 3]> {

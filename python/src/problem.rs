@@ -18,8 +18,6 @@ use super::{observer, run};
 #[derive(IntoPyObject)]
 struct Given {
     name: &'static str,
-    /// Path in a scene file.
-    path: &'static str,
     number: Option<String>,
     points: Vec<[String; 2]>,
 }
@@ -30,8 +28,6 @@ struct Facts {
     given: Vec<Given>,
     has_fixed_top: bool,
     title: Option<String>,
-    units: &'static str,
-    accuracy: Option<f64>,
     wave_speed: f64,
     round_trip: f64,
     damping_ratio: f64,
@@ -79,7 +75,6 @@ impl Problem {
         let problem = &self.problem;
         let given = Parameter::ALL.iter().map(|parameter| Given {
             name: parameter.name(),
-            path: parameter.path(),
             number: parameter.given(problem).map(|number| number.to_string()),
             points: parameter
                 .list(problem)
@@ -94,13 +89,18 @@ impl Problem {
             given: given.filter(|given| given.number.is_some() || !given.points.is_empty()).collect(),
             has_fixed_top: problem.top() == Top::Fixed,
             title: self.title.clone(),
-            units: UnitSystem::ALL.iter().find(|(_, system)| *system == self.units).map_or("", |(word, _)| word),
-            accuracy: self.accuracy,
             wave_speed: parameters.wave_speed,
             round_trip: parameters.round_trip(),
             damping_ratio: groups.damping_ratio,
             speed_ratio: groups.speed_ratio,
         })
+    }
+
+    /// Returns the problem as a scene file.
+    fn to_toml(&self) -> String {
+        let mut scene = Scene::from(self.problem.clone());
+        (scene.title, scene.units, scene.accuracy) = (self.title.clone(), self.units, self.accuracy);
+        scene.to_toml()
     }
 
     /// Solves the problem in the numbers that are asked for, through the first contact alone or the whole run.

@@ -51,6 +51,12 @@ def same(ours, theirs, bound=math.inf) -> None:
         assert theirs == 0 and abs(ours) <= bound, (ours, theirs)
 
 
+def until(scene, last):
+    """The end of the run in which the command answers up to `last`: it follows a damped rod for a quarter of a round
+    trip more, so that its last strip ends later."""
+    return float(last) + 0.5 if scene == "figure-4-r02" else last
+
+
 def near(ours, theirs, scale) -> None:
     if theirs is None:
         assert ours is np.ma.masked
@@ -130,7 +136,7 @@ def test_values_at_times(command, scene, side):
     times = list(map(repr, np.linspace(0.05, 1.9, 38).tolist()))
     listed = ",".join(times)
     # As the command does, a history for each quantity: an answer may leave longer numbers for those after it.
-    history = lambda: dalembert.solve(scene, to=times[-1])
+    history = lambda: dalembert.solve(scene, to=until(scene, times[-1]))
     x = [0, history().scales["length"] / 2]
     ours = {
         "strain": [history().strain(times, side)],
@@ -158,7 +164,7 @@ def test_values_at_times(command, scene, side):
 def test_means_and_projections(command, scene, kind):
     times = [0.3, 1.25, 1.9]
     x = np.linspace(0, dalembert.solve(scene).scales["length"], 5)
-    ours = dalembert.solve(scene, to=times[-1]).grid(x, times, kind=kind)
+    ours = dalembert.solve(scene, to=until(scene, times[-1])).grid(x, times, kind=kind)
     listed = [",".join(map(repr, map(float, values))) for values in (times, x)]
     asked = ("--times", listed[0], "--points", listed[1], "--field", kind, "--format", "json")
     found = json.loads(command("reference", scene, *asked).stdout)

@@ -135,6 +135,22 @@ def test_comparisons_are_pickled(run):
     assert found.report == dalembert.compare(SCENE, data, to=6).report
 
 
+def test_arrays_may_begin_at_any_byte(run):
+    _, data = run
+    unaligned = {}
+    for name, column in data.items():
+        shifted = np.empty(8 * len(column) + 1, np.uint8)[1:].view(np.float64)
+        shifted[:] = column
+        assert not shifted.flags.aligned
+        unaligned[name] = shifted
+    expected, found = (dalembert.compare(SCENE, source, to=6) for source in (data, unaligned))
+    assert found.table() == expected.table()
+    times = np.empty(17, np.uint8)[1:].view(np.float64)
+    times[:] = [0.5, 1.5]
+    history = dalembert.solve(SCENE, to=6)
+    np.testing.assert_array_equal(history.strain(times, "right"), history.strain([0.5, 1.5], "right"))
+
+
 def of(values, **options):
     return lambda: dalembert.compare(ROD, T, values, **{"quantity": "u", **options})
 

@@ -278,9 +278,6 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
         let time = meant(&self.course.events, time);
-        if let (Pair::Centre, Some(flight)) = (pair, self.first_flight(time)) {
-            return Ok(flight.flight(&time.value().carry()).into());
-        }
         Ok(match pair {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;

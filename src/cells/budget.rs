@@ -176,7 +176,6 @@ impl Budget {
         self.add(differ);
         self.covered += differ;
         self.began.0 += differ;
-        self.flight.known = None;
     }
 
     /// Returns the error of `p` and `q`, except next to displaced rays; in contact at equal times since the landing.
@@ -199,10 +198,7 @@ impl Budget {
 
     /// Returns the error of `h′` in a separated flight and at its ends.
     fn rate(&self) -> f64 {
-        let since = (self.even - self.began.0).max(0.0);
-        let loose = self.mean_of(self.even) + self.rest.mean;
-        let known = self.flight.known.map(|known| known + self.mean_of(since));
-        self.events.rate.bound() + known.map_or(loose, |known| known.min(loose))
+        self.events.rate.bound() + self.mean_of(self.even) + self.rest.mean
     }
 
     /// Bounds the error of `h′ = ∫ e^{R(η−b)} q dη` for the error `even` of `q`.
@@ -271,9 +267,7 @@ impl Budget {
     fn not_followed(&self, age: f64) -> f64 {
         let ((even, Rest { wave, mean, .. }), grown) = (self.began, self.damping.exp());
         let (_, slowed) = aged(self.damping, age);
-        let loose = self.mean_of(even) + mean;
-        let rate = self.flight.known.map_or(loose, |known| known.min(loose));
-        let apart = slowed * rate + grown * (1.0 + grown) * wave + 0.5 * grown * even;
+        let apart = slowed * (self.mean_of(even) + mean) + grown * (1.0 + grown) * wave + 0.5 * grown * even;
         let left = 1.0 - 0.5 * self.damping;
         let passed = if age < LEAST_LEAP && left > 0.0 {
             grown * (even * age + wave * age.ceil() / left)
@@ -416,7 +410,7 @@ impl Budget {
                 0.0
             }
             None => {
-                self.events.add_late(flight.off);
+                self.events.release_late(flight.off, flight.fall);
                 self.events.start_stripe(flight.at, flight.jump.1);
                 4.0 * r.exp() * self.events.mass()
             }

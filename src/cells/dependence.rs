@@ -85,8 +85,6 @@ pub(super) struct TakeOff {
     pub(super) end_rate: f64,
     /// `h″`.
     pub(super) fall: f64,
-    /// Error of `h′`, if it is known otherwise.
-    pub(super) known: Option<f64>,
 }
 
 /// The dependence of a landing on the flight before it, and of the contact after it on the landing.
@@ -384,10 +382,11 @@ impl Dependence {
         self.rate.depend(source, size);
     }
 
-    /// Adds a source of the time of the last event.
-    pub(super) fn add_late(&mut self, size: f64) {
+    /// Adds a source of the time of a release before which nothing was followed: `δh′ = h″ ℓ`, with `h″ = fall`.
+    pub(super) fn release_late(&mut self, size: f64, fall: f64) {
         let source = self.source();
         self.late.depend(source, size);
+        self.rate.add(fall, &self.late);
     }
 
     /// Starts a ray at the place `at` with the last event, on which p jumps by `jump`.

@@ -25,9 +25,6 @@ impl Effort {
 
 /// Maximum number of digits of a march.
 pub(crate) const MOST_DIGITS: f64 = 300.0;
-/// Round-trip limits for marching over a first contact: always up to the first limit, and up to the second if the march
-/// is more accurate than the closed form.
-pub(crate) const MARCHED_TRIPS: [f64; 2] = [4.0, 64.0];
 
 /// Input of a run: the problem, the precision of its numbers, the limits, and an observer of its progress.
 pub(crate) struct Task<'a, S: Scalar> {

@@ -182,7 +182,6 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             jump: (velocity - last, velocity + last),
             end_rate: velocity - rate,
             fall,
-            known: None,
         };
         let rounding = LEAP_CELLS * self.cell_error;
         self.budget.take_off(begins, rounding);

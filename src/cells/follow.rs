@@ -5,7 +5,6 @@
 //! falling, is no landing: the flight goes on.
 
 use super::account::Proof;
-use super::bounce::Held;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, MOST_LATE};
 use super::effort::{MOST_PIECES, MOST_SEGMENTS, Task};
 use super::flight::Flight;
@@ -17,7 +16,6 @@ use super::start::{Data, on_grid};
 use super::uncertainty::{Off, Uncertainty};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
-use crate::number::Estimate;
 use crate::problem::Run;
 use crate::reason::{Near, Reason, Warning};
 use crate::special::RoundedSpecial;
@@ -45,7 +43,6 @@ impl<S: RoundedSpecial> Goal<S> {
 pub(super) struct Follower<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
-    pub(super) held: Option<&'a Held<S>>,
     /// `q` of the deviation from the static state, or of the vibration in a separated flight.
     pub(super) state: State<S>,
     pub(super) contact: bool,
@@ -112,41 +109,11 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         follower
     }
 
-    /// Builds the state of a run at the first release, from the state there and its error bound; the end leaves with
-    /// `velocity`, the time has the error `time_error`, and `h′` is `rate`.
-    pub(super) fn released(
-        medium: &'a Medium<S>,
-        data: &'a Data<S>,
-        held: &'a Held<S>,
-        state: (State<S>, f64),
-        (velocity, time_error): (S, f64),
-        rate: &Estimate<S>,
-    ) -> Self {
-        let (mut state, error) = state;
-        let off = Off { fixed: time_error, apart: time_error };
-        state.segments[0].off = off;
-        let mut follower = Self::with(medium, data, state);
-        follower.held = Some(held);
-        follower.landed = 1;
-        follower.budget.add(error);
-        follower.budget.rays = time_error;
-        follower.let_go(&velocity, off, None);
-        if let Some(flight) = follower.flying() {
-            let off = (flight.rate.clone() - rate.value()).to_f64().abs() + rate.bound();
-            follower.budget.flight.known = Some(off);
-        }
-        let at = follower.at_event();
-        let mark = Mark::new(EventKind::Release, held.release.clone(), velocity);
-        follower.marks.push(Mark { time_error, at, ..mark });
-        follower
-    }
-
     /// Builds the state of a run in flight at height zero, without errors.
     fn with(medium: &'a Medium<S>, data: &'a Data<S>, state: State<S>) -> Self {
         let mut follower = Follower {
             medium,
             data,
-            held: None,
             state,
             contact: false,
             landed: 0,

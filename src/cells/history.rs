@@ -1,12 +1,11 @@
 //! Solution of the damped problem, and its values.
 
 use super::account::Proof;
-use super::bounce::Held;
 use super::budget::AtEvent;
 use super::effort::{Effort, Task};
 use super::flight::Flight;
 use super::follow::Follower;
-use super::march::{Medium, State};
+use super::march::Medium;
 use super::piece::{Checkpoint, Found, Mark, Piece};
 use super::record::Record;
 use super::root::smallest;
@@ -15,7 +14,6 @@ use super::start::{Data, medium};
 use super::strips::{Line, Node, Pool};
 use super::uncertainty::{Uncertainty, within};
 use crate::error::Error;
-use crate::first_contact::{FirstContact, Rebound};
 use crate::motion::{Course, Ending, Event, Field, Scales, Side, StressPiece, moments, unobserved};
 use crate::number::Estimate;
 use crate::problem::{Problem, Run};
@@ -50,13 +48,10 @@ pub struct Damped<S> {
     pub(super) medium: Medium<S>,
     pub(super) data: Data<S>,
     pub(super) scales: Scales<f64>,
-    held: Option<Held<S>>,
     pieces: Vec<Piece<S>>,
     checkpoints: Vec<Checkpoint<S>>,
     flights: Vec<Flight<S>>,
     pub(super) course: Course<Estimate<S>>,
-    /// Motion of the centre of mass after the release that begins the run.
-    pub(super) rebound: Option<Rebound<Estimate<S>>>,
     /// Error bounds before the first event, and after each event.
     pub(super) uncertain: Vec<Uncertainty>,
     /// Error bounds at each event, where better ones are known.
@@ -89,44 +84,12 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(crate) fn march(task: &Task<'_, S>, shorten: i64, proves: bool) -> Result<Self, Error> {
         let (medium, data) = medium(task.problem, task.precision, task.effort.digits, shorten)?;
         let found = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium))).run(task)?;
-        Self::record_of(task, (medium, data), None, found)
-    }
-
-    /// Solves for the motion after the first release at `time`, known to `time_error`, with the velocity `leaves` of
-    /// the end and `h′` as in `rate`.
-    ///
-    /// The first event is that release; queries before it are not allowed.
-    pub(super) fn after_bounce(
-        task: &Task<'_, S>,
-        contact: &FirstContact<Estimate<S>>,
-        (time, time_error, leaves): (&S, f64, &S),
-        rate: &Estimate<S>,
-    ) -> Result<Self, Error> {
-        let (medium, data) = medium(task.problem, task.precision, task.effort.digits, 1)?;
-        let held = Held::until(contact, &data, time);
-        let state = held.state(&medium, &data);
-        let unit = &data.units.velocity;
-        let release = (leaves.clone() / unit, time_error / data.units.time.to_f64());
-        let rate = rate.clone() / &Estimate::rounded(unit.clone(), 8.0);
-        Self::released(task, (medium, data), (held, state), (release, rate))
-    }
-
-    /// Solves for the motion after a release from a state and its error bound, with the velocity of the end, the time
-    /// error, and `h′`.
-    pub(super) fn released(
-        task: &Task<'_, S>,
-        (medium, data): (Medium<S>, Data<S>),
-        (held, state): (Held<S>, (State<S>, f64)),
-        (release, rate): ((S, f64), Estimate<S>),
-    ) -> Result<Self, Error> {
-        let found = Follower::released(&medium, &data, &held, state, release, &rate).run(task)?;
-        Self::record_of(task, (medium, data), Some(held), found)
+        Self::record_of(task, (medium, data), found)
     }
 
     pub(super) fn record_of(
         task: &Task<'_, S>,
         (medium, data): (Medium<S>, Data<S>),
-        held: Option<Held<S>>,
         found: Found<S>,
     ) -> Result<Self, Error> {
         let proved = found.proof.is_some();
@@ -138,8 +101,7 @@ impl<S: RoundedSpecial> Damped<S> {
                 (S::from_number(time, task.precision), 0.0)
             }
             _ => {
-                let start = || held.as_ref().map_or_else(|| data.slope.zero(), |held| held.release.clone());
-                let end = pieces.last().map_or_else(start, Piece::to);
+                let end = pieces.last().map_or_else(|| data.slope.zero(), Piece::to);
                 // Other ends than impacts are at rays, or where the run stops.
                 let rays = marks.last().map_or(&before, |mark| &mark.after).rays;
                 let at_ray = rays + 16.0 * end.unit() * (1.0 + end.to_f64());
@@ -149,10 +111,8 @@ impl<S: RoundedSpecial> Damped<S> {
         let mut history = Damped {
             course: Course { warnings, ..Course::new(within(&end, late * data.units.time.to_f64()), ending) },
             scales: data.units.clone().map(|scale| scale.to_f64()),
-            rebound: None,
             medium,
             data,
-            held,
             pieces,
             checkpoints,
             flights,
@@ -180,13 +140,13 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// Returns the initial data if `time` is the left limit at the start.
     fn given_at(&self, point: &S, time: &S, side: Side) -> Result<Option<Field<S>>, Error> {
-        let before = side == Side::Left && time.is_zero() && self.held.is_none();
+        let before = side == Side::Left && time.is_zero();
         Ok(if before { Some(self.data.given.at(point)?) } else { None })
     }
 
     fn record(&self) -> Record<'_, S> {
-        let Damped { medium, data, held, pieces, checkpoints, flights, pool, .. } = self;
-        Record { medium, data, held: held.as_ref(), pieces, checkpoints, flights, pool }
+        let Damped { medium, data, pieces, checkpoints, flights, pool, .. } = self;
+        Record { medium, data, pieces, checkpoints, flights, pool }
     }
 
     /// Converts a time to a dimensionless one.
@@ -419,12 +379,6 @@ impl<S: RoundedSpecial> Damped<S> {
         let drag = damping.int(2) * &damping * &rise;
         let height = log_rest(&drag) * &rise * &release.h_rate;
         Some((release.t.clone() + log_mean(&drag) * &rise, release.h.clone() + height))
-    }
-
-    /// Returns the flight after the release that begins the run, if `time` lies in it.
-    pub(super) fn first_flight(&self, time: &Estimate<S>) -> Option<&Rebound<Estimate<S>>> {
-        let next = self.course.events.get(1);
-        self.rebound.as_ref().filter(|_| next.is_none_or(|next| time.value() <= next.t.value()))
     }
 }
 

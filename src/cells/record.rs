@@ -4,7 +4,6 @@
 //! between, with the known cuts. It costs at most two round trips of cells, less after a query about a time nearby, and
 //! the memory is that of a trace.
 
-use super::bounce::Held;
 use super::cell::Cell;
 use super::flight::Flight;
 use super::march::Medium;
@@ -21,7 +20,6 @@ use crate::special::RoundedSpecial;
 pub(super) struct Record<'a, S> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
-    pub(super) held: Option<&'a Held<S>>,
     pub(super) pieces: &'a [Piece<S>],
     pub(super) checkpoints: &'a [Checkpoint<S>],
     pub(super) flights: &'a [Flight<S>],
@@ -37,7 +35,7 @@ type Values<'a, S> = dyn Fn(&[S]) -> Vec<(S, S, S)> + 'a;
 impl<S: RoundedSpecial> Record<'_, S> {
     /// Visits every cell of the strips that meet `from ≤ ξ ≤ to`, in order of `ξ`, then of `η`.
     fn sweep<'c>(&'c self, from: &S, to: &S, visit: &mut dyn FnMut(Passing<'_, '_, 'c, S>)) {
-        if from.is_negative() && self.held.is_none() {
+        if from.is_negative() {
             self.data.march(self.medium, &mut |cell| visit((cell, None)));
         }
         let first = self.pieces.partition_point(|piece| piece.to() < *from);
@@ -148,12 +146,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
             add(&low, &high, &|places| self.inside((cell, flight), places, t));
         });
-        if let Some(held) = self.held {
-            for (from, to) in held.between_rays(t, &(t.clone() - &held.release).larger(zero.clone()), reach) {
-                let before = |x: &S| self.before(held, x, t, Side::Right);
-                add(&from, &to, &|places| places.iter().map(before).collect());
-            }
-        }
         lines
     }
 
@@ -187,13 +179,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
         found.into_iter().zip(places).map(values).collect()
     }
 
-    /// Computes the same values before the first release.
-    fn before(&self, held: &Held<S>, x: &S, t: &S, side: Side) -> (S, S, S) {
-        let (p, q, _) = held.invariants(self.data, x, t, side);
-        let half = x.ratio(1, 2);
-        (x.zero(), (p.clone() + &q) * &half, (q - p) * half + self.static_strain(x))
-    }
-
     /// Computes the limits of `v_t` and `v_x` at a point from the given side in time.
     pub(super) fn at(&self, x: &S, t: &S, side: Side) -> (S, S) {
         if let Some(contact) = self.at_rest(t) {
@@ -201,14 +186,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
         }
         let (xi, eta) = (t.clone() - x, t.clone() + x);
         let slack = slack(t, 8);
-        let first = |held: &&Held<S>| match side {
-            Side::Right => xi < held.release.clone() - &slack,
-            Side::Left => xi <= held.release.clone() + &slack,
-        };
-        if let Some(held) = self.held.filter(first) {
-            let (_, velocity, strain) = self.before(held, x, t, side);
-            return (velocity, strain);
-        }
         // The last cell that has begun, or the first cell if none has.
         let begun = |corner: &S, at: &S| match side {
             Side::Right => *corner <= at.clone() + &slack,
@@ -255,10 +232,8 @@ impl<S: RoundedSpecial> Record<'_, S> {
             }
         });
         for (t, values) in times.iter().zip(values.chunks_mut(points.len())) {
-            let rests = self.at_rest(t).is_some();
-            for (x, value) in points.iter().zip(values) {
-                let held = self.held.filter(|held| t.clone() - x < held.release.clone() - &slack);
-                if rests || held.is_some() {
+            if self.at_rest(t).is_some() {
+                for (x, value) in points.iter().zip(values) {
                     *value = self.at(x, t, Side::Right);
                 }
             }

@@ -32,10 +32,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         if slope < 0.0 {
             return None;
         }
-        let held = self.held;
         let (pieces, checkpoints, flights) = (&self.pieces, &self.checkpoints, &self.flights);
         let pool = &Pool::default();
-        let record = Record { medium, data, held, pieces, checkpoints, flights, pool };
+        let record = Record { medium, data, pieces, checkpoints, flights, pool };
         let t = self.state.time();
         let nodes = record.line(&t, &t.ratio(1, 2));
         let sum = |f: &dyn Fn(f64, f64, f64) -> f64| -> f64 {

@@ -27,7 +27,7 @@ impl<N: Bounded> ChainRun<N> {
     /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
     /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
     /// let run = ChainRun::<Rational>::new(&chain, &(), &|_, _| std::ops::ControlFlow::Continue(()))?;
-    /// assert_eq!(run.events()[0].t, 1.into());
+    /// assert_eq!(run.events()[0].t, Rational::from(1));
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn new(
@@ -47,8 +47,8 @@ impl<N: Bounded> ChainRun<N> {
             }
         };
         let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
-        for at in 0..nodes.len() {
-            match nodes[at].begin(&until, &mut waves) {
+        for (at, node) in nodes.iter_mut().enumerate() {
+            match node.begin(&until, &mut waves) {
                 Ok(occurrence) => record(at, occurrence, &mut events),
                 Err(Stop::Open) => (ending, end) = (open(), until.zero()),
                 Err(Stop::Irrational { .. }) => return Err(Error::Open(Open)),

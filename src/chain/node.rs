@@ -69,6 +69,9 @@ pub(super) struct Occurrence<N> {
     pub(super) drive: [N; 2],
 }
 
+/// Time that a node has reached, and the occurrence at it.
+pub(super) type Processed<N> = (N, Option<Occurrence<N>>);
+
 /// Reason that a node cannot continue.
 pub(super) enum Stop {
     /// An undecided comparison.
@@ -232,7 +235,7 @@ impl<N: Bounded> Node<N> {
 
     /// Processes all that happens at the next time of the node; returns `None` if that is after the end of the
     /// run.
-    pub(super) fn process(&mut self, waves: &mut [[Wave<N>; 2]]) -> Result<Option<(N, Option<Occurrence<N>>)>, Stop> {
+    pub(super) fn process(&mut self, waves: &mut [[Wave<N>; 2]]) -> Result<Option<Processed<N>>, Stop> {
         let (stored, hits) = self.next_time()?;
         if self.until.below(&stored)? {
             return Ok(None);

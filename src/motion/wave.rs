@@ -176,7 +176,9 @@ impl<S: Scalar> Waves<S> {
         let begun = self.pieces.partition_point(|piece| s.below(&piece.from) == Ok(false));
         self.pieces[begun.max(1) - 1].at(s)
     }
+}
 
+impl<S> Waves<S> {
     /// Returns all numbers of both waves.
     pub fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);

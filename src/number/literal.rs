@@ -54,6 +54,11 @@ impl Number {
         self.value
     }
 
+    /// Returns the number of digits in which the number is written, those of an exponent included.
+    pub(crate) fn written_digits(&self) -> u32 {
+        self.text.bytes().filter(u8::is_ascii_digit).count() as u32
+    }
+
     /// Returns whether the number is zero.
     pub fn is_zero(&self) -> bool {
         self.value == 0.0

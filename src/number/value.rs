@@ -75,7 +75,12 @@ impl Value {
         let number: Estimate<f64> = match &self.stored {
             Stored::Double(number) => number.clone(),
             Stored::Enclosure(number) => Reads::read((**number).clone()),
-            Stored::Float(number) => Reads::read((**number).clone()),
+            Stored::Float(number) => {
+                let mut double: Estimate<f64> = Reads::read((**number).clone());
+                // The shortest decimal of a double is within one rounding of it.
+                double.widen(double.value().abs());
+                double
+            }
             Stored::Fraction(number) => Reads::read((**number).clone()),
         };
         number.into()

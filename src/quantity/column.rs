@@ -7,12 +7,12 @@ use crate::motion::{Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::threads::Threads;
 
-/// The values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
+/// Returns the values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
 /// of them differ, a time has two rows, the limit from earlier times first.
 ///
 /// **Accuracy**: that of the history's answers, and one rounding for each factor.
 ///
-/// **Errors**: what the history cannot answer; [`Error::NotOverTime`].
+/// **Errors**: those of the history; [`Error::NotOverTime`].
 pub fn columns<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
@@ -23,19 +23,19 @@ pub fn columns<S: Scalar>(
     if let Some(other) = columns.iter().find(|quantity| quantity.needs() != Needs::Time) {
         return Err(Error::NotOverTime { quantity: other.name() });
     }
-    finite(&motion.end(), times)?;
-    let Asked { sided, plain, places, count } = Asked::of(columns);
+    check_finite(&motion.end(), times)?;
+    let ColumnSources { sided, plain, places, count } = ColumnSources::new(columns);
     let factors = columns.iter().map(|column| column.factor(&motion.scales(), units)).collect::<Vec<_>>();
-    let pushes = if plain.contains(&Source::Impulse) { Some(Pushes::of(motion)) } else { None };
-    side_by_side(times, |times| {
+    let impulse = if plain.contains(&Source::Impulse) { Some(ImpulseCurve::new(motion)) } else { None };
+    in_threads(times, |times| {
         let mut table: Vec<Vec<S>> = columns.iter().map(|_| Vec::with_capacity(times.len())).collect();
         let (mut left, mut right) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for time in times {
             let ask = |sources: &[Source], side: Side, limit: i64, row: &mut Vec<S>| {
                 for source in sources {
-                    match (source, &pushes) {
+                    match (source, &impulse) {
                         (Source::Side, _) => row.push(time.int(limit)),
-                        (Source::Impulse, Some(pushes)) => row.push(pushes.at(time)),
+                        (Source::Impulse, Some(impulse)) => row.push(impulse.at(time)),
                         (source, _) => source.ask(motion, time, side, row)?,
                     }
                 }
@@ -73,9 +73,9 @@ pub fn columns<S: Scalar>(
     })
 }
 
-/// The values of `quantities` along the rod: for every time a row for each point, of nothing
-/// for one beyond the rod or for a time beyond the end.
-pub fn along<S: Scalar>(
+/// Returns the values of `quantities` along the rod: for every time a row for each point, empty where the point is
+/// outside the rod or the time after the end.
+pub(crate) fn columns_along<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantities: &[Quantity],
@@ -88,7 +88,7 @@ pub fn along<S: Scalar>(
     let mut rows = Vec::with_capacity(points.len() * times.len());
     for time in times {
         for point in points {
-            rows.push(match at(motion, units, quantities, (point, time), side) {
+            rows.push(match values_at(motion, units, quantities, (point, time), side) {
                 Err(Error::PointOutside { .. } | Error::TimeOutside { .. }) => {
                     quantities.iter().map(|_| None).collect()
                 }
@@ -99,8 +99,8 @@ pub fn along<S: Scalar>(
     Ok(rows)
 }
 
-/// The values of `quantities` along the rod at a point and a time.
-pub(super) fn at<S: Scalar>(
+/// Returns the values of `quantities` along the rod at a point and a time.
+pub(super) fn values_at<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantities: &[Quantity],
@@ -116,25 +116,25 @@ pub(super) fn at<S: Scalar>(
         .collect())
 }
 
-/// Refuses times that are no numbers, for a history that ends at `end`.
-pub(crate) fn finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
+/// Refuses times that are not finite, for a history that ends at `end`.
+pub(crate) fn check_finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
     let outside = |time: &S| Error::TimeOutside { found: time.text(), end: end.text() };
     times.iter().find(|time| !time.is_finite()).map_or(Ok(()), |time| Err(outside(time)))
 }
 
-/// The questions of each time, and the places of their answers in a row.
-struct Asked {
-    /// Questions that have two limits, which stand first.
+/// Sources of columns, and the places of their answers in a row.
+struct ColumnSources {
+    /// Sources with two limits, which stand first.
     sided: Vec<Source>,
     plain: Vec<Source>,
-    /// The place of each column in a row.
+    /// Place of each column in a row.
     places: Vec<usize>,
-    /// The length of a row.
+    /// Length of a row.
     count: usize,
 }
 
-impl Asked {
-    fn of(columns: &[Quantity]) -> Self {
+impl ColumnSources {
+    fn new(columns: &[Quantity]) -> Self {
         let mut sources: Vec<Source> = columns.iter().map(|column| column.source().0).collect();
         sources.sort_unstable();
         sources.dedup();
@@ -143,20 +143,20 @@ impl Asked {
         let before = |end: usize| asked[..end].iter().map(|source| source.answers()).sum::<usize>();
         let place = |(source, index)| index + before(asked.iter().position(|known| *known == source).unwrap_or(0));
         let places = columns.iter().map(|column| place(column.source())).collect();
-        Asked { places, count: before(asked.len()), sided, plain }
+        ColumnSources { places, count: before(asked.len()), sided, plain }
     }
 }
 
-/// Times that a thread is worth.
-const WORTH: usize = 2048;
+/// Least number of times for which a thread is started.
+const TIMES_PER_THREAD: usize = 2048;
 
-/// The tables of parts of `times`, in one: as many parts as there are cores.
-fn side_by_side<S: Scalar>(
+/// Returns the table of `times`, computed in as many parts as there are cores.
+fn in_threads<S: Scalar>(
     times: &[S],
     rows: impl Fn(&[S]) -> Result<Vec<Vec<S>>, Error> + Sync,
 ) -> Result<Vec<Vec<S>>, Error> {
     let threads = Threads::default();
-    let size = times.len().div_ceil(threads.count()).max(WORTH);
+    let size = times.len().div_ceil(threads.count()).max(TIMES_PER_THREAD);
     if times.len() <= size {
         return rows(times);
     }
@@ -171,9 +171,9 @@ fn side_by_side<S: Scalar>(
     Ok(all)
 }
 
-/// The values of a table, each column brought to about 1 by a power of two, so that one accuracy holds for columns of
-/// different size: 1 is its natural scale, or its greatest value where that is more.
-pub(crate) fn of_one_size<S: Scalar>(
+/// Scales each column of a table to about 1 by a power of two, so that one accuracy holds for columns of different size:
+/// 1 is its natural scale, or its greatest value where that is more.
+pub(crate) fn scaled<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     columns: &[Quantity],
@@ -191,14 +191,14 @@ pub(crate) fn of_one_size<S: Scalar>(
     all
 }
 
-/// Whether two limits are surely the same. Two enclosures that were computed alike are, although their difference
-/// does not show it.
+/// Returns whether two limits are surely the same. Two enclosures that were computed alike are, although their
+/// difference does not show it.
 pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
     a.compare(b).is_ok_and(std::cmp::Ordering::is_eq) || (a.ends(0).is_some() && a.alike(b))
 }
 
 impl Source {
-    /// Its answers, added to the row.
+    /// Adds the answers of the motion to the row.
     fn ask<S: Scalar>(self, motion: &dyn Motion<S>, time: &S, side: Side, row: &mut Vec<S>) -> Result<(), Error> {
         let pair = |(a, b): (S, S)| [a, b];
         match self {
@@ -213,23 +213,23 @@ impl Source {
                 row.extend([energy.total, energy.translational, energy.vibrational]);
             }
             Source::Parts => row.extend(motion.energy_parts(time)?),
-            // The row knows its side, and the pushes the impulse; no other question is one of a time.
+            // The caller adds side and impulse; no other source is one of a time.
             _ => (),
         }
         Ok(())
     }
 }
 
-/// `−c² ∫₀ᵗ v_x(0,s) ds`: pieces of the stress, each with what came before it.
-struct Pushes<S> {
+/// `−c² ∫₀ᵗ v_x(0,s) ds` as a function of time: pieces of the stress, each with the integral before it.
+struct ImpulseCurve<S> {
     pieces: Vec<(StressPiece<S>, S)>,
     stiffness: S,
-    /// A bound of `|v_x(0,·)|`.
+    /// Bound of `|v_x(0,·)|`.
     most: f64,
 }
 
-impl<S: Scalar> Pushes<S> {
-    fn of(motion: &dyn Motion<S>) -> Self {
+impl<S: Scalar> ImpulseCurve<S> {
+    fn new(motion: &dyn Motion<S>) -> Self {
         let stiffness = -motion.scales().wave_speed.square();
         let mut sum = stiffness.zero();
         let with_sum = |piece: StressPiece<S>| {
@@ -243,7 +243,7 @@ impl<S: Scalar> Pushes<S> {
             size(&piece.strain_start).max(size(&piece.strain_end)).max(piece.chebyshev.iter().map(size).sum())
         };
         let most = pieces.iter().map(of).fold(0.0, f64::max);
-        Pushes { pieces, stiffness, most }
+        ImpulseCurve { pieces, stiffness, most }
     }
 
     /// Returns the impulse up to `time`. Near a break of two pieces that the bound of `time` covers, it is widened by

@@ -42,8 +42,8 @@ const PREFIXES: [(&str, i32); 9] =
     [("n", -9), ("µ", -6), ("μ", -6), ("u", -6), ("m", -3), ("c", -2), ("k", 3), ("M", 6), ("G", 9)];
 
 impl Unit {
-    /// A unit with one name: `mm`, `lbf`.
-    fn one(name: &str) -> Option<Self> {
+    /// Returns the unit of one name: `mm`, `lbf`.
+    fn from_name(name: &str) -> Option<Self> {
         let plain = PLAIN.iter().find(|(known, ..)| *known == name);
         let prefixed = |name: &str, ten: i32| {
             let (_, powers, own) = PREFIXED.iter().find(|(known, ..)| *known == name)?;
@@ -56,13 +56,13 @@ impl Unit {
             .or_else(|| PREFIXES.iter().find_map(with))
     }
 
-    /// The unit to a power, times another one.
+    /// Returns the unit times a power of another one.
     fn times(self, other: Self, power: i32) -> Self {
         let powers = [0, 1, 2].map(|k| self.powers[k] + power * other.powers[k]);
         Unit { powers, size: self.size * other.size.powi(power), ten: self.ten + power * other.ten }
     }
 
-    /// Products and quotients of names with powers: `N s/m²`, `kg*m^-1`, `Ns`.
+    /// Parses products and quotients of names with powers: `N s/m²`, `kg*m^-1`, `Ns`.
     fn parse(text: &str) -> Option<Self> {
         let raised = [("**", "^"), ("⁻", "^-"), ("¹", "1"), ("²", "^2"), ("³", "^3"), ("(", " "), (")", " ")];
         let text = raised.iter().fold(text.trim().to_string(), |text, (from, to)| text.replace(from, to));
@@ -77,9 +77,9 @@ impl Unit {
                 let power = if power.is_empty() { 1 } else { power.trim_start_matches('^').parse().ok()? };
                 let two = |at: usize| {
                     let (first, second) = name.split_at_checked(at)?;
-                    Some(Unit::one(first)?.times(Unit::one(second)?, 1))
+                    Some(Unit::from_name(first)?.times(Unit::from_name(second)?, 1))
                 };
-                let unit = Unit::one(name).or_else(|| (1..name.len()).find_map(two))?;
+                let unit = Unit::from_name(name).or_else(|| (1..name.len()).find_map(two))?;
                 whole = whole.times(unit, sign * power);
                 count += 1;
             }
@@ -92,7 +92,7 @@ impl Unit {
 }
 
 impl Conversion {
-    /// The conversion of a number that is in its unit.
+    /// Conversion of a number that is in its unit.
     pub const NONE: Self = Conversion { factor: 1.0, ten: 0 };
 
     /// Returns the conversion from the unit `found` to the unit `expected`, nothing being a unit without dimension;
@@ -103,7 +103,7 @@ impl Conversion {
         (from.powers == to.powers).then_some(conversion)
     }
 
-    /// The number in the other unit.
+    /// Returns the number in the other unit.
     ///
     /// **Accuracy**: one rounding between units of the same system up to `10^22`, two otherwise.
     pub fn apply(self, value: f64) -> f64 {

@@ -25,7 +25,7 @@ pub enum Table {
 }
 
 impl Table {
-    /// The columns, in their order.
+    /// Returns the columns, in their order.
     pub fn quantities(self) -> &'static [Quantity] {
         let needs = match self {
             Table::Events => Needs::Event,
@@ -37,25 +37,8 @@ impl Table {
     }
 }
 
-/// The columns of a table. A value that there is not, such as the release of a contact that lasts, is `None`.
-pub type Columns<S> = Vec<(Quantity, Vec<Option<S>>)>;
-
-/// The columns of `table`, in units of the problem.
-///
-/// **Accuracy**: that of the history's answers, and a rounding for each factor of a unit.
-///
-/// **Errors**: what the history cannot answer.
-pub fn table<S: Scalar>(motion: &dyn Motion<S>, table: Table, units: &Units) -> Result<Columns<S>, Error> {
-    let present = table.quantities().iter().copied().filter(|quantity| quantity.is_listed(units.has_material()));
-    let present: Vec<Quantity> = present.collect();
-    let rows = values(motion, &present, units)?;
-    let column =
-        |(k, quantity): (usize, &Quantity)| (*quantity, rows.iter().map(|row| row.get(k).cloned().flatten()).collect());
-    Ok(present.iter().enumerate().map(column).collect())
-}
-
-/// The values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem; `None`
-/// where there is none.
+/// Returns the values of `quantities` of one kind for each event, contact, flight or piece, in units of the problem;
+/// `None` where there is none.
 pub(crate) fn values<S: Scalar>(
     motion: &dyn Motion<S>,
     quantities: &[Quantity],
@@ -67,8 +50,8 @@ pub(crate) fn values<S: Scalar>(
     Ok(rows(motion, quantities)?.into_iter().map(|row| row.into_iter().zip(quantities).map(value).collect()).collect())
 }
 
-/// The values of quantities of one kind for each event, contact, flight or piece, as the history answers them, or why
-/// there is none.
+/// Returns the values of quantities of one kind for each event, contact, flight or piece, without a unit, or the reason
+/// why there is none.
 pub fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Result<Vec<Row<S>>, Error> {
     let mut all: Vec<Row<S>> = Vec::new();
     // Neighbours have one source.
@@ -82,8 +65,9 @@ pub fn rows<S: Scalar>(motion: &dyn Motion<S>, quantities: &[Quantity]) -> Resul
     Ok(all)
 }
 
-/// The value of `quantity` of a contact or a flight, counted from 0, in units of the problem, or why it has none.
-pub fn of_contact<S: Scalar>(
+/// Returns the value of `quantity` of a contact or a flight, counted from 0, in units of the problem, or the reason why
+/// there is none.
+pub fn contact_value<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
     quantity: Quantity,
@@ -103,11 +87,11 @@ pub fn of_contact<S: Scalar>(
     Ok(value.map(|value| quantity.in_unit(value, &motion.scales(), units)))
 }
 
-/// The answers to one question for one contact, event, flight or piece.
+/// Answers of one source for one contact, event, flight or piece.
 pub type Row<S> = Vec<Result<S, Undefined>>;
 
 impl Source {
-    /// Its answers for every contact, event, flight or piece.
+    /// Returns the answers for every contact, event, flight or piece.
     fn rows<S: Scalar>(self, motion: &dyn Motion<S>) -> Result<Vec<Row<S>>, Error> {
         Ok(match self {
             Source::Event => motion.events().iter().map(|event| known(&event.numbers())).collect(),
@@ -154,7 +138,7 @@ impl Source {
         })
     }
 
-    /// Its answers for the contact from one time to another.
+    /// Returns the answers for the contact from one time to another.
     fn of_times<S: Scalar>(self, motion: &dyn Motion<S>, from: &S, to: Option<&S>) -> Result<Row<S>, Error> {
         let unfinished = Undefined::Unfinished;
         Ok(match (self, to) {
@@ -171,7 +155,7 @@ impl Source {
     }
 }
 
-/// A row of numbers that there are.
+/// Returns a row of known numbers.
 fn known<S: Clone>(numbers: &[&S]) -> Row<S> {
     numbers.iter().map(|number| Ok((*number).clone())).collect()
 }

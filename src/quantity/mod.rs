@@ -1,28 +1,26 @@
-//! Quantities of a history: the table of them, their values, slices along the rod, units. Nothing
-//! here looks back at the scene.
+//! Quantities of a history: the table of them, their values, slices along the rod, units. Nothing here looks back at the
+//! scene.
 
 mod column;
 mod convert;
 mod listing;
 mod name;
-mod one;
 mod restitution;
 mod slice;
 mod table;
 mod unit;
+mod value_query;
 
-pub use column::along;
 pub use column::columns;
-pub(crate) use column::{finite, of_one_size};
+pub(crate) use column::{check_finite, columns_along, scaled};
 pub use convert::Conversion;
-pub use listing::of_contact;
+pub use listing::contact_value;
 pub(crate) use listing::values;
-pub use listing::{Columns, Table, table};
-pub use listing::{Row, rows};
-pub use one::{Missing, One};
+pub use listing::{Row, Table, rows};
 pub use restitution::energy_shares;
 pub use restitution::{Flight, Restitution, Undefined, flights, restitution};
 pub use slice::SLICE;
 pub use slice::{Slice, slices};
 pub use table::{Needs, Quantity};
 pub use unit::{Measure, UnitSystem, Units};
+pub use value_query::{Missing, ValueQuery};

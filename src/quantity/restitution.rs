@@ -46,13 +46,13 @@ impl<S> Restitution<S> {
         Restitution { e_p: self.e_p.map(&f), e_e2: self.e_e2.map(&f) }
     }
 
-    /// Every number in it.
+    /// Returns every number in it.
     pub fn numbers(&self) -> Vec<&S> {
         self.e_p.iter().chain(&self.e_e2).collect()
     }
 }
 
-/// The coefficients of restitution of the contact that begins at `from` and ends at `to`.
+/// Computes the coefficients of restitution of the contact that begins at `from` and ends at `to`.
 ///
 /// **Source**: section 4.1 and (4.71), with the state at the beginning of the contact for that at `t = 0`: the same for
 /// the first contact. The datum of `E_h` is `h = 0`, the undeformed rod on the ground. `h` and `h′` are all that is
@@ -83,7 +83,7 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&
     Ok(Restitution { e_p: momentum, e_e2: energy_squared })
 }
 
-/// The factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of the
+/// Computes the factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of the
 /// energy that is left moves the centre of mass, and `E(to)/E(from)`, what part damping leaves.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
@@ -122,7 +122,7 @@ impl<S> Flight<S> {
         }
     }
 
-    /// Every number in them.
+    /// Returns every number in them.
     pub(crate) fn numbers(flights: &[Self]) -> Vec<&S> {
         let numbers = flights.iter().flat_map(|Flight { takeoff, landing, top_time, top }| {
             once(takeoff).chain(landing).chain(top_time).chain(top)
@@ -131,7 +131,7 @@ impl<S> Flight<S> {
     }
 }
 
-/// The flights of a history, in order.
+/// Returns the flights of a history, in order.
 ///
 /// **Source**: Remark 2, for every flight and not just the first.
 ///

@@ -1,6 +1,6 @@
 //! The field along the rod at chosen times: at points, averaged over cells, or projected on linear elements.
 
-use super::column::{finite, same};
+use super::column::{check_finite, same};
 use super::table::Quantity;
 use crate::error::Error;
 use crate::motion::moments::Moments;
@@ -32,7 +32,7 @@ pub enum Slice {
     P1,
 }
 
-/// The columns of a slice.
+/// Columns of a slice.
 pub const SLICE: [Quantity; 6] = [
     Quantity::Time,
     Quantity::Side,
@@ -42,7 +42,7 @@ pub const SLICE: [Quantity; 6] = [
     Quantity::PointStrain,
 ];
 
-/// The columns `SLICE` for every time of `times` on the grid `points`, column by column, with the sides
+/// Returns the columns `SLICE` for every time of `times` on the grid `points`, column by column, with the sides
 /// as in [`columns`](super::columns). Averages and projections do not jump.
 ///
 /// **Source**: the integrals over the cells, [`Motion::moments`]; the mass matrix of linear elements.
@@ -61,7 +61,7 @@ pub fn slices<S: Scalar>(
     times: &[S],
     side: Option<Side>,
 ) -> Result<Vec<Vec<S>>, Error> {
-    finite(&motion.end(), times)?;
+    check_finite(&motion.end(), times)?;
     let mut table: Vec<Vec<S>> = (0..6).map(|_| Vec::with_capacity(points.len() * times.len())).collect();
     let mut add = |time: &S, limit: i64, x: &S, values: [S; 3]| {
         let row = [time.clone(), time.int(limit), x.clone()].into_iter().chain(values);
@@ -102,7 +102,7 @@ pub fn slices<S: Scalar>(
     Ok(table)
 }
 
-/// Refuses what is no grid in the rod.
+/// Refuses points that do not increase or are outside the rod.
 fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
     let (Some(first), Some(last), true) = (points.first(), points.last(), points.len() > 1) else {
         return Err(Error::Grid { found: "fewer than two points".into() });
@@ -120,7 +120,7 @@ fn check<S: Scalar>(points: &[S], length: &S) -> Result<(), Error> {
     outside.map_or(Ok(()), |point| Err(Error::PointOutside { found: point.text(), length: length.text() }))
 }
 
-/// The middles of the cells, and the means over them.
+/// Returns the middles of the cells, and the means over them.
 fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S; 3]>) {
     let cells = points.windows(2).zip(moments).map(|(pair, moments)| {
         let width = pair[1].clone() - &pair[0];
@@ -130,7 +130,8 @@ fn averages<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> (Vec<S>, Vec<[S;
     cells.unzip()
 }
 
-/// The nodal values: the mass matrix of linear elements, `h/3` and `h/6` from each cell, by elimination.
+/// Returns the nodal values: solves with the mass matrix of linear elements, `h/3` and `h/6` from each cell, by
+/// elimination.
 fn projection<S: Scalar>(moments: &[Moments<S>], points: &[S]) -> Vec<[S; 3]> {
     let Some(first) = points.first() else { return Vec::new() };
     let zero = || first.zero();

@@ -235,7 +235,7 @@ quantities! {
 }
 
 impl Source {
-    /// Whether there are two limits at a jump.
+    /// Returns whether there are two limits at a jump.
     pub(super) fn has_sides(self) -> bool {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
@@ -266,7 +266,7 @@ impl Source {
 }
 
 impl Needs {
-    /// The quantities that need this, in the order of a table.
+    /// Returns the quantities that need this, in the order of a table.
     pub fn quantities(self) -> impl Iterator<Item = Quantity> {
         self.all().iter().copied()
     }
@@ -277,7 +277,7 @@ impl Needs {
         kinds.find(|kind| kind[0].needs() == self).unwrap_or_default()
     }
 
-    /// The quantity of this name among them.
+    /// Returns the quantity of this name among them.
     ///
     /// ```
     /// use dalembert::{Quantity, quantity::Needs};
@@ -289,14 +289,14 @@ impl Needs {
         self.quantities().find(|quantity| quantity.name() == name)
     }
 
-    /// The quantity that is called so among them, by its name or by another one that is understood.
+    /// Returns the quantity of this name among them, or of this other name that is understood.
     pub fn called(self, name: &str) -> Option<Quantity> {
         self.named(name).or_else(|| self.quantities().find(|quantity| quantity.also().contains(&name)))
     }
 }
 
 impl Quantity {
-    /// The name: `u_end`. No other quantity that needs the same has it.
+    /// Returns the name: `u_end`. No other quantity that needs the same has it.
     pub fn name(self) -> &'static str {
         self.facts().name
     }
@@ -306,7 +306,7 @@ impl Quantity {
         self.facts().also
     }
 
-    /// The symbol: `v(0,t)`; empty where there is none.
+    /// Returns the symbol: `v(0,t)`; empty where there is none.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
     }
@@ -326,17 +326,17 @@ impl Quantity {
         self.source().0.needs()
     }
 
-    /// Whether what has happened before is part of it.
+    /// Returns whether its value depends on the history before the time.
     pub fn is_of_past(self) -> bool {
         matches!(self, Quantity::Contact | Quantity::Impulse)
     }
 
-    /// Whether both ends of a contact and the values there are all that it takes.
+    /// Returns whether it follows from the values at both ends of a contact.
     pub(crate) fn is_of_ends(self) -> bool {
         matches!(self.source().0, Source::Span | Source::Restitution | Source::Shares | Source::Left)
     }
 
-    /// Whether it jumps where a ray passes, or contact begins or ends.
+    /// Returns whether it jumps where a ray passes, or contact begins or ends.
     pub fn jumps(self) -> bool {
         match self.source() {
             (Source::Strain | Source::Contact, _) => true,
@@ -346,22 +346,22 @@ impl Quantity {
         }
     }
 
-    /// Whether it is counted from where the undeformed rod stands on the ground, as displacements are.
+    /// Returns whether it is counted from where the undeformed rod stands on the ground, as displacements are.
     pub fn has_origin(self) -> bool {
         self.measure() == Some(Length)
     }
 
-    /// Whether lists have it: stresses and forces are listed with a material only.
+    /// Returns whether lists have it: stresses and forces are listed with a material only.
     pub fn is_listed(self, has_material: bool) -> bool {
         has_material || !matches!(self.measure(), Some(Stress | Force))
     }
 
-    /// The unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
+    /// Returns the unit: `Pa` with a material, `per ρ` without one; empty where there is none or none is known.
     ///
     /// ```
     /// use dalembert::{Problem, Quantity, Units, quantity::UnitSystem};
     /// let bare = Problem::builder().length(1).wave_speed(1).impact_speed(3).build()?;
-    /// assert_eq!(Quantity::Force.unit(&Units::of(&bare, UnitSystem::Si)), "per ρS");
+    /// assert_eq!(Quantity::Force.unit(&Units::new(&bare, UnitSystem::Si)), "per ρS");
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn unit(self, units: &Units) -> &'static str {
@@ -400,7 +400,7 @@ impl Quantity {
         }
     }
 
-    /// The natural scale; `None` where its values are no measurements.
+    /// Returns the natural scale; `None` where its values are no measurements.
     pub(crate) fn natural_scale<S: Scalar>(self, motion: &dyn Motion<S>, units: &Units) -> Option<f64> {
         let scales = motion.scales().map(|scale| scale.to_f64());
         let natural = match self.measure()? {

@@ -37,7 +37,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// The name in output.
+    /// Returns the name in output.
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -70,7 +70,7 @@ impl UnitSystem {
         ("other", UnitSystem::Other),
     ];
 
-    /// The name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none or none
+    /// Returns the name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none or none
     /// is known.
     fn name(self, measure: Measure, per_area: bool) -> &'static str {
         let [length, velocity, stress] = match self {
@@ -114,13 +114,13 @@ impl UnitSystem {
 /// use dalembert::{Problem, Units};
 /// use dalembert::quantity::{Measure, UnitSystem};
 /// let rod = Problem::builder().length(1).impact_speed(3);
-/// let units = Units::of(&rod.clone().material(900, 2, 3).build()?, UnitSystem::Si);
+/// let units = Units::new(&rod.clone().material(900, 2, 3).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Stress, &()), units.name(Measure::Stress)), (Some(900.0), "Pa"));
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (Some(-2700.0), "N"));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(6.0), "J"));
-/// let units = Units::of(&rod.clone().modulus(900).density(2).build()?, UnitSystem::Si);
+/// let units = Units::new(&rod.clone().modulus(900).density(2).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (Some(-900.0), "N/m²"));
-/// let units = Units::of(&rod.wave_speed(1).build()?, UnitSystem::Si);
+/// let units = Units::new(&rod.wave_speed(1).build()?, UnitSystem::Si);
 /// assert_eq!((units.factor::<f64>(Measure::Force, &()), units.name(Measure::Force)), (None, ""));
 /// assert_eq!((units.factor::<f64>(Measure::Energy, &()), units.name(Measure::Energy)), (Some(1.0), "per ρS"));
 /// # Ok::<(), dalembert::problem::ProblemError>(())
@@ -139,17 +139,17 @@ impl Default for Units {
 }
 
 impl Units {
-    /// The units of `problem`, whose numbers are in `system`.
-    pub fn of(problem: &Problem, system: UnitSystem) -> Self {
+    /// Returns the units of `problem`, whose numbers are in `system`.
+    pub fn new(problem: &Problem, system: UnitSystem) -> Self {
         Units { material: problem.material().clone(), system }
     }
 
-    /// Whether the scene gives modulus and density.
+    /// Returns whether the scene gives modulus and density.
     pub fn has_material(&self) -> bool {
         matches!(self.material, Material::Elastic { .. })
     }
 
-    /// The name of the unit of `measure`: `Pa`; `per ρS` for impulse and energy without a material; empty where none
+    /// Returns the name of the unit of `measure`: `Pa`; `per ρS` for impulse and energy without a material; empty where none
     /// is known.
     pub fn name(&self, measure: Measure) -> &'static str {
         match measure {
@@ -161,7 +161,7 @@ impl Units {
         }
     }
 
-    /// `c`, `t₁`, `R` and `M` of a problem to six digits, each with its symbol; those that it has.
+    /// Returns `c`, `t₁`, `R` and `M` of a problem to six digits, each with its symbol; those that it has.
     pub fn parameters(&self, problem: &Problem, time: impl Fn(f64) -> String) -> Vec<String> {
         let Ok(rod) = Parameters::<f64>::of(problem, &()) else { return Vec::new() };
         let speed = format!("{} {}", rod.wave_speed.decimal(6), self.name(Measure::Velocity));

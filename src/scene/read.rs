@@ -119,8 +119,8 @@ pub struct Scene {
     pub accuracy: Option<f64>,
     /// `[[target]]`: what others have published of this scene.
     pub targets: Vec<Target>,
-    source: String,
-    lines: Vec<(String, usize)>,
+    pub(super) source: String,
+    pub(super) lines: Vec<(String, usize)>,
 }
 
 impl Scene {

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::{Scene, Target};
 
 use crate::number::Number;
-use crate::problem::{Parameter, Problem, Top};
+use crate::problem::{Parameter, Problem, Top, Written};
 use crate::quantity::{Needs, UnitSystem};
 
 /// Writes the parameters that are given, in the tables of a scene file.
@@ -35,6 +35,24 @@ fn problem_table(problem: &Problem) -> Table {
 
 fn text(number: &Number) -> Value {
     Value::from(number.to_string())
+}
+
+/// Replaces the texts of numbers by numbers of TOML where these spell them.
+fn spell_plainly(value: &mut Value) {
+    match value {
+        Value::Table(table) => table.iter_mut().for_each(|(_, value)| spell_plainly(value)),
+        Value::Array(list) => list.iter_mut().for_each(spell_plainly),
+        Value::String(text) => {
+            let Ok(number) = text.parse::<Number>() else { return };
+            let double = Some(number.to_f64()).filter(|x| Written::from(*x).number() == Ok(&number));
+            *value = match (text.parse::<i64>(), double) {
+                (Ok(whole), _) => whole.into(),
+                (_, Some(double)) => double.into(),
+                _ => return,
+            };
+        }
+        _ => (),
+    }
 }
 
 fn target_table(target: &Target) -> Table {
@@ -81,7 +99,8 @@ impl Serialize for Scene {
         if let Some(title) = &self.title {
             table.insert("title".into(), title.as_str().into());
         }
-        if let Some((name, _)) = UnitSystem::ALL.iter().find(|(_, units)| *units == self.units) {
+        let units = UnitSystem::ALL.iter().find(|(_, units)| *units == self.units && *units != UnitSystem::default());
+        if let Some((name, _)) = units {
             table.insert("units".into(), (*name).into());
         }
         if let Some((accuracy, run)) = self.accuracy.zip(table.get_mut("run").and_then(Value::as_table_mut)) {
@@ -92,6 +111,33 @@ impl Serialize for Scene {
             table.insert("target".into(), targets.into());
         }
         table.serialize(serializer)
+    }
+}
+
+/// Builds the scene of a problem in SI units, without a title.
+impl From<Problem> for Scene {
+    fn from(problem: Problem) -> Self {
+        let source = toml::to_string(&problem).unwrap_or_default();
+        let (title, units, accuracy) = (None, UnitSystem::default(), None);
+        Scene { title, units, problem, accuracy, targets: Vec::new(), source, lines: Vec::new() }
+    }
+}
+
+impl Scene {
+    /// Returns the scene as TOML, from its values: without the comments of its [source](Scene::source), and with plain
+    /// numbers where these spell the same.
+    ///
+    /// ```
+    /// use dalembert::{Problem, Scene};
+    /// let rod = Problem::builder().length(1).wave_speed("0.5").impact_speed("10/3").build()?;
+    /// let text = Scene::from(rod).to_toml();
+    /// assert!(text.contains("[impact]\nspeed = \"10/3\"\n") && text.contains("[rod]\nlength = 1\nwave_speed = 0.5\n"));
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn to_toml(&self) -> String {
+        let mut table = Table::try_from(self).unwrap_or_default();
+        table.iter_mut().filter(|(_, value)| value.is_table()).for_each(|(_, value)| spell_plainly(value));
+        toml::to_string(&table).unwrap_or_default()
     }
 }
 

@@ -108,7 +108,7 @@ impl Asked<'_> {
     /// Returns the numbers to be differentiated, in units of `problem`: a row for each entry of the list, or for each
     /// time and, within it, each point.
     pub(super) fn values<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {
-        let units = Units::of(problem, UnitSystem::default());
+        let units = Units::new(problem, UnitSystem::default());
         let Some(At { times, points, side }) = self.at else {
             return quantity::values(motion, self.quantities, &units);
         };
@@ -116,7 +116,7 @@ impl Asked<'_> {
         let lift = |list: &[Number]| -> Vec<S> { list.iter().map(|number| S::spelling(number, &precision)).collect() };
         let times = lift(times);
         if !points.is_empty() {
-            return quantity::along(motion, &units, self.quantities, (&lift(points), &times), side);
+            return quantity::columns_along(motion, &units, self.quantities, (&lift(points), &times), side);
         }
         let rows = |times: &[S]| {
             let table = quantity::columns(motion, &units, self.quantities, times, Some(side))?;
@@ -138,7 +138,7 @@ impl Asked<'_> {
 
     /// Returns the natural scale of each column, in units of `problem`; ratios have a scale of about 1.
     pub(super) fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
-        let units = Units::of(problem, UnitSystem::default());
+        let units = Units::new(problem, UnitSystem::default());
         let time = motion.scales().time.to_f64();
         self.quantities
             .iter()

@@ -11,7 +11,6 @@ use super::planned::estimates;
 use super::question::Observer;
 use super::{interpolated, long, rates};
 use crate::error::Error;
-use crate::first_contact::Bounce;
 use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Rational, Reads};
 use crate::problem::Problem;
@@ -36,11 +35,7 @@ impl Target for f64 {
         }
         let problem = &*plan.reaching(problem);
         let task = plan.task::<f64>(problem, &(), rung, observe);
-        let rate = |bounce: &Bounce<_>| {
-            let bits = if LONG { plan.rate_bits } else { return None };
-            bits.and_then(|bits| long::rate_after(problem, bounce, bits))
-        };
-        let engine = estimates(plan, &task, rung.bits(), rate, |march| march())?;
+        let engine = estimates(plan, &task, rung.bits(), |march| march())?;
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
 

@@ -1,19 +1,22 @@
 //! The answer in `Value`s, for every number system.
 
+use std::sync::Arc;
+
 use super::derivative::{Derivative, Derivatives};
+use super::finer::Finer;
 use super::ladder::Target;
 use super::places::Places;
 use super::plan::Plan;
 use super::question::{Numbers, Observer, Question, unobserved};
-use super::solution::{ExactnessEnd, Solution, Visitor};
+use super::solution::{ExactnessEnd, Solution};
 use super::typed::TypedHistory;
 use crate::error::Error;
-use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, straight};
-use crate::number::{IntoValue, Number, Scalar, Value};
+use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, Waves, straight};
+use crate::number::{Float, IntoValue, List, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
-    self, Flight, Measure, Missing, One, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
-    flights,
+    self, Flight, Measure, Missing, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
+    ValueQuery, flights,
 };
 use crate::reason::Warning;
 
@@ -24,7 +27,7 @@ use crate::reason::Warning;
 /// [`Error::BeyondExactness`] if the history ends for a reason of its own; a point outside the rod is
 /// [`Error::PointOutside`].
 ///
-/// [`History::typed`] returns the same answers in one number system, for further computations.
+/// [`Problem::answer`] returns the same answers in one number system, for further computations.
 ///
 /// **Accuracy**: that of the [`Plan`]. An answer is computed again with more bits if the current ones do not leave the
 /// requested digits.
@@ -42,7 +45,9 @@ use crate::reason::Warning;
 #[derive(Debug)]
 pub struct History {
     solution: Solution,
+    exactness_end: Option<ExactnessEnd>,
     units: Units,
+    finer: Finer,
 }
 
 /// Evaluates `$body` for the typed history inside `$history`, in any number system.
@@ -51,10 +56,22 @@ macro_rules! typed {
         match &$history.solution {
             Solution::Double($typed) => $body,
             Solution::Exact($typed) => $body,
-            Solution::Digits($typed, _) | Solution::DigitsAfter($typed, ..) => $body,
-            Solution::Certified($typed, _) => $body,
+            Solution::Digits($typed) => $body,
+            Solution::Certified($typed) => $body,
         }
     };
+}
+
+/// Evaluates `$body` for the longer run that `$places` need, if there is one and it answers; otherwise for the typed
+/// history inside `$history`.
+macro_rules! typed_at {
+    ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
+        let finer = $history.finer(&$places).map(|$typed| (|| -> Result<_, Error> { $body })());
+        match finer {
+            Some(Ok(found)) => Ok(found),
+            Some(Err(_)) | None => typed!($history, $typed => $body),
+        }
+    }};
 }
 
 /// Values of quantities by row; a missing value is replaced by the reason.
@@ -89,13 +106,9 @@ pub enum StressForm {
 }
 
 impl History {
-    fn new(solution: Solution, units: Units) -> Self {
-        History { solution, units }
-    }
-
     /// Converts the values of the history to the units of `system`.
     pub fn in_units(self, system: UnitSystem) -> Self {
-        let units = Units::of(self.problem(), system);
+        let units = Units::new(self.problem(), system);
         History { units, ..self }
     }
 
@@ -116,12 +129,15 @@ impl History {
 
     /// Returns the number of digits of each value; 0 for doubles and fractions.
     pub fn digits(&self) -> u32 {
-        self.solution.digits()
+        match self.plan().numbers {
+            Numbers::Digits(digits) | Numbers::Certified(digits) => digits,
+            Numbers::Double(_) | Numbers::Exact | Numbers::ExactThenDigits(_) => 0,
+        }
     }
 
     /// Returns the event or parameter that fractions cannot hold, if digits of the whole run replace the fractions.
     pub fn exactness_end(&self) -> Option<&ExactnessEnd> {
-        self.solution.exactness_end()
+        self.exactness_end.as_ref()
     }
 
     /// Returns the last known time: before an event at an irrational time, a fraction just below it.
@@ -145,6 +161,11 @@ impl History {
         typed!(self, history => history.digits_lost())
     }
 
+    /// Returns the natural scales of the motion.
+    pub fn scales(&self) -> Scales<f64> {
+        typed!(self, history => history.carried_scales().map(|scale| Scalar::to_f64(&scale)))
+    }
+
     /// Returns a bound of the error of events and of values at ordinary times, relative to the natural scales; zero if
     /// all is exact.
     pub fn error_estimate(&self) -> f64 {
@@ -156,19 +177,25 @@ impl History {
         typed!(self, history => history.explained(error))
     }
 
-    /// Returns the history in its number system.
-    pub fn typed(&self) -> &Solution {
-        &self.solution
-    }
-
-    /// Returns the history in its number system.
-    pub fn into_typed(self) -> Solution {
-        self.solution
-    }
-
-    /// Returns the result of `visitor` for the history in its number system.
-    pub fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
-        self.solution.visit(visitor)
+    /// Returns the result of `query` for the history in doubles, which solves the same run again if it is in other
+    /// numbers: for pictures and other uses that need no more.
+    ///
+    /// **Errors**: those of [`Plan::solve`].
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Problem};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).build()?;
+    /// // A rod without gravity leaves the ground after a round trip 2L/c.
+    /// let history = rod.solve_in(Numbers::Exact)?;
+    /// assert_eq!(history.in_doubles(|history| history.contacts()[0].release)?, Some(2.0));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn in_doubles<T>(&self, query: impl FnOnce(&TypedHistory<f64>) -> T) -> Result<T, Error> {
+        if let Solution::Double(history) = &self.solution {
+            return Ok(query(history));
+        }
+        let plan = self.plan().in_numbers(self.problem(), Numbers::default());
+        Ok(query(&TypedHistory::solve(self.problem(), &plan, unobserved())?))
     }
 
     /// Returns all impacts and releases, in order. A rod that stands on the ground has its first impact at `t = 0`.
@@ -226,42 +253,27 @@ impl History {
 
     /// Returns a time-dependent quantity at one time.
     pub fn at_time(&self, quantity: Quantity, time: impl Into<Written>, side: Side) -> Result<Value, Error> {
-        let time = [written("time", time)?];
-        let list = crate::number::List::Numbers(time.to_vec());
-        let mut columns = self.sample(&[quantity], &Places::from(&list), Some(side))?;
+        let time = List::Numbers(vec![written("time", time)?]);
+        let mut columns = self.sample(&[quantity], &Places::from(&time), Some(side))?;
         Ok(columns.remove(0).remove(0))
     }
 
     /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, point: impl Into<Written>, time: impl Into<Written>) -> Result<Field<Value>, Error> {
         let (point, time) = (written("point", point)?, written("time", time)?);
-        typed!(self, history => {
-                        let field = history.ask(
-                |motion| {
-                    let lift = |x: &Number| Scalar::spelling(x, &motion.end().precision());
-                    motion.field(&lift(&point), &lift(&time), Side::Right)
-                },
-                |field| field.numbers().to_vec(),
-            )?;
-            Ok(Field {
-                displacement: self.value(field.displacement, Some(Measure::Length)),
-                velocity: self.value(field.velocity, Some(Measure::Velocity)),
-                strain: self.value(field.strain, Some(Measure::Strain)),
-            })
-        })
+        let (point, time) = (List::Numbers(vec![point]), List::Numbers(vec![time]));
+        let [displacement, velocity, strain] =
+            self.sample_pairs(&Places::from(&point), &Places::from(&time), Side::Right)?.map(|mut list| list.remove(0));
+        Ok(Field { displacement, velocity, strain })
     }
 
     /// Returns `E`, `E_h`, `E_z` at a time, in the units of the history.
     pub fn energy(&self, time: impl Into<Written>) -> Result<Energy<Value>, Error> {
-        let time = written("time", time)?;
-        typed!(self, history => {
-            let energy = history.ask(
-                |motion| motion.energy(&Scalar::spelling(&time, &motion.end().precision())),
-                |energy| energy.numbers().to_vec(),
-            )?;
-            let scales = history.carried_scales();
-            Ok(energy.map(|x| self.quantity(Quantity::Energy, x, &scales)))
-        })
+        let time = List::Numbers(vec![written("time", time)?]);
+        let quantities = [Quantity::Energy, Quantity::TranslationalEnergy, Quantity::VibrationalEnergy];
+        let columns = self.sample(&quantities, &Places::from(&time), Some(Side::Right))?;
+        let [total, translational, vibrational] = [0, 1, 2].map(|k| columns[k][0].clone());
+        Ok(Energy { total, translational, vibrational })
     }
 
     /// Returns the values of `quantities` over time, column by column. If `side` is `None`, a time at which the two
@@ -276,9 +288,13 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed!(self, history => {
+        typed_at!(self, [times], history => {
             let columns = history.ask_columns_in(&self.units, quantities, side, |motion| times.lift(motion))?;
-            Ok(self.columns(quantities, columns))
+            let column = |(quantity, column): (&Quantity, Vec<_>)| {
+                let unit = quantity.unit(&self.units);
+                column.into_iter().map(|x| self.printed(x, unit)).collect()
+            };
+            Ok(quantities.iter().zip(columns).map(column).collect())
         })
     }
 
@@ -295,10 +311,7 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed!(self, history => {
-            let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
-            Ok(self.columns(&SLICE, columns))
-        })
+        self.sample_along(&SLICE, slice, points, times, side)
     }
 
     /// Returns the values of `quantities` along the rod, column by column: each is one of [`SLICE`] or
@@ -311,7 +324,7 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed!(self, history => {
+        typed_at!(self, [points, times], history => {
             let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
             let scales = history.carried_scales();
             let column = |quantity: &Quantity| {
@@ -324,7 +337,7 @@ impl History {
 
     /// Returns `u`, `v`, `strain` at pairs of a point and a time, column by column.
     pub fn sample_pairs(&self, points: &Places<'_>, times: &Places<'_>, side: Side) -> Result<[Vec<Value>; 3], Error> {
-        typed!(self, history => {
+        typed_at!(self, [points, times], history => {
             let fields = history.ask(
                 |motion| {
                     let (points, times) = (points.lift(motion)?, times.lift(motion)?);
@@ -402,15 +415,26 @@ impl History {
         })
     }
 
-    /// Returns one number, or the reason of its absence.
-    pub fn one(&self, one: &One) -> Result<Result<Value, Missing>, Error> {
+    /// Returns the whole solution as two travelling waves: a piecewise quadratic function of one variable.
+    ///
+    /// **Errors**: [`Error::NoWaves`] under damping; [`Error::TooManyPieces`].
+    pub fn waves(&self) -> Result<Waves<Value>, Error> {
         typed!(self, history => {
+            let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
+            Ok(waves.map(|x| self.value(x, None)))
+        })
+    }
+
+    /// Returns one number, or the reason of its absence.
+    pub fn query(&self, query: &ValueQuery) -> Result<Result<Value, Missing>, Error> {
+        let [point, time] = [&query.point, &query.time].map(|number| List::Numbers(number.iter().cloned().collect()));
+        typed_at!(self, [&Places::from(&point), &Places::from(&time)], history => {
             let run = self.problem().run();
             let found = history.ask(
-                |motion| one.of(motion, &self.units, run),
+                |motion| query.evaluate(motion, &self.units, run),
                 |found| found.iter().map(|[_, plain]| plain).collect(),
             )?;
-            Ok(found.map(|[value, _]| self.value(value, one.quantity.measure())))
+            Ok(found.map(|[value, _]| self.value(value, query.quantity.measure())))
         })
     }
 
@@ -435,21 +459,26 @@ impl History {
 
     fn value(&self, number: impl IntoValue, measure: Option<Measure>) -> Value {
         let unit = measure.map_or("", |measure| self.units.name(measure));
-        number.into().printed_in(self.digits(), unit)
+        self.printed(number, unit)
+    }
+
+    /// Returns a number as the history prints its numbers.
+    fn printed(&self, number: impl IntoValue, unit: &'static str) -> Value {
+        let value = number.into();
+        let value = if matches!(self.solution, Solution::Double(_)) { value.to_double() } else { value };
+        value.printed_in(self.digits(), unit)
+    }
+
+    /// Returns the run in the digits that `places` need, if the numbers of this history do not hold them.
+    fn finer(&self, places: &[&Places<'_>]) -> Option<Arc<TypedHistory<Float>>> {
+        let observe = typed!(self, history => &history.observe);
+        self.finer.run(self.problem(), self.plan(), observe, places)
     }
 
     /// Returns the value of a quantity from its `number` without a unit.
     fn quantity<S: IntoValue>(&self, quantity: Quantity, number: S, scales: &Scales<S>) -> Value {
         let number = quantity.in_unit(number, scales, &self.units);
-        number.into().printed_in(self.digits(), quantity.unit(&self.units))
-    }
-
-    fn columns<S: IntoValue>(&self, quantities: &[Quantity], columns: Vec<Vec<S>>) -> Vec<Vec<Value>> {
-        let column = |(quantity, column): (&Quantity, Vec<S>)| {
-            let unit = quantity.unit(&self.units);
-            column.into_iter().map(|x| x.into().printed_in(self.digits(), unit)).collect()
-        };
-        quantities.iter().zip(columns).map(column).collect()
+        self.printed(number, quantity.unit(&self.units))
     }
 
     fn rows<S: IntoValue>(&self, quantities: &[Quantity], rows: Vec<quantity::Row<S>>, scales: &Scales<S>) -> Rows {
@@ -472,9 +501,27 @@ fn written(quantity: &'static str, text: impl Into<Written>) -> Result<Number, E
 }
 
 impl Plan {
-    /// Solves `problem`: see [`Plan::solve_typed`].
+    /// Solves `problem`; see [`Observer`] for what `observe` receives.
+    ///
+    /// **Accuracy**: that of [`Plan::numbers`].
+    ///
+    /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] if a parameter is irrational and no digits are
+    /// requested; [`Error::Unsettled`], [`Error::Undecided`] if no affordable number of bits settles the answer;
+    /// [`Error::Interrupted`] by `observe`.
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Plan, Problem, Question, Value};
+    /// use std::{ops::ControlFlow, sync::Arc};
+    /// let problem = Problem::uniform(10.into(), 30.into(), 10.into(), 10.into());
+    /// let plan = Plan::of(&problem, &Question::run(Numbers::Exact))?;
+    /// let history = plan.solve(&problem, Arc::new(|_, _| ControlFlow::Continue(())))?;
+    /// assert_eq!(history.contacts()?[0].release.as_ref().map(Value::to_string), Some("2/3".into()));
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
     pub fn solve(&self, problem: &Problem, observe: Observer) -> Result<History, Error> {
-        Ok(History::new(self.solve_typed(problem, observe)?, Units::of(problem, UnitSystem::default())))
+        let (solution, exactness_end) = self.solution(problem, observe)?;
+        let (units, finer) = (Units::new(problem, UnitSystem::default()), Finer::default());
+        Ok(History { solution, exactness_end, units, finer })
     }
 }
 

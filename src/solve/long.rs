@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion};
-use crate::number::{Estimate, Float, Interval, IntervalPrecision, Reads, Scalar, Wide};
+use crate::number::{Estimate, Float, Interval, IntervalPrecision, Wide};
 use crate::problem::{Parameters, Problem};
 use crate::special::RoundedSpecial;
 
@@ -112,7 +112,7 @@ fn estimates<S: RoundedSpecial>(
 ) -> Result<Engined<S>, Error> {
     let problem = &*plan.reaching(problem);
     let task = plan.task::<S>(problem, precision, Rung::Bits(bits), observe);
-    planned::estimates(plan, &task, bits, |_| None, |march| marched(plan, &task, bits, march))
+    planned::estimates(plan, &task, bits, |march| marched(plan, &task, bits, march))
 }
 
 /// Makes a damped run: the proved one if the proof reaches its end, otherwise the run of `march`. For digits the proof
@@ -139,21 +139,6 @@ fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Resul
     Damped::march(&Task { effort, ..*task }, 1, true)
 }
 
-/// Computes `h′` at the bounce that doubles have found, in this many bits: all that follows depends on it.
-pub(super) fn rate_after(problem: &Problem, bounce: &Bounce<Estimate<f64>>, bits: u32) -> Option<Estimate<f64>> {
-    let Bounce::At { time, trips, .. } = bounce else { return None };
-    in_numbers!(bits, |S, precision| {
-        let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision).ok()?);
-        let trip = contact.round_trip();
-        let time = match trips.lattice() {
-            Some(k) => trip.int(k) * &trip,
-            None => Estimate::exact(trip.value().double(*time.value())),
-        };
-        let (_, rate) = contact.centre(&time);
-        Some(Reads::read(rate))
-    })
-}
-
 /// Computes enclosures with exact roots inside, for an undamped rod.
 fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
     plan.lattice(problem, &IntervalPrecision::with_exact(bits), observe)
@@ -163,16 +148,13 @@ fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> 
     let problem = &*plan.reaching(problem);
     match plan.engine {
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
-        Engine::Cells => Ok(proved(problem, plan, bits, observe)?),
-        Engine::ClosedForm => contact(problem, bits),
+        Engine::Cells if !problem.has_closed_form() => proved(problem, plan, bits, observe),
         // For more digits than a march can prove, the first contact provides all of them.
-        Engine::ClosedFormThenCells if bits <= MOST_PROVED && bounces(problem, bits)? => {
-            match proved(problem, plan, bits, observe) {
-                Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
-                run => run,
-            }
-        }
-        Engine::ClosedFormThenCells => contact(problem, bits),
+        Engine::Cells if bits <= MOST_PROVED && bounces(problem, bits)? => match proved(problem, plan, bits, observe) {
+            Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
+            run => run,
+        },
+        Engine::Cells | Engine::ClosedForm => contact(problem, bits),
     }
 }
 

@@ -5,6 +5,7 @@ mod converted;
 mod derivative;
 mod differences;
 mod engines;
+mod finer;
 mod foresee;
 mod history;
 mod in_floats;
@@ -30,5 +31,5 @@ pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Go
 pub use question::unobserved;
 pub use question::{Numbers, Observer, Question, Want};
 pub use sensitivity::Sensitivity;
-pub use solution::{ExactnessEnd, Solution, Visitor};
+pub use solution::ExactnessEnd;
 pub use typed::TypedHistory;

@@ -32,6 +32,14 @@ impl<'a> From<&'a [f64]> for Places<'a> {
 }
 
 impl Places<'_> {
+    /// Returns the numbers that a person wrote one by one, each of which represents exactly itself.
+    pub(super) fn spelled(&self) -> &[Number] {
+        match self {
+            Places::Part(List::Numbers(numbers), part) => numbers.get(part.clone()).unwrap_or_default(),
+            Places::Part(..) | Places::Doubles(_) | Places::Printed(_) | Places::Events => &[],
+        }
+    }
+
     /// Returns the places in the numbers of `motion`.
     pub(super) fn lift<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
         let end = motion.end();

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::foresee;
 use super::question::{Numbers, Observer, Question, Want};
-use crate::cells::{Effort, MARCHED_TRIPS, MOST_DIGITS, Task};
+use crate::cells::{Effort, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
@@ -48,8 +48,6 @@ pub struct Plan {
     pub climb: Climb,
     /// Limits of cells; `None` without cells.
     pub cells: Option<CellLimits>,
-    /// Bits of `h′` at the first bounce, on which all that follows depends; `None` for the bits of the run.
-    pub rate_bits: Option<u32>,
     /// Estimated cost in bits of the proof of a damped march.
     #[serde(skip)]
     proof_bits: u32,
@@ -99,9 +97,6 @@ pub struct CellLimits {
     pub long_cells: Option<u64>,
     /// Decimal digits beyond which no march is made.
     pub most_digits: f64,
-    /// Round trips of the first contact: up to the first number it is marched, up to the second it is marched if the
-    /// march is more accurate than the closed form.
-    pub marched_trips: [f64; 2],
 }
 
 /// The engine that a plan chooses.
@@ -114,10 +109,8 @@ pub enum Engine {
     /// The damped first contact in closed form, and nothing after it.
     #[strum(serialize = "closed form of the first contact")]
     ClosedForm,
-    /// The damped first contact in closed form, then strips of characteristic cells from the bounce on.
-    #[strum(serialize = "closed form of the first contact, then strips of characteristic cells")]
-    ClosedFormThenCells,
-    /// Strips of characteristic cells from the start: a damped rod whose first contact has no closed form.
+    /// Strips of characteristic cells: a damped rod through any number of impacts. A first contact that has a closed
+    /// form and never ends is taken from there.
     #[strum(serialize = "strips of characteristic cells")]
     Cells,
 }
@@ -200,13 +193,8 @@ const SERIES_GUARD_BITS: f64 = 6.0;
 const EFFORT_BITS: f64 = 20.0;
 /// Default limits of cells: thirteen digits in doubles; some ten seconds in doubles, and a few in numbers of 128 bits.
 /// The cost of more digits grows with their cube.
-const CELLS: CellLimits = CellLimits {
-    double_digits: 13.0,
-    double_cells: 20_000_000,
-    long_cells: Some(30_000),
-    most_digits: MOST_DIGITS,
-    marched_trips: MARCHED_TRIPS,
-};
+const CELLS: CellLimits =
+    CellLimits { double_digits: 13.0, double_cells: 20_000_000, long_cells: Some(30_000), most_digits: MOST_DIGITS };
 /// Maximum bits of a number with an error bound.
 const MOST_BITS: u32 = 1 << 22;
 /// Bits of an enclosure beyond which a comparison is reported as undecided, unless the requested digits need more.
@@ -247,9 +235,8 @@ impl Plan {
             // Corollary 1 needs no exact numbers, and its terms need no events.
             (None, true) if single && matches!(numbers, Numbers::Double(_)) => Engine::ClosedForm,
             (None, _) => Engine::Lattice,
-            (Some(_), false) => Engine::Cells,
             (Some(_), true) if reach == Reach::FirstContact => Engine::ClosedForm,
-            (Some(_), true) => Engine::ClosedFormThenCells,
+            (Some(_), _) => Engine::Cells,
         };
         let settles_events = keep_from.is_none() && !single;
         Ok(Self::with(problem, numbers, engine, reach, (keep_from, settles_events)))
@@ -264,8 +251,7 @@ impl Plan {
         (keep_from, settles_events): (Option<f64>, bool),
     ) -> Self {
         let doubles = matches!(numbers, Numbers::Double(_));
-        let then_cells = engine == Engine::ClosedFormThenCells;
-        let marched = then_cells || engine == Engine::Cells;
+        let marched = engine == Engine::Cells;
         let cells = CellLimits { long_cells: CELLS.long_cells.filter(|_| doubles), ..CELLS };
         let proof_bits = if marched {
             foresee::proof_bits(problem, |trip| match &reach {
@@ -316,7 +302,6 @@ impl Plan {
             climb,
             goal,
             cells: marched.then_some(cells),
-            rate_bits: (then_cells && doubles && LONG).then_some(FEWEST_BITS),
             engine,
             numbers,
             reach,
@@ -329,9 +314,10 @@ impl Plan {
         }
     }
 
-    pub(crate) fn in_digits(&self, problem: &Problem, digits: u32) -> Self {
+    /// Returns the plan of the same run in other `numbers`.
+    pub(super) fn in_numbers(&self, problem: &Problem, numbers: Numbers) -> Self {
         let keeps = (self.keep_from, self.settles_events);
-        Self::with(problem, Numbers::Digits(digits), self.engine, self.reach.clone(), keeps)
+        Self::with(problem, numbers, self.engine, self.reach.clone(), keeps)
     }
 
     /// Returns the question that the plan answers: events and contacts.
@@ -392,13 +378,9 @@ impl Plan {
             Engine::ClosedForm => {
                 "damping couples the characteristics; the first contact has a closed form, and no more is asked for"
             }
-            Engine::ClosedFormThenCells => {
-                "damping couples the characteristics: the first contact has a closed form, and inside a cell between \
-                 rays Riemann's formula converges geometrically"
-            }
             Engine::Cells => {
-                "damping couples the characteristics, and this start or top has no closed form: cells from the \
-                beginning"
+                "damping couples the characteristics: inside a cell between rays Riemann's formula converges \
+                 geometrically"
             }
         };
         let numbers = match self.numbers {
@@ -457,16 +439,13 @@ impl Plan {
             limits.push(format!("exact numbers decide meetings of events through {contacts} contacts"));
         }
         limits.push(format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}"));
-        if let Some(CellLimits { double_digits, double_cells, long_cells, most_digits, marched_trips }) = self.cells {
+        if let Some(CellLimits { double_digits, double_cells, long_cells, most_digits }) = self.cells {
             let long = long_cells.map_or(String::new(), |cells| format!(", {cells} in {FEWEST_BITS} bits"));
-            let [surely, most] = marched_trips;
             limits.push(format!(
                 "cells: {double_digits} digits and {double_cells} cells in doubles{long}; none beyond {most_digits} \
-                 digits; a first contact of up to {surely} round trips is marched over, and one of up to {most} where \
-                 that is known better than its closed form"
+                 digits"
             ));
         }
-        limits.extend(self.rate_bits.map(|bits| format!("h′ at the first bounce in {bits} bits")));
         limits
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::ladder::Engined;
 use super::plan::{Engine, LONG, Plan};
-use crate::cells::{ContactThenCells, Damped, Task};
+use crate::cells::{Damped, EstimatedContact, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};
 use crate::lattice::Undamped;
@@ -15,16 +15,15 @@ use crate::special::RoundedSpecial;
 /// A function that makes a damped run.
 pub(super) type March<'a, S> = &'a dyn Fn() -> Result<Engined<S>, Error>;
 
-/// Runs the planned engine in numbers with their error bound. `rate` returns `h′` at the bounce if it is known better
-/// than from the march, and `marched` turns a march into the run.
+/// Runs the planned engine in numbers with their error bound; `marched` turns a march into the run.
 pub(super) fn estimates<S: RoundedSpecial>(
     plan: &Plan,
     task: &Task<'_, S>,
     bits: u32,
-    rate: impl Fn(&Bounce<Estimate<S>>) -> Option<Estimate<S>>,
     marched: impl Fn(March<'_, S>) -> Result<Engined<S>, Error>,
 ) -> Result<Engined<S>, Error> {
     let Task { problem, precision, .. } = *task;
+    let march = || Ok(Arc::new(Damped::march(task, 1, false)?) as Engined<S>);
     let undecided = |what| Error::NotDecided { what, bits };
     Ok(match plan.engine {
         Engine::Lattice => {
@@ -35,21 +34,24 @@ pub(super) fn estimates<S: RoundedSpecial>(
             }
             Arc::new(history)
         }
-        Engine::Cells => marched(&|| Ok(Arc::new(Damped::march(task, 1, false)?)))?,
-        Engine::ClosedForm | Engine::ClosedFormThenCells => {
+        Engine::Cells if !problem.has_closed_form() => marched(&march)?,
+        Engine::Cells | Engine::ClosedForm => {
             let contact = FirstContact::new(&Parameters::<Estimate<S>>::of(problem, precision)?);
             let bounce = contact.bounce();
             if matches!(&bounce, Bounce::Undecided { why, .. } if why.needs_bits()) {
                 return Err(undecided("how the first contact ends"));
             }
-            if plan.engine == Engine::ClosedFormThenCells {
-                let (rate, bounces) = (rate(&bounce), matches!(bounce, Bounce::At { .. }));
-                let march = || Ok(Arc::new(ContactThenCells::march(task, bounce.clone(), rate.clone())?) as Engined<S>);
-                if bounces { marched(&march)? } else { march()? }
-            } else if plan.settles_events {
-                Arc::new(ContactThenCells::<S>::first_contact(problem, precision, bounce)?)
-            } else {
-                Arc::new(ContactHistory::new(contact, bounce, None)?)
+            match plan.engine {
+                // A contact that never ends is known at all times.
+                Engine::Cells if matches!(bounce, Bounce::At { .. }) => {
+                    if task.effort.digits > MOST_DIGITS {
+                        let contact = EstimatedContact::<S>::new(problem, precision, bounce)?;
+                        return Ok(Arc::new(contact.without_flight()));
+                    }
+                    marched(&march)?
+                }
+                Engine::ClosedForm if !plan.settles_events => Arc::new(ContactHistory::new(contact, bounce, None)?),
+                _ => Arc::new(EstimatedContact::<S>::new(problem, precision, bounce)?),
             }
         }
     })

@@ -11,7 +11,7 @@ use crate::motion::{
 };
 use crate::number::{Answer, Number, Scalar, show};
 use crate::problem::Problem;
-use crate::quantity::{self, Flight, Quantity, Restitution, Slice, Table, UnitSystem, Units, flights, restitution};
+use crate::quantity::{self, Flight, Quantity, Restitution, Slice, UnitSystem, Units, flights, restitution};
 use crate::reason::{Reason, Warning};
 use crate::threads::locked;
 
@@ -207,7 +207,7 @@ impl<S: Target> TypedHistory<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn units(&self) -> Units {
-        Units::of(&self.problem, UnitSystem::default())
+        Units::new(&self.problem, UnitSystem::default())
     }
 
     /// Returns the problem.
@@ -302,7 +302,7 @@ impl<S: Target> TypedHistory<S> {
     /// Converts a time to the numbers of the engine. **Errors**: [`Error::TimeOutside`] for NaN and infinities.
     fn time(&self, time: &S) -> Result<S::Carried, Error> {
         let time = time.carry();
-        quantity::finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
+        quantity::check_finite(&self.end.carry(), std::slice::from_ref(&time)).map(|()| time)
     }
 
     fn pair(&self, time: S, ask: impl Fn(&dyn Motion<S::Carried>, &S::Carried) -> Pair<S>) -> Result<(S, S), Error> {
@@ -348,36 +348,14 @@ impl<S: Target> TypedHistory<S> {
     ) -> Result<Vec<Vec<S::Carried>>, Error> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let table = quantity::columns(engine, units, columns, &times(engine)?, side)?;
-            let scaled = quantity::of_one_size(engine, units, columns, &table);
+            let scaled = quantity::scaled(engine, units, columns, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
     }
 
-    /// Returns `t`, `side`, `x`, `v`, `v_t`, `v_x` on the grid `points` at every time of `times`, column by column:
-    /// values at the points, means over the cells between them, or nodal values of a projection. Sides are as in
-    /// [`TypedHistory::columns`].
-    ///
-    /// **Accuracy**: that of the [`Plan`], each column by itself.
-    ///
-    /// **Errors**: [`Error::Grid`].
-    ///
-    /// ```
-    /// use dalembert::{Problem, quantity::Slice};
-    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(2).build()?;
-    /// // At t = 1/4 the strain is −2 below x = 1/4 and 0 above.
-    /// let slice = rod.doubles()?.slices(Slice::Averages, &[0.0, 0.5, 1.0], &[0.25], None)?;
-    /// assert_eq!(slice[5], [-1.0, 0.0]);
-    /// # Ok::<(), dalembert::Error>(())
-    /// ```
-    pub fn slices(&self, slice: Slice, points: &[S], times: &[S], side: Option<Side>) -> Result<Vec<Vec<S>>, Error> {
-        let carry = |list: &[S]| list.iter().map(Answer::carry).collect::<Vec<_>>();
-        let (points, times) = (carry(points), carry(times));
-        let table = self.ask_slices(slice, side, |_| Ok((points.clone(), times.clone())))?;
-        Ok(table.into_iter().map(|column| column.into_iter().map(S::strip).collect::<Vec<_>>()).collect())
-    }
-
-    /// Returns [`TypedHistory::slices`] in numbers with their bound, at points and times in the numbers of the engine.
+    /// Returns [`History::sample_field`](super::History::sample_field) in numbers that carry their bound, on a grid of
+    /// points and times in the numbers of the engine.
     pub fn ask_slices(
         &self,
         slice: Slice,
@@ -387,44 +365,10 @@ impl<S: Target> TypedHistory<S> {
         let query = |engine: &dyn Motion<S::Carried>| {
             let (points, times) = grid(engine)?;
             let table = quantity::slices(engine, slice, &points, &times, side)?;
-            let scaled = quantity::of_one_size(engine, &self.units(), &quantity::SLICE, &table);
+            let scaled = quantity::scaled(engine, &self.units(), &quantity::SLICE, &table);
             Ok((table, scaled))
         };
         Ok(self.ask(query, |(_, scaled)| scaled.iter().collect())?.0)
-    }
-
-    /// Returns the columns of a table, such as the `impact`, `release`, `impulse` and `peak_strain` of all contacts;
-    /// with a material in its units. A missing value, such as the release of a contact that lasts, is `None`.
-    ///
-    /// **Accuracy**: that of the [`Plan`].
-    ///
-    /// ```
-    /// use dalembert::{Problem, Quantity, quantity::Table};
-    /// let rod = Problem::builder().length(2).material(4, 1, 2).impact_speed(1).build()?;
-    /// // c = 2 and t₁ = 2; ρS L μ turns round.
-    /// let contacts = rod.doubles()?.table(Table::Contacts)?;
-    /// assert_eq!(contacts[1], (Quantity::Release, vec![Some(2.0)]));
-    /// assert_eq!(contacts[5], (Quantity::ContactImpulse, vec![Some(8.0)]));
-    /// # Ok::<(), dalembert::Error>(())
-    /// ```
-    pub fn table(&self, table: Table) -> Result<quantity::Columns<S>, Error> {
-        let strip = |column: Vec<Option<S::Carried>>| column.into_iter().map(|x| x.map(S::strip)).collect();
-        Ok(self.ask_table(table)?.into_iter().map(|(quantity, column)| (quantity, strip(column))).collect())
-    }
-
-    /// Returns [`TypedHistory::table`] in numbers that carry their bound.
-    #[doc(hidden)]
-    pub fn ask_table(&self, table: Table) -> Result<quantity::Columns<S::Carried>, Error> {
-        let units = self.units();
-        // A ratio in doubles is as accurate as its parts.
-        let doubles = matches!(self.plan().numbers, Numbers::Double(_));
-        self.ask(
-            |motion| quantity::table(motion, table, &units),
-            |columns| {
-                let settled = columns.iter().filter(|(quantity, _)| !doubles || quantity.measure().is_some());
-                settled.flat_map(|(_, column)| column.iter().flatten()).collect()
-            },
-        )
     }
 
     /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.

@@ -7,13 +7,12 @@
 
 use std::sync::Arc;
 
-use crate::common::Random;
+use crate::common::{Random, Solution};
 use dalembert::engine::{Motion, Undamped};
 use dalembert::number::Scalar;
 use dalembert::solve::Target;
 use dalembert::{
-    Error, Estimate, EventKind, Number, Numbers, Plan, Problem, Question, Rational, Scene, Side, Solution,
-    TypedHistory, Warning,
+    Error, Estimate, EventKind, Number, Numbers, Problem, Question, Rational, Scene, Side, TypedHistory, Warning,
 };
 use rug::Float;
 
@@ -53,14 +52,11 @@ fn asked(problem: &Problem, numbers: Numbers, times: &[Number]) -> (Vec<[Values;
         let both = |time| [Side::Left, Side::Right].map(|side| values(history, (&third, time), side, float));
         times.iter().map(both).collect()
     }
-    let plan = Plan::of(problem, &Question::run(numbers)).unwrap();
-    let solution = plan.solve_typed(problem, Arc::new(dalembert::engine::unobserved)).unwrap();
+    let solution = Solution::of(problem, numbers, Arc::new(dalembert::engine::unobserved)).unwrap();
     let (found, warnings) = match &solution {
         Solution::Double(history) => (all(history, times, |x| Float::with_val(BITS, *x.value())), history.warnings()),
-        Solution::Digits(history, _) => (all(history, times, |x| Float::with_val(BITS, x.value())), history.warnings()),
-        Solution::Certified(history, _) => {
-            (all(history, times, |x| Float::with_val(BITS, x.mid())), history.warnings())
-        }
+        Solution::Digits(history) => (all(history, times, |x| Float::with_val(BITS, x.value())), history.warnings()),
+        Solution::Certified(history) => (all(history, times, |x| Float::with_val(BITS, x.mid())), history.warnings()),
         _ => unreachable!(),
     };
     let named = warnings.iter().filter_map(|warning| match warning {

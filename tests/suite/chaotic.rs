@@ -3,7 +3,7 @@
 use crate::stripped::{undamped, undamped_within};
 use dalembert::engine::{Limits, Motion};
 use dalembert::solve::Rung;
-use dalembert::{Error, Numbers, Plan, Problem, Question, Run, Side, Solution, Warning};
+use dalembert::{Error, Numbers, Plan, Problem, Question, Run, Side, TypedHistory, Warning};
 use rug::Float;
 
 fn chaotic(time: i64) -> Problem {
@@ -55,11 +55,8 @@ fn the_loss_is_foreseen() {
 fn fifteen_digits_at_t_400() {
     let problem = chaotic(400);
     let plan = Plan::of(&problem, &Question::between(400.into(), 400.into(), Numbers::Digits(15))).unwrap();
-    let Solution::Digits(history, 15) =
-        plan.solve_typed(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
-    else {
-        panic!("digits were asked for")
-    };
+    let history =
+        TypedHistory::<Float>::solve(&problem, &plan, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap();
     let Rung::Bits(bits) = history.rung() else { panic!("{}", history.rung()) };
     assert!(bits < 320, "{bits} bits");
     let limits = Limits::keeping_from(&problem, 400.0);

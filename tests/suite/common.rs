@@ -6,7 +6,8 @@ use std::cell::Cell;
 use std::fmt::Debug;
 
 use dalembert::{
-    Number, Numbers, Parameters, Plan, Problem, Question, Rational, Run, Solution, Speed, Start, TypedHistory,
+    Error, Float, Interval, Number, Numbers, Observer, Parameters, Plan, Problem, Question, Rational, Run, Speed,
+    Start, TypedHistory,
 };
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
@@ -98,9 +99,28 @@ pub(crate) fn first_contact(rod: &Parameters<f64>, accuracy: f64) -> TypedHistor
 /// The first contact of `problem` in doubles to `accuracy`.
 pub(crate) fn to_accuracy(problem: &Problem, accuracy: f64) -> TypedHistory<f64> {
     let plan = Plan::of(problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-    match plan.solve_typed(problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
-        Solution::Double(history) => history,
-        other => panic!("{other:?}"),
+    TypedHistory::solve(problem, &plan, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
+}
+
+/// A history in the numbers of its plan.
+pub(crate) enum Solution {
+    Double(TypedHistory<f64>),
+    Digits(TypedHistory<Float>),
+    Exact(TypedHistory<Rational>),
+    Certified(TypedHistory<Interval>),
+}
+
+impl Solution {
+    /// The run of `problem` in `numbers`.
+    pub(crate) fn of(problem: &Problem, numbers: Numbers, observe: Observer) -> Result<Self, Error> {
+        let plan = Plan::of(problem, &Question::run(numbers))?;
+        Ok(match numbers {
+            Numbers::Double(_) => Solution::Double(TypedHistory::solve(problem, &plan, observe)?),
+            Numbers::Digits(_) => Solution::Digits(TypedHistory::solve(problem, &plan, observe)?),
+            Numbers::Exact => Solution::Exact(TypedHistory::solve(problem, &plan, observe)?),
+            Numbers::Certified(_) => Solution::Certified(TypedHistory::solve(problem, &plan, observe)?),
+            Numbers::ExactThenDigits(_) => unreachable!("one number system for the whole run"),
+        })
     }
 }
 

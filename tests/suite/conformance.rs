@@ -4,12 +4,10 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use dalembert::engine::{
-    ContactHistory, ContactThenCells, Damped, FirstContact, Limits, Motion, RayRegister, Scales, Undamped, unobserved,
-};
+use dalembert::engine::{ContactHistory, Damped, Limits, Motion, RayRegister, Scales, Undamped, unobserved};
 use dalembert::number::{Bounded, Scalar};
 use dalembert::special::RoundedSpecial;
-use dalembert::{Error, Estimate, Field, Parameters, Problem, Rational, Run, Side};
+use dalembert::{Error, Estimate, Field, Problem, Rational, Run, Side};
 
 /// How many answers have been compared, whose bounds say something.
 #[derive(Default)]
@@ -199,12 +197,10 @@ pub(crate) fn lattice<N: Bounded>(problem: &Problem, precision: &N::Precision) -
     Undamped::solve_within(problem, precision, Limits::default(), &unobserved).unwrap()
 }
 
-pub(crate) fn both<S: RoundedSpecial>(precision: &S::Precision, digits: f64) -> [Arc<dyn Motion<Estimate<S>>>; 3] {
+pub(crate) fn both<S: RoundedSpecial>(precision: &S::Precision, digits: f64) -> [Arc<dyn Motion<Estimate<S>>>; 2] {
     let problem = rod("3", Some("1/10"), Run::Impacts(3));
-    let bounce = FirstContact::new(&Parameters::of(&problem, precision).unwrap()).bounce();
     [
         Arc::new(Damped::<S>::solve(&problem, precision, digits).unwrap()),
-        Arc::new(ContactThenCells::<S>::solve(&problem, precision, digits, bounce).unwrap()),
         Arc::new(ContactHistory::<Estimate<S>>::solve(&problem, precision).unwrap()),
     ]
 }

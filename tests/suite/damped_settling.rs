@@ -3,7 +3,7 @@
 
 use crate::common::{close, uniform};
 use crate::stripped::{Stripped, damped};
-use dalembert::engine::{ContactThenCells, Damped, FirstContact, Motion};
+use dalembert::engine::{ContactHistory, Damped, Motion};
 use dalembert::{Ending, Error, Estimate, Parameters, Problem, Run, Side};
 use dalembert_verify::modal::Modal;
 
@@ -122,13 +122,17 @@ fn a_rod_under_a_fixed_top_hangs_or_stands() {
     rests(&touches, 100_000, |_| 0.0, 0.0);
 }
 
+/// The closed form of the first contact.
+fn contact(problem: &Problem) -> Stripped<f64, ContactHistory<Estimate<f64>>> {
+    ContactHistory::solve(problem, &()).map(Stripped::new).unwrap()
+}
+
 #[test]
 fn a_contact_without_end_is_known_at_all_times() {
     for (gravity, damping) in [("1", "1.8"), ("1", "1.2"), ("0", "1.8")] {
         let problem = rod(gravity, "1/2", damping, 1_000_000);
         let parameters = Parameters::<f64>::of(&problem, &()).unwrap();
-        let bounce = FirstContact::new(&parameters.carry()).bounce();
-        let history = ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).map(Stripped::new).unwrap();
+        let history = contact(&problem);
         assert!(matches!(history.ending(), Ending::NoBounce(_)), "{:?}", history.ending());
         let g = parameters.gravity;
         rests(&history, 1_000_000, |x| g * (0.5 * x * x - x), -g);
@@ -136,10 +140,7 @@ fn a_contact_without_end_is_known_at_all_times() {
     }
     // Too slow: after 256 round trips it still moves.
     let problem = rod("0", "1", "1e4", 1_000_000);
-    let bounce = FirstContact::new(&Parameters::<f64>::of(&problem, &()).unwrap().carry()).bounce();
-    let history: Stripped<f64, _> =
-        ContactThenCells::<f64>::solve(&problem, &(), 13.0, bounce).map(Stripped::new).unwrap();
-    assert_eq!(history.end(), 512.0);
+    assert_eq!(contact(&problem).end(), 512.0);
 }
 
 #[test]

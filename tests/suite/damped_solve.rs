@@ -3,18 +3,13 @@
 
 use crate::common::{close, number, problem, reference};
 use dalembert::solve::Rung;
-use dalembert::{
-    Ending, EventKind, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, Solution, TypedHistory,
-};
+use dalembert::{Ending, EventKind, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, TypedHistory};
 use serde_json::Value;
 use std::sync::Arc;
 
 fn in_doubles(problem: &Problem, accuracy: Option<f64>) -> TypedHistory<f64> {
     let plan = Plan::of(problem, &Question::run(Numbers::Double(accuracy))).unwrap();
-    let Solution::Double(motion) = plan.solve_typed(problem, Arc::new(dalembert::engine::unobserved)).unwrap() else {
-        panic!("doubles were asked for");
-    };
-    motion
+    TypedHistory::solve(problem, &plan, Arc::new(dalembert::engine::unobserved)).unwrap()
 }
 
 fn items(value: &Value) -> &Vec<Value> {
@@ -283,7 +278,7 @@ fn a_damped_run_is_observed() {
             note.lock().unwrap().push(done);
             std::ops::ControlFlow::Continue(())
         };
-        plan.solve_typed(problem, Arc::new(observe)).unwrap();
+        plan.solve(problem, Arc::new(observe)).unwrap();
         let seen = seen.lock().unwrap();
         seen.clone()
     };

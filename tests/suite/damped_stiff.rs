@@ -4,8 +4,8 @@
 use crate::common::{number, reference};
 use crate::stripped::Stripped;
 use crate::stripped::damped;
-use dalembert::engine::{ContactThenCells, FirstContact, Motion};
-use dalembert::{EventKind, Number, Parameters, Problem, Run, Side, Warning};
+use dalembert::engine::{Damped, Motion};
+use dalembert::{EventKind, Number, Problem, Run, Side, Warning};
 use serde_json::Value;
 
 /// The rod of a case, dropped.
@@ -16,10 +16,8 @@ fn rod(case: &Value) -> Problem {
     rod.impacts(u32::try_from(case["impacts"].as_u64().unwrap()).unwrap()).build().unwrap()
 }
 
-fn solve(problem: &Problem) -> Stripped<f64, ContactThenCells<f64>> {
-    let rod = Parameters::<f64>::of(problem, &()).unwrap();
-    let bounce = FirstContact::new(&rod.carry()).bounce();
-    ContactThenCells::solve(problem, &(), 13.0, bounce).map(Stripped::new).unwrap()
+fn solve(problem: &Problem) -> Stripped<f64, Damped<f64>> {
+    damped(problem, &(), 13.0).unwrap()
 }
 
 #[test]

@@ -129,14 +129,11 @@ fn close_to_the_overdamped_rod() {
 #[test]
 fn lost_digits_are_noticed_and_fetched() {
     use dalembert::solve::Rung;
-    use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
+    use dalembert::{Numbers, Plan, Problem, Question, TypedHistory};
     let solved = |damping: &str, accuracy: f64| -> TypedHistory<f64> {
         let problem = Problem::builder().length("1/2").wave_speed(1).damping(damping).impact_speed(1).build().unwrap();
         let plan = Plan::of(&problem, &Question::first_contact(Numbers::Double(Some(accuracy)))).unwrap();
-        match plan.solve_typed(&problem, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
-            Solution::Double(history) => history,
-            other => panic!("{other:?}"),
-        }
+        TypedHistory::solve(&problem, &plan, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
     };
     let plain = rod(3.135, 0.0, 0.5, 1.0).strain(&Estimate::exact(12.5), Side::Right);
     let history = solved("3.135", 1e-14);

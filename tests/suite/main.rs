@@ -44,6 +44,7 @@ mod scene_builtin;
 mod scene_properties;
 mod slices_properties;
 mod snapshots_stress;
+mod spelled_times;
 mod start_above;
 mod stripped;
 mod three_routes;

@@ -17,8 +17,8 @@
 
 use std::sync::Arc;
 
-use crate::common::Random;
-use dalembert::{EventKind, Number, Numbers, Plan, Problem, Profile, Question, Scene, Solution, Start, Top, Warning};
+use crate::common::{Random, Solution};
+use dalembert::{EventKind, Number, Numbers, Problem, Profile, Scene, Start, Top, Warning};
 use rug::Float;
 use rug::ops::Pow;
 
@@ -282,15 +282,15 @@ impl Case {
 
 /// What was found near the threshold: the events, with how far their times may be off, and whether a warning names it.
 fn near(problem: &Problem, numbers: Numbers, (t, wide): (&Float, &Float)) -> (Vec<(EventKind, Float, f64)>, bool) {
-    let plan = Plan::of(problem, &Question::run(numbers)).unwrap();
-    let solution = plan.solve_typed(problem, Arc::new(dalembert::engine::unobserved)).unwrap();
+    let solution = Solution::of(problem, numbers, Arc::new(dalembert::engine::unobserved)).unwrap();
     let (events, warnings): (Vec<_>, Vec<Warning>) = match &solution {
         Solution::Double(history) => {
             let events = history.events().iter();
             (events.map(|e| (e.kind, float(e.t), e.t_error)).collect(), history.warnings())
         }
-        Solution::Digits(history, digits) => {
-            let rounding = 10f64.powi(-(*digits as i32));
+        Solution::Digits(history) => {
+            let Numbers::Digits(digits) = numbers else { unreachable!() };
+            let rounding = 10f64.powi(-(digits as i32));
             let events = history.events().iter();
             let event = |e: &dalembert::Event<_>| (e.kind, Float::clone(&e.t), e.t.to_f64() * rounding);
             (events.map(event).collect(), history.warnings())

@@ -129,7 +129,7 @@ fn a_material_without_an_area_has_forces_per_area() {
         let columns = [Quantity::Stress, Quantity::Force, Quantity::Impulse, Quantity::Energy];
         let found = rod.doubles().unwrap().columns(&columns, &[2.0], Some(Side::Left)).unwrap();
         assert_eq!(found, [[-6.0], [6.0 * area], [12.0 * area], [9.0 * area]]);
-        assert_eq!(columns.map(|column| column.unit(&Units::of(&rod, UnitSystem::Si))), units);
+        assert_eq!(columns.map(|column| column.unit(&Units::new(&rod, UnitSystem::Si))), units);
         assert_eq!(rod.to_builder().build().unwrap(), rod);
     }
 }

@@ -5,7 +5,7 @@ use dalembert::engine::{ContactHistory, Damped, Motion};
 use dalembert::number::{IntervalPrecision, Scalar};
 use dalembert::quantity::{Slice, slices};
 use dalembert::special::gauss_legendre;
-use dalembert::{Ending, Estimate, Float, Interval, Number, Problem, Rational, Reason, Side, Start};
+use dalembert::{Ending, Estimate, Float, Interval, Number, Problem, Rational, Reason, Side, Start, Value};
 use proptest::prelude::*;
 
 use crate::common::compares;
@@ -116,7 +116,8 @@ fn without_damping_they_are_fractions() {
         for (t, exactly) in times {
             for slice in BOTH {
                 let found = slices(&history, slice, &exact(&points), std::slice::from_ref(&t), None).unwrap();
-                let truth = truth.slices(slice, &rational(&points), std::slice::from_ref(&exactly), None).unwrap();
+                let grid = |_: &dyn Motion<_>| Ok((rational(&points), vec![exactly.clone()]));
+                let truth = truth.ask_slices(slice, None, grid).unwrap();
                 prop_assert_eq!(apart(&found, &doubles(&truth)), Vec::<String>::new(), "{:?} {:?}", slice, t);
                 compared += found.len();
             }
@@ -207,10 +208,12 @@ fn linear_fields_are_reproduced() {
     let cases =
         [(start, 0.0, [1.0, 0.25, 0.0], -1.0), (still, 80.0, resting, 0.0), (held, 80.0, [0.8, 0.0, bend], 0.0)];
     for (problem, t, [a, b, d], rate) in cases {
-        let history = problem.build().unwrap().doubles().unwrap();
+        let history = problem.build().unwrap().solve().unwrap();
         for points in [vec![0.0, 2.0], vec![0.0, 0.3, 0.30001, 1.7, 2.0]] {
-            let nodal = history.slices(Slice::P1, &points, &[t], None).unwrap();
-            let means = history.slices(Slice::Averages, &points, &[t], None).unwrap();
+            let at = |slice| history.sample_field(slice, &points[..].into(), &[t][..].into(), None).unwrap();
+            let value = |column: Vec<Value>| column.iter().map(Value::to_f64).collect::<Vec<_>>();
+            let [nodal, means] =
+                [Slice::P1, Slice::Averages].map(|slice| at(slice).into_iter().map(value).collect::<Vec<_>>());
             for (k, x) in points.iter().enumerate() {
                 assert!((nodal[4][k] - rate).abs() < 1e-9, "{t} {x} {}", nodal[4][k]);
                 assert!((nodal[5][k] - (b + 2.0 * d * x)).abs() < 1e-9, "{t} {x} {}", nodal[5][k]);

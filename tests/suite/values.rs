@@ -1,10 +1,11 @@
 //! The history without a number type: its values against pencil and paper, and against the typed history.
 
+use dalembert::engine::Motion;
 use dalembert::number::List;
 use dalembert::quantity::Table;
 use dalembert::quantity::{Slice, UnitSystem};
 use dalembert::solve::{Places, StressForm};
-use dalembert::{Error, Numbers, Problem, Quantity, Side, Value};
+use dalembert::{Error, Estimate, Numbers, Problem, Quantity, Side, Value};
 
 /// `ρS = 2`, `c = 2`, `t₁ = 1`, and `M = μ/(g t₁) = 3`.
 fn rod() -> Problem {
@@ -52,8 +53,13 @@ fn every_question_agrees_with_the_typed_history() {
     let points = List::equally_spaced("0..1:3").unwrap();
     let (at, list) = (Places::from(&points), List::equally_spaced("1/4,1/2").unwrap());
     let field = history.sample_field(Slice::Points, &at, &Places::from(&list), Some(Side::Right)).unwrap();
-    let numbers = typed.slices(Slice::Points, &[0.0, 0.5, 1.0], &[0.25, 0.5], Some(Side::Right)).unwrap();
-    assert!(field.iter().zip(&numbers).all(|(values, numbers)| values.iter().zip(numbers).all(|(a, b)| a == b)));
+    let exactly = |list: &[f64]| list.iter().map(|x| Estimate::exact(*x)).collect();
+    let grid = |_: &dyn Motion<_>| Ok((exactly(&[0.0, 0.5, 1.0]), exactly(&[0.25, 0.5])));
+    let numbers = typed.ask_slices(Slice::Points, Some(Side::Right), grid).unwrap();
+    let same = |(values, numbers): (&Vec<Value>, &Vec<Estimate<f64>>)| {
+        values.iter().zip(numbers).all(|(a, b)| *a == *b.value())
+    };
+    assert!(field.iter().zip(&numbers).all(same));
     assert_eq!((field.len(), field[0].len()), (6, 6));
     let found = history.at("1/2", "1/8").unwrap();
     // The wave front is at x = c t = 1/4: above it the rod falls freely.

@@ -215,7 +215,7 @@ impl Run {
     /// Returns a picture as `dalembert plot` draws it.
     fn picture(&self, span: Option<[f64; 2]>, canvas: Canvas) -> Result<Picture, JsError> {
         let drawing = Drawing { title: self.scene.title.clone(), span, canvas };
-        let units = Units::of(&self.scene.problem, self.scene.units);
+        let units = Units::new(&self.scene.problem, self.scene.units);
         let DrawnSvg { svg, color_limit } = drawing.draw(&self.history, units).map_err(failed)?;
         Ok(Picture { svg, color_limit })
     }

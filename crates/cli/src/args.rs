@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Args};
 
 use crate::failure::Failure;
 use crate::file::{self, Destination, Format};
+use crate::source;
 use dalembert::Scene;
 use dalembert::number::List;
 use dalembert::solve::{CERTIFIED_DIGITS, Numbers};
@@ -22,6 +23,11 @@ where
     };
     PossibleValuesParser::new(T::VARIANTS.iter().map(value))
         .try_map(|name| name.parse().map_err(|_| "expected one of the words listed"))
+}
+
+/// Returns the change of `--format` to an option that takes the `known` formats.
+pub(crate) fn known_formats(known: &'static [Format]) -> impl FnOnce(Arg) -> Arg {
+    move |argument| argument.value_parser(file::formats(known))
 }
 
 /// Parses a list of numbers, `0.3,1/3` or `A..B:N`. An error shows the grammar.
@@ -85,9 +91,33 @@ impl NumberArgs {
     }
 }
 
-/// The files that the output goes to.
+/// A scene, the numbers of its answer, and where that goes.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct SceneArgs {
+    /// A scene file, `-`, or a built-in scene
+    pub(crate) scene: String,
+    #[command(flatten)]
+    pub(crate) numbers: NumberArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+impl SceneArgs {
+    /// Reads the scene, and returns it with the requested numbers.
+    pub(crate) fn read(&self) -> Result<(Scene, Numbers), Failure> {
+        let scene = source::read(&self.scene)?;
+        let numbers = self.numbers.numbers(&scene);
+        Ok((scene, numbers))
+    }
+}
+
+/// The format of the output, and the files that it goes to. Each subcommand names the formats that it knows with
+/// [`known_formats`].
 #[derive(Args, Clone, Debug)]
 pub(crate) struct OutputArgs {
+    /// Format of the output; by default that of the ending of FILE, or the first of these
+    #[arg(long, value_parser = file::formats(&[]))]
+    pub(crate) format: Option<Format>,
     /// Write to this file, whole or not at all; its ending chooses the format, and `-` is standard output. Can be given
     /// several times
     #[arg(short, long, value_name = "FILE")]
@@ -95,13 +125,19 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Returns where the output goes: to each file, in the format of its ending or `requested`; without a file to
-    /// standard output, in `requested` or the first of `known`.
-    pub(crate) fn destinations(
+    /// Returns where the output goes: to each file, in the format of its ending or the requested one; without a file
+    /// to standard output, in the requested format or the first of `known`.
+    pub(crate) fn destinations(&self, known: &[Format]) -> Result<Vec<Destination>, Failure> {
+        self.destinations_in(None, known)
+    }
+
+    /// Returns [`OutputArgs::destinations`] in the `implied` format where none is requested.
+    pub(crate) fn destinations_in(
         &self,
-        requested: Option<Format>,
+        implied: Option<Format>,
         known: &[Format],
     ) -> Result<Vec<Destination>, Failure> {
+        let requested = self.format.or(implied);
         if self.output.is_empty() {
             return Ok(vec![Destination { path: None, format: requested.unwrap_or(known[0]) }]);
         }

@@ -19,7 +19,6 @@ use std::process::ExitCode;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::output::SCHEMA;
 use commands::{check, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command};
 use failure::Failure;
 
@@ -92,25 +91,41 @@ enum Command {
     },
 }
 
-/// Parses `arguments`, the first of which is the name of the program, runs the command and reports a failure. The exit
-/// code is 2 for arguments that cannot be parsed or run.
+/// The reason why the command did nothing: arguments that cannot be parsed, or a failure on the way.
+#[derive(Debug, thiserror::Error)]
+pub enum CommandError {
+    /// Arguments that cannot be parsed; or help or the version, which were asked for.
+    #[error(transparent)]
+    Arguments(#[from] clap::Error),
+    /// A failure, as it is reported.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// Runs the command on `arguments`, as [`try_main`], and reports a failure with the exit code 2.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let parsed = command().color(color(&arguments)).try_get_matches_from(arguments);
-    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli,
+    match try_main(arguments) {
+        Ok(code) => code,
         // Help and the version are on standard output, with the code 0.
-        Err(error) => {
+        Err(CommandError::Arguments(error)) => {
             let is_failure = error.use_stderr();
             let printed = error.print();
-            return if is_failure || printed.is_err() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+            if is_failure || printed.is_err() { ExitCode::from(2) } else { ExitCode::SUCCESS }
         }
-    };
+        Err(CommandError::Failed(text)) => {
+            eprintln!("{text}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Runs the command on `arguments`, the first of which is the name of the program, and returns its exit code.
+pub fn try_main(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitCode, CommandError> {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let matches = command().color(color(&arguments)).try_get_matches_from(arguments)?;
+    let cli = Cli::from_arg_matches(&matches)?;
     terminal::configure(cli.quiet, cli.color);
-    run(cli).unwrap_or_else(|failure| {
-        eprintln!("{failure}");
-        ExitCode::from(2)
-    })
+    run(cli).map_err(|failure| CommandError::Failed(failure.to_string()))
 }
 
 /// Returns the grammar of the command, in which every option takes negative numbers.
@@ -157,7 +172,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
             done.map_err(failure::cannot("write the page"))?;
             file::print(&page)
         }
-        Command::Schema => file::print(SCHEMA.as_bytes()),
+        Command::Schema => file::print(&output::json_bytes(output::schema().as_value())),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut command(), "dalembert", &mut script);

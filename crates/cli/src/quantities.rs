@@ -21,7 +21,7 @@ pub(crate) enum Scope {
 
 /// Returns whether stresses and forces of a scene have units.
 pub(crate) fn has_material(scene: &Scene) -> bool {
-    Units::of(&scene.problem, scene.units).has_material()
+    Units::new(&scene.problem, scene.units).has_material()
 }
 
 impl Scope {

@@ -1,5 +1,6 @@
 //! Data beside an exact history: norms, contacts and audit.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::audit::{Audit, AuditInput, MomentumTerms};
@@ -34,7 +35,7 @@ pub struct Agreement {
 }
 
 /// The part of the run that the data cover.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Coverage {
     /// The end of the data, and the end of the run of the scene.
     pub time: [f64; 2],

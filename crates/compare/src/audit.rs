@@ -1,16 +1,17 @@
 //! The audit of data by the laws of motion: contact conditions, energy, momentum.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A greatest value with its time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Extreme {
     pub value: f64,
     pub time: f64,
 }
 
 /// The change of the energy of the data against that of the exact history, `theirs − ours` less its value at the start.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct EnergyChange {
     /// The change at the end.
     pub change: f64,
@@ -26,7 +27,7 @@ pub(crate) struct EnergyChange {
 }
 
 /// The result of the audit; `None` where the columns for it are not given.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Audit {
     /// The greatest `−v(0,t)`.
     pub penetration: Option<Extreme>,

@@ -35,7 +35,7 @@ pub enum CompareError {
     #[error("{file}: {error}")]
     Fit { file: String, error: FitError },
     #[error(transparent)]
-    TypedHistory(#[from] Error),
+    History(#[from] Error),
 }
 
 impl CompareError {

@@ -1,9 +1,10 @@
 //! Contacts as samples show them, and their assignment to the exact contacts.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A contact as it is compared: from samples, or from the exact history.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct ContactRecord {
     /// The beginning; for samples the middle between the last one off the ground and the first one on it.
     pub impact: f64,
@@ -25,7 +26,7 @@ pub(crate) struct ContactRecord {
 }
 
 /// An exact contact and one of the data that are the same; either may be missing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct ContactPair {
     pub ours: Option<ContactRecord>,
     pub theirs: Option<ContactRecord>,

@@ -1,6 +1,7 @@
 //! The diagnosis of data: the causes that fit, and symptoms that need no fit.
 
 use super::agreement::Agreement;
+use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
 use super::cause_fits::{Candidate, CauseFits, Fitted};
 use super::hint::{Detectable, Hint};
@@ -66,17 +67,8 @@ impl Diagnosis {
         let mut causes = GENERAL.to_vec();
         // Damped rods are followed round trip by round trip.
         causes.retain(|(_, cause)| *cause != Cause::Damping || fits.damping() > 0.0 || last < DAMPED_TRIPS * trip);
-        let signals = fits.model.signals.iter().enumerate();
-        for (k, signal) in signals.filter(|(_, signal)| unstable.is_none() && !signal.is_zero) {
-            let kind = match signal.column.measure() {
-                Some(Measure::Energy) => "energy_factor",
-                Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => "force_factor",
-                _ => "factor",
-            };
-            causes.push((kind, Cause::Factor(k)));
-            if signal.column.measure() == Some(Measure::Length) {
-                causes.push(("origin", Cause::Offset(k)));
-            }
+        if unstable.is_none() {
+            causes.extend(causes_of_columns(&fits.model));
         }
         let candidate = |(kind, cause)| Some(Candidate { kind, cause, slope: fits.slopes(cause, 0.0, &fits.base)? });
         fits.candidates = causes.into_iter().filter_map(candidate).collect();
@@ -106,17 +98,38 @@ impl Diagnosis {
             let symptom = unstable.or_else(|| half_step(reference, agreement));
             self.hints.extend(symptom.or_else(|| unlike_mass(reference, agreement)));
         }
-        for (count, kind, whose) in [
-            (agreement.audit.missed, "missed", "of ours that are not in theirs"),
-            (agreement.audit.invented, "invented", "of theirs that are not in ours"),
-        ] {
-            if count > 0 {
-                let text = format!("contacts {whose}: {count}; see the table of contacts");
-                self.hints.push(Hint { quantity: "contact", ..Hint::new(kind, count as f64, text) });
-            }
-        }
+        self.hints.extend(unpaired_hints(&agreement.audit));
         Ok(())
     }
+}
+
+/// Returns the hints at contacts without a partner.
+fn unpaired_hints(audit: &Audit) -> impl Iterator<Item = Hint> {
+    let unpaired = [
+        (audit.missed, "missed", "of ours that are not in theirs"),
+        (audit.invented, "invented", "of theirs that are not in ours"),
+    ];
+    unpaired.into_iter().filter(|(count, ..)| *count > 0).map(|(count, kind, whose)| {
+        let text = format!("contacts {whose}: {count}; see the table of contacts");
+        Hint { quantity: "contact", ..Hint::new(kind, count as f64, text) }
+    })
+}
+
+/// Returns the causes that concern one column each.
+fn causes_of_columns(model: &Model<'_>) -> Vec<(&'static str, Cause)> {
+    let mut causes = Vec::new();
+    for (k, signal) in model.signals.iter().enumerate().filter(|(_, signal)| !signal.is_zero) {
+        let kind = match signal.column.measure() {
+            Some(Measure::Energy) => "energy_factor",
+            Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => "force_factor",
+            _ => "factor",
+        };
+        causes.push((kind, Cause::Factor(k)));
+        if signal.column.measure() == Some(Measure::Length) {
+            causes.push(("origin", Cause::Offset(k)));
+        }
+    }
+    causes
 }
 
 /// Returns whether the only explanation is a contact that is about as soft as a mesh makes it.

@@ -1,5 +1,6 @@
 //! The values of the scene that explain data best, by least squares.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::agreement::Agreement;
@@ -12,7 +13,7 @@ use dalembert::quantity::Quantity;
 use dalembert::solve::TypedHistory;
 
 /// A value of the scene as it was fitted.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct FittedValue {
     pub(crate) name: String,
     /// The value in the scene.
@@ -306,7 +307,6 @@ fn least_squares(
     residuals: impl Fn(&[f64]) -> Option<Vec<f64>>,
     linear: impl Fn(&[f64], &[f64]) -> Option<Vec<Vec<f64>>>,
 ) -> Option<LeastSquares> {
-    let square = |r: &[f64]| r.iter().filter(|r| !r.is_nan()).map(|r| r * r).sum::<f64>();
     let count = start.len();
     let mut values = start.to_vec();
     let mut now = residuals(&values)?;
@@ -331,7 +331,7 @@ fn least_squares(
             let next: Vec<f64> = (0..count).map(|i| values[i] + step[i] * scales[i]).collect();
             let is_small = step.iter().all(|step| step.abs() <= 1e-12);
             match residuals(&next) {
-                Some(tried) if square(&tried) <= square(&now) => {
+                Some(tried) if sum_of_squares(&tried) <= sum_of_squares(&now) => {
                     (values, now, damping, settled) = (next, tried, damping / 10.0, is_small);
                     break;
                 }
@@ -344,24 +344,42 @@ fn least_squares(
             }
         }
     }
-    let kept = now.iter().filter(|r| !r.is_nan()).count();
-    let variance = square(&now) / kept.saturating_sub(count).max(1) as f64;
-    let samples = (now.len() / columns).max(1);
+    let errors = standard_errors(&normal, &slopes, scales, &now, columns)?;
+    Some(LeastSquares { values, errors, steps, settled })
+}
+
+/// Computes the standard errors of unknowns with this normal matrix from the residuals, which are those of so many
+/// `columns`, and their `slopes`.
+fn standard_errors(
+    normal: &[Vec<f64>],
+    slopes: &[Vec<f64>],
+    scales: &[f64],
+    residuals: &[f64],
+    columns: usize,
+) -> Option<Vec<f64>> {
+    let count = scales.len();
+    let kept = residuals.iter().filter(|r| !r.is_nan()).count();
+    let variance = sum_of_squares(residuals) / kept.saturating_sub(count).max(1) as f64;
+    let samples = (residuals.len() / columns).max(1);
     let batches = BATCHES.min(samples);
     let error = |i: usize| {
         let unit: Vec<f64> = (0..count).map(|j| f64::from(u8::from(i == j))).collect();
-        let row = solve(&normal, &unit)?;
+        let row = solve(normal, &unit)?;
         // The part of the value that each stretch of residuals adds. All together add nothing.
         let mut sums = vec![0.0; batches];
-        for (k, residual) in now.iter().enumerate().filter(|(_, residual)| !residual.is_nan()) {
+        for (k, residual) in residuals.iter().enumerate().filter(|(_, residual)| !residual.is_nan()) {
             let slope: f64 = (0..count).map(|j| row[j] * slopes[j][k] * scales[j]).sum();
             sums[k % samples * batches / samples] += slope * residual;
         }
-        let together = square(&sums) * batches as f64 / batches.saturating_sub(1).max(1) as f64;
+        let together = sum_of_squares(&sums) * batches as f64 / batches.saturating_sub(1).max(1) as f64;
         Some((variance * row[i]).max(together).sqrt() * scales[i])
     };
-    let errors = (0..count).map(error).collect::<Option<_>>()?;
-    Some(LeastSquares { values, errors, steps, settled })
+    (0..count).map(error).collect()
+}
+
+/// Returns the sum of the squares of the values that are numbers.
+fn sum_of_squares(values: &[f64]) -> f64 {
+    values.iter().filter(|value| !value.is_nan()).map(|value| value * value).sum()
 }
 
 #[cfg(test)]

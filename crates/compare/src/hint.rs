@@ -1,9 +1,10 @@
 //! Hints at causes of the misfit of data.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// A cause of the misfit.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Hint {
     /// The name of the cause, such as `wave_speed`.
     pub(crate) kind: &'static str,
@@ -18,7 +19,7 @@ pub(crate) struct Hint {
 }
 
 /// The least size of a wrong number that would be named: a share, a time, or an offset.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Detectable {
     pub(crate) kind: &'static str,
     pub(crate) quantity: &'static str,

@@ -16,7 +16,7 @@
 //! let strain = times.iter().map(|t| -1.01 * (3.0 + t)).collect();
 //! let names = vec!["t".to_string(), "strain".to_string()];
 //! let source = Source::from_columns("mine", names, vec![Ok(times), Ok(strain)]);
-//! let units = Units::of(&rod, UnitSystem::Si);
+//! let units = Units::new(&rod, UnitSystem::Si);
 //! let prepared = Prepared::new(&rod, &units, None, vec![source], &Options::default())?;
 //! let found = prepared.compare(std::sync::Arc::new(engine::unobserved))?;
 //! let limits: Vec<Limit> = vec!["strain.linf=0.0101".parse()?, "strain.linf=0.0099".parse()?];
@@ -55,4 +55,4 @@ pub use limit::{Limit, LimitError, Outcome};
 pub use map::MapError;
 pub use norms::{ComparedColumn, Grid};
 pub use options::{Axis, Compression, Options, Origin};
-pub use report::LEGEND;
+pub use report::{FileReport, LEGEND, SchemaVersion, SeriesReport};

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::agreement::Agreement;
@@ -188,7 +189,7 @@ pub(crate) fn outcomes(
 }
 
 /// The order of convergence of a quantity between two files.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Order {
     pub(crate) quantity: &'static str,
     pub(crate) widths: [f64; 2],

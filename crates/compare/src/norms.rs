@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use dalembert::quantity::Quantity;
 
 /// A norm of the difference `theirs − ours`; for the greatest difference with its place.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Norm {
     /// `‖theirs − ours‖`.
     pub absolute: f64,
@@ -33,7 +34,7 @@ pub struct ComparedColumn {
 }
 
 /// The norms of the difference of a column.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Norms {
     pub samples: usize,
     /// The number of samples on a jump of the exact values.

@@ -1,16 +1,20 @@
 //! The report of a comparison, as a table and as JSON.
 
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::agreement::{Agreement, Coverage};
-use super::audit::Extreme;
+use super::audit::{Audit, Extreme};
 use super::comparison::{ComparedFile, Comparison, FittedFile};
-use super::contacts::ContactPair;
+use super::contacts::{ContactPair, ContactRecord};
 use super::diagnosis::Diagnosis;
 use super::fit::FittedValue;
 use super::hint::{Detectable, Hint};
 use super::limit::Order;
-use super::norms::{ComparedColumn, NORMS, Norm};
+use super::norms::{ComparedColumn, NORMS, Norm, Norms};
 use crate::aligned::table;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Quantity, Units};
@@ -26,7 +30,7 @@ off jumps           over samples further from a jump of ours than the window: 0.
 sample on a jump    compared with the nearer of the two limits, or the one that its row names
 impulse             ∫ F dt over the contact
 centroid            ∫ t F dt / ∫ F dt: the mean time of the force
-peak                the greatest F
+peak force          the greatest F
 gaps closed         separations within a contact shorter than a quarter of the round trip, and of
                     our shortest flight: the contact chatters, and they count as part of it
 penetration         the deepest the end is below the ground
@@ -50,7 +54,7 @@ fn number(x: f64) -> String {
     x.decimal(6)
 }
 
-/// Returns `peak, N`.
+/// Returns `peak force, N`.
 fn with_unit(name: &str, what: Quantity, units: &Units) -> String {
     match what.unit(units) {
         "" => name.to_string(),
@@ -174,7 +178,9 @@ fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) 
     let contacts: Vec<_> = then.contacts.iter().enumerate().map(contact).collect();
     let contacts = match contacts.is_empty() {
         true => String::new(),
-        false => format!("\n\n{}", table(&["theirs − fitted", "from", "to", "impulse", "centroid"], contacts, 1)),
+        false => {
+            format!("\n\n{}", table(&["theirs − fitted", "impact", "release", "impulse", "centroid"], contacts, 1))
+        }
     };
     let end = if fit.settled { "" } else { "; it had not settled" };
     format!("{values}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
@@ -232,8 +238,8 @@ fn contacts_table(contacts: &[ContactPair], units: &Units) -> String {
         }
     }
     let impulse = with_unit("impulse", Quantity::Impulse, units);
-    let peak = with_unit("peak", Quantity::Force, units);
-    table(&["contact", "", "from", "to", &impulse, "centroid", &peak], rows, 2)
+    let peak = with_unit("peak force", Quantity::Force, units);
+    table(&["contact", "", "impact", "release", &impulse, "centroid", &peak], rows, 2)
 }
 
 fn audit_lines(agreement: &Agreement, units: &Units) -> String {
@@ -291,46 +297,147 @@ fn orders_table(orders: &[Order]) -> String {
     out
 }
 
-fn fit_json(FittedFile { fit, agreement: then }: &FittedFile) -> Value {
-    let norms = then.quantities.iter().map(|compared| json!({"name": compared.what.name(), "l2": compared.norms.l2}));
-    let contacts = then.contacts.iter().map(|pair| json!({"fitted": pair.ours, "theirs": pair.theirs}));
-    json!({
-        "values": fit.values,
-        "steps": fit.steps,
-        "settled": fit.settled,
-        "quantities": norms.collect::<Vec<_>>(),
-        "contacts": contacts.collect::<Vec<_>>(),
-    })
-}
+/// The version of the form of JSON: 1.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SchemaVersion;
 
-/// Returns an object with the members of another one added.
-fn joined(mut value: Value, more: Value) -> Value {
-    if let (Some(object), Value::Object(more)) = (value.as_object_mut(), more) {
-        object.extend(more);
+impl Serialize for SchemaVersion {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(1)
     }
-    value
 }
 
-fn file_json(ComparedFile { file, agreement, diagnosis, fit }: &ComparedFile, units: &Units) -> Value {
-    let quantities = agreement.quantities.iter().map(|ComparedColumn { what, norms, .. }| {
-        joined(json!({"name": what.name(), "unit": what.unit(units)}), json!(norms))
-    });
-    json!({
-        "file": file,
-        "weights": WEIGHTS,
-        "step": agreement.step,
-        "window": agreement.window,
-        "outside": agreement.outside,
-        "notes": agreement.notes,
-        "coverage": agreement.coverage,
-        "quantities": quantities.collect::<Vec<_>>(),
-        "contacts": agreement.contacts,
-        "audit": agreement.audit,
-        "hints": diagnosis.hints,
-        "told_from": diagnosis.detectable,
-        "spread": diagnosis.spread,
-        "fit": fit.as_ref().map(fit_json),
-    })
+impl JsonSchema for SchemaVersion {
+    fn schema_name() -> Cow<'static, str> {
+        "version".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"const": 1})
+    }
+}
+
+/// The report of a comparison with one file.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "comparison")]
+pub struct FileReport<'a> {
+    schema: SchemaVersion,
+    title: Option<&'a str>,
+    #[serde(flatten)]
+    file: ComparedReport<'a>,
+}
+
+/// The report of a comparison with several files.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "comparisons")]
+pub struct SeriesReport<'a> {
+    schema: SchemaVersion,
+    title: Option<&'a str>,
+    files: Vec<ComparedReport<'a>>,
+    /// The observed order of convergence between each file and the next.
+    orders: &'a [Order],
+}
+
+/// One source of data beside the exact history.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "compared")]
+struct ComparedReport<'a> {
+    file: &'a str,
+    /// The definition of the norms.
+    weights: &'static str,
+    /// The median step of the samples.
+    step: f64,
+    /// The distance from a jump from which on a sample counts as away from it.
+    window: f64,
+    /// The number of rows before t = 0, which are not compared.
+    outside: usize,
+    /// Remarks on how the file was read.
+    notes: &'a [String],
+    coverage: &'a Coverage,
+    quantities: Vec<QuantityReport<'a>>,
+    contacts: &'a [ContactPair],
+    audit: &'a Audit,
+    hints: &'a [Hint],
+    /// The values from which on a wrong number would be named; empty where one is, or where that is not known.
+    told_from: &'a [Detectable],
+    /// The time over which the fronts of the data are spread; null where that is not known, or within a step.
+    spread: Option<f64>,
+    /// The values of the scene that explain the data best, where some are asked for.
+    fit: Option<FitReport<'a>>,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct QuantityReport<'a> {
+    name: &'static str,
+    unit: &'static str,
+    #[serde(flatten)]
+    norms: &'a Norms,
+}
+
+#[derive(Serialize, JsonSchema)]
+struct FitReport<'a> {
+    values: &'a [FittedValue],
+    steps: usize,
+    settled: bool,
+    quantities: Vec<FittedQuantity>,
+    contacts: Vec<FittedContact<'a>>,
+}
+
+/// The norm of a column with the fitted values.
+#[derive(Serialize, JsonSchema)]
+struct FittedQuantity {
+    name: &'static str,
+    l2: Norm,
+}
+
+/// A contact with the fitted values, and the one of the data.
+#[derive(Serialize, JsonSchema)]
+struct FittedContact<'a> {
+    fitted: &'a Option<ContactRecord>,
+    theirs: &'a Option<ContactRecord>,
+}
+
+impl<'a> FitReport<'a> {
+    fn new(FittedFile { fit, agreement: then }: &'a FittedFile) -> Self {
+        let quantity = |compared: &ComparedColumn| FittedQuantity { name: compared.what.name(), l2: compared.norms.l2 };
+        FitReport {
+            values: &fit.values,
+            steps: fit.steps,
+            settled: fit.settled,
+            quantities: then.quantities.iter().map(quantity).collect(),
+            contacts: then
+                .contacts
+                .iter()
+                .map(|pair| FittedContact { fitted: &pair.ours, theirs: &pair.theirs })
+                .collect(),
+        }
+    }
+}
+
+impl<'a> ComparedReport<'a> {
+    fn new(ComparedFile { file, agreement, diagnosis, fit }: &'a ComparedFile, units: &Units) -> Self {
+        let quantity = |ComparedColumn { what, norms, .. }: &'a ComparedColumn| QuantityReport {
+            name: what.name(),
+            unit: what.unit(units),
+            norms,
+        };
+        ComparedReport {
+            file,
+            weights: WEIGHTS,
+            step: agreement.step,
+            window: agreement.window,
+            outside: agreement.outside,
+            notes: &agreement.notes,
+            coverage: &agreement.coverage,
+            quantities: agreement.quantities.iter().map(quantity).collect(),
+            contacts: &agreement.contacts,
+            audit: &agreement.audit,
+            hints: &diagnosis.hints,
+            told_from: &diagnosis.detectable,
+            spread: diagnosis.spread,
+            fit: fit.as_ref().map(FitReport::new),
+        }
+    }
 }
 
 impl Comparison {
@@ -344,13 +451,13 @@ impl Comparison {
     /// Returns the report as JSON, schema 1: the members of a single file stand at the top, those of several under
     /// `files`, with their `orders`.
     pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
-        let found = match self.files.as_slice() {
-            [one] => file_json(one, units),
+        let schema = SchemaVersion;
+        match self.files.as_slice() {
+            [one] => json!(FileReport { schema, title, file: ComparedReport::new(one, units) }),
             files => {
-                let files: Vec<Value> = files.iter().map(|file| file_json(file, units)).collect();
-                json!({"files": files, "orders": self.orders})
+                let files = files.iter().map(|file| ComparedReport::new(file, units)).collect();
+                json!(SeriesReport { schema, title, files, orders: &self.orders })
             }
-        };
-        joined(json!({"schema": 1, "title": title}), found)
+        }
     }
 }

@@ -81,16 +81,11 @@ impl Samples {
             (None, None) => Vec::new(),
         };
         let (points, given_sides) = (of(Quantity::Point), of(Quantity::Side));
-        let refuse = |row: usize, what: Quantity, kind| Err(columns.refuse(row, map.place(what).unwrap_or(0), kind));
-        let mut sides = vec![None; times.len()];
-        for (k, found) in given_sides.iter().flatten().enumerate() {
-            sides[k] = match *found {
-                -1.0 => Some(Side::Left),
-                0.0 => None,
-                1.0 => Some(Side::Right),
-                other => return refuse(k, Quantity::Side, DataErrorKind::Side(other.to_string())),
-            };
-        }
+        let refuse = |row: usize, what: Quantity, kind| columns.refuse(row, map.place(what).unwrap_or(0), kind);
+        let mut sides = match &given_sides {
+            Some(given) => sides_of(given).map_err(|(row, kind)| refuse(row, Quantity::Side, kind))?,
+            None => vec![None; times.len()],
+        };
         let limits = [Some(Side::Left), Some(Side::Right)];
         for k in 1..times.len() {
             let (before, found) = (times[k - 1], times[k]);
@@ -103,15 +98,9 @@ impl Samples {
             }
         }
         times.iter_mut().for_each(|time| *time += shift);
-        for (k, found) in points.iter().flatten().enumerate() {
-            if !(0.0..=length).contains(found) {
-                return refuse(k, Quantity::Point, DataErrorKind::PointOutside { found: *found, length });
-            }
-            let same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
-            let before = k.checked_sub(1).filter(same);
-            if let Some(before) = before.and_then(|k| points.as_ref().map(|points| points[k])).filter(|x| x >= found) {
-                return refuse(k, Quantity::Point, DataErrorKind::PointsNotIncreasing { before, found: *found });
-            }
+        let misplaced = points.as_ref().and_then(|points| misplaced_point(points, &times, &sides, length));
+        if let Some((row, kind)) = misplaced {
+            return Err(refuse(row, Quantity::Point, kind));
         }
         let from = times.partition_point(|time| *time < 0.0);
         let last = times.last().copied().unwrap_or(0.0);
@@ -123,9 +112,7 @@ impl Samples {
         }
         let cut = |mut values: Vec<f64>| values.split_off(from);
         let (times, points, sides) = (cut(times), points.map(&cut), sides.split_off(from));
-        let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
-        let middle = steps.len() / 2;
-        let step = if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 };
+        let step = median_step(&times);
         let rounding = TimeRounding::new(&times, step);
         let whats = map.columns.iter().map(|(what, _)| *what);
         let is_place = |what: &Quantity| matches!(what, Quantity::Time | Quantity::Point | Quantity::Side);
@@ -134,6 +121,44 @@ impl Samples {
         let notes = (!unused.is_empty()).then(|| format!("not used: {unused}")).into_iter().collect();
         Ok(Samples { grid: Grid::new(times, points), quantities, step, outside: from, notes, rounding, sides })
     }
+}
+
+/// Reads sides: −1 is left, 1 right, and 0 either.
+///
+/// **Errors**: the row of another number.
+fn sides_of(given: &[f64]) -> Result<Vec<Option<Side>>, (usize, DataErrorKind)> {
+    let side = |(row, found): (usize, &f64)| match *found {
+        -1.0 => Ok(Some(Side::Left)),
+        0.0 => Ok(None),
+        1.0 => Ok(Some(Side::Right)),
+        other => Err((row, DataErrorKind::Side(other.to_string()))),
+    };
+    given.iter().enumerate().map(side).collect()
+}
+
+/// Returns the first row whose point is outside the rod, or not above the point before it at the same time.
+fn misplaced_point(
+    points: &[f64],
+    times: &[f64],
+    sides: &[Option<Side>],
+    length: f64,
+) -> Option<(usize, DataErrorKind)> {
+    let limits = [Some(Side::Left), Some(Side::Right)];
+    points.iter().copied().enumerate().find_map(|(k, found)| {
+        if !(0.0..=length).contains(&found) {
+            return Some((k, DataErrorKind::PointOutside { found, length }));
+        }
+        let is_same = |before: &usize| times[*before] == times[k] && sides[*before..=k] != limits;
+        let before = points[k.checked_sub(1).filter(is_same)?];
+        (before >= found).then_some((k, DataErrorKind::PointsNotIncreasing { before, found }))
+    })
+}
+
+/// Returns the median of the steps between ascending times; zero without any.
+fn median_step(times: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0).collect();
+    let middle = steps.len() / 2;
+    if steps.is_empty() { 0.0 } else { *steps.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 #[cfg(test)]

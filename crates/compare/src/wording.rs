@@ -5,6 +5,7 @@ use super::cause_fits::{CauseFits, Fitted, NO_GRAVITY};
 use super::hint::Hint;
 use super::reference::Reference;
 use super::symptoms::LEFT;
+use dalembert::Quantity;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameter;
 
@@ -42,16 +43,7 @@ impl CauseFits<'_> {
                 let instead = if scene == 0.0 { "none".into() } else { scene.decimal(4) };
                 format!("damping r = {found} ± {error} where the scene has {instead}")
             }
-            Cause::SoftContact => {
-                let rod = reference.rod();
-                let (softness, error) = (p * rod.length, error * rod.length);
-                let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
-                let (softness, error) = (softness.decimal(4), error.decimal(2));
-                format!(
-                    "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and \
-                     the contact lasts longer by {longer}"
-                )
-            }
+            Cause::SoftContact => soft_contact(p, error, reference),
             Cause::EndMass => format!("the ends carry {off} of the mass of the rod besides: check end masses"),
             Cause::Clock => format!("clock off by {off}: check the step of time"),
             Cause::TimeShift => {
@@ -65,16 +57,14 @@ impl CauseFits<'_> {
             }
             Cause::Factor(place) => {
                 let (what, factor) = (column(place), 1.0 + p);
-                (hint.quantity, hint.value) = (what.name(), factor);
+                hint.quantity = what.name();
                 if (factor + 1.0).abs() < (2.0 * error).max(LEFT * LEFT) {
                     (hint.kind, hint.value) = ("sign", -1.0);
                     format!("{} has the other sign", what.name())
                 } else {
-                    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
-                    let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
-                    let known: Vec<&str> = known.map(|known| known.question).collect();
-                    let ask = if known.is_empty() { "which unit?".to_string() } else { known.join(" ") };
-                    format!("{} × {} ± {}: {ask}", what.name(), factor.decimal(4), error.decimal(2))
+                    hint.value = factor;
+                    let question = factor_question(what, factor, error, reference);
+                    format!("{} × {} ± {}: {question}", what.name(), factor.decimal(4), error.decimal(2))
                 }
             }
             Cause::Offset(place) => {
@@ -87,4 +77,24 @@ impl CauseFits<'_> {
         };
         hint
     }
+}
+
+/// Returns the hint at a contact whose softness is this share of that of the rod.
+fn soft_contact(share: f64, error: f64, reference: &Reference<'_>) -> String {
+    let rod = reference.rod();
+    let (softness, error) = (share * rod.length, error * rod.length);
+    let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
+    let (softness, error) = (softness.decimal(4), error.decimal(2));
+    format!(
+        "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and the contact \
+         lasts longer by {longer}"
+    )
+}
+
+/// Returns the questions about the known factors of a quantity that are near `factor`.
+fn factor_question(what: Quantity, factor: f64, error: f64, reference: &Reference<'_>) -> String {
+    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
+    let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
+    let known: Vec<&str> = known.map(|known| known.question).collect();
+    if known.is_empty() { "which unit?".to_string() } else { known.join(" ") }
 }

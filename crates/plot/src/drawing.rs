@@ -3,7 +3,7 @@
 use dalembert::Error;
 use dalembert::problem::Parameters;
 use dalembert::quantity::Units;
-use dalembert::solve::{Target, TypedHistory};
+use dalembert::solve::TypedHistory;
 
 use crate::draw::{Canvas, Size};
 use crate::picture::Picture;
@@ -41,7 +41,7 @@ impl Drawing {
     /// **Accuracy**: that of the history, and a hundredth of a millimetre.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
-    pub fn draw<S: Target>(&self, history: &TypedHistory<S>, units: Units) -> Result<DrawnSvg, Error> {
+    pub fn draw(&self, history: &TypedHistory<f64>, units: Units) -> Result<DrawnSvg, Error> {
         let request = self.request(match self.canvas {
             Canvas::Page => &Picture::SHEET,
             Canvas::Screen { .. } => &[Picture::SpaceTime, Picture::Stress, Picture::Energy],
@@ -63,7 +63,7 @@ impl Drawing {
     /// Returns the first and the last time that are drawn.
     ///
     /// **Errors**: as [`Drawing::draw`].
-    pub fn drawn_span<S: Target>(&self, history: &TypedHistory<S>) -> Result<[f64; 2], Error> {
+    pub fn drawn_span(&self, history: &TypedHistory<f64>) -> Result<[f64; 2], Error> {
         self.request(&[]).span(history, Parameters::<f64>::of(history.problem(), &())?.round_trip())
     }
 }

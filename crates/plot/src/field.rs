@@ -2,12 +2,13 @@
 
 use dalembert::number::Scalar;
 use dalembert::problem::Parameters;
-use dalembert::solve::{Target, TypedHistory};
+use dalembert::solve::TypedHistory;
 use dalembert::{Error, Field, Side};
 use glam::DVec2;
 
 use crate::draw::{FieldPiece, clip};
 use crate::picture::FieldQuantity;
+use crate::scene_data::Double;
 
 /// Number of rays above which none is drawn, nor its jump measured.
 pub(crate) const MAX_RAYS: usize = 300;
@@ -58,8 +59,8 @@ impl FieldMap {
     ///
     /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and
     /// a cell is one polygon. Between the rays of a damped rod they are smooth, and a cell is divided.
-    pub(crate) fn new<S: Target>(
-        history: &TypedHistory<S>,
+    pub(crate) fn new(
+        history: &TypedHistory<f64>,
         quantity: FieldQuantity,
         factor: f64,
         extent: &Extent,
@@ -104,20 +105,20 @@ fn round_above(value: f64) -> f64 {
     steps.into_iter().map(|step| step * power).find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(value)
 }
 
-/// Returns a number as a double; NaN if its bound or enclosure does not settle it.
-pub(crate) fn settled<S: Scalar>(x: &S) -> f64 {
+/// Returns a number as a double; NaN if its bound does not settle it.
+pub(crate) fn settled(x: &Double) -> f64 {
     if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
 }
 
 /// Returns the field at points `(t, x)`.
-fn values_at<S: Target>(
-    history: &TypedHistory<S>,
+fn values_at(
+    history: &TypedHistory<f64>,
     quantity: FieldQuantity,
     extent: &Extent,
     points: &[DVec2],
 ) -> Result<Vec<f64>, Error> {
     if !extent.is_damped() {
-        let waves = history.waves()?.map(|x| x.to_f64());
+        let waves = history.waves()?;
         return Ok(points.iter().map(|point| quantity.of_field(waves.at(&point.y, &point.x))).collect());
     }
     let values = history.ask(
@@ -132,7 +133,7 @@ fn values_at<S: Target>(
 }
 
 /// Returns the field at the middles of the grid's cells, row by row from the ground up.
-fn grid<S: Target>(history: &TypedHistory<S>, quantity: FieldQuantity, extent: &Extent) -> Result<Vec<f64>, Error> {
+fn grid(history: &TypedHistory<f64>, quantity: FieldQuantity, extent: &Extent) -> Result<Vec<f64>, Error> {
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
     if !extent.is_damped() {
         let point = |k: usize| extent.point(middle(k % COLUMNS, COLUMNS), middle(k / COLUMNS, ROWS));

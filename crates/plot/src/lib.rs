@@ -1,6 +1,6 @@
 //! Pictures of the bouncing elastic rod as SVG, and with the feature `raster` as PNG and PDF.
 //!
-//! - [`Drawing`] draws one [history](dalembert::TypedHistory).
+//! - [`Drawing`] draws one [history](dalembert::TypedHistory) in doubles.
 //! - [`Request`] and [`SceneData`] draw chosen pictures of one or several scenes.
 //! - [`RodPicture`] draws the rod at one time.
 //! - [`draw`] has panels, axes and layers for other data.

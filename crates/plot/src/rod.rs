@@ -4,11 +4,12 @@ use dalembert::engine::Motion;
 use dalembert::number::Scalar;
 use dalembert::problem::Top;
 use dalembert::quantity::flights;
-use dalembert::solve::{Target, TypedHistory};
+use dalembert::solve::TypedHistory;
 use dalembert::{Error, Side};
 use glam::DVec2;
 
 use crate::draw::{AREAS, Anchor, Stroke, Svg, diverging};
+use crate::scene_data::Double;
 
 /// Number of parts of the rod, each of one colour.
 const PARTS: usize = 120;
@@ -33,8 +34,8 @@ impl RunExtremes {
     /// Asks a history for its greatest values.
     ///
     /// **Errors**: those of the history.
-    pub fn new<S: Target>(history: &TypedHistory<S>) -> Result<Self, Error> {
-        let query = |motion: &dyn Motion<S::Carried>| {
+    pub fn new(history: &TypedHistory<f64>) -> Result<Self, Error> {
+        let query = |motion: &dyn Motion<Double>| {
             let strains = motion.contacts().iter().map(|contact| contact.peak_strain.to_f64().abs());
             let mut rise = motion.centre(&motion.end())?.0.to_f64();
             for flight in flights(motion)? {
@@ -90,15 +91,10 @@ impl RodPicture {
     /// **Accuracy**: that of the history; displacements inside the rod are sums of 120 trapezoids under `v_x`.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a time that it does not reach.
-    pub fn draw<S: Target>(
-        &self,
-        history: &TypedHistory<S>,
-        extremes: &RunExtremes,
-        time: f64,
-    ) -> Result<String, Error> {
+    pub fn draw(&self, history: &TypedHistory<f64>, extremes: &RunExtremes, time: f64) -> Result<String, Error> {
         let rod = history.problem();
         let length = rod.length().to_f64();
-        let query = |motion: &dyn Motion<S::Carried>| {
+        let query = |motion: &dyn Motion<Double>| {
             let time = motion.end().double(time);
             let points: Vec<_> = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect();
             let rates = motion.rates(&points, std::slice::from_ref(&time))?;

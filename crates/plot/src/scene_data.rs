@@ -1,11 +1,11 @@
 //! Answers of a history, in doubles, that its pictures show.
 
 use dalembert::engine::{Motion, RayRegister, WavePiece, straight};
-use dalembert::number::Scalar;
+use dalembert::number::{Estimate, Scalar};
 use dalembert::problem::{Parameters, Problem};
 use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::reason::Warning;
-use dalembert::solve::{Target, TypedHistory};
+use dalembert::solve::TypedHistory;
 use dalembert::{Error, EventKind, Side, StressPiece};
 use glam::DVec2;
 
@@ -27,6 +27,8 @@ pub struct Request {
     /// Last time; by default a time that shows the first contacts.
     pub to: Option<f64>,
 }
+
+pub(crate) type Double = Estimate<f64>;
 
 /// Points of a line in the coordinates of a panel.
 pub(crate) type Curve = Vec<DVec2>;
@@ -115,13 +117,11 @@ impl Request {
     /// Asks a history for all that the pictures show.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
-    pub fn gather<S: Target>(&self, name: String, units: Units, history: &TypedHistory<S>) -> Result<SceneData, Error> {
+    pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
         let rod = Parameters::<f64>::of(history.problem(), &())?;
         let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
-        let contacts = history.contacts().iter();
-        let contacts =
-            contacts.map(|contact| [contact.impact.to_f64(), contact.release.as_ref().map_or(end, Scalar::to_f64)]);
+        let contacts = history.contacts().iter().map(|contact| [contact.impact, contact.release.unwrap_or(end)]);
         let extent = Extent { rod: rod.clone(), span };
         let rays = rays(history, &extent)?;
         let mut data = SceneData {
@@ -139,15 +139,14 @@ impl Request {
             units,
         };
         if self.pictures.contains(&Picture::Stress) {
-            let pieces = history.stress_history()?.pieces.into_iter().map(|piece| piece.map(|x| x.to_f64()));
+            let pieces = history.stress_history()?.pieces.into_iter();
             let inside = pieces.filter(|piece| meets_span(&[piece.start, piece.end]));
             data.stress = straight(&inside.collect::<Vec<_>>(), STRESS_ERROR);
         }
         if self.pictures.contains(&Picture::Restitution) {
-            let value = |x: Result<S, _>| x.ok().map(|x| x.to_f64());
             let pair = |contact| {
                 let found = history.restitution(contact)?;
-                Ok([value(found.e_p), value(found.e_e2)])
+                Ok([found.e_p.ok(), found.e_e2.ok()])
             };
             data.restitution = (0..data.all_contacts.min(MAX_CONTACTS)).map(pair).collect::<Result<_, Error>>()?;
         }
@@ -161,9 +160,9 @@ impl Request {
     }
 
     /// Returns the span to be drawn: the one asked for, or a part of the history that shows its first contacts.
-    pub(crate) fn span<S: Target>(&self, history: &TypedHistory<S>, trip: f64) -> Result<[f64; 2], Error> {
+    pub(crate) fn span(&self, history: &TypedHistory<f64>, trip: f64) -> Result<[f64; 2], Error> {
         let end = settled_until(history);
-        let events: Vec<_> = history.events().iter().map(|event| (event.t.to_f64(), event.kind)).collect();
+        let events: Vec<_> = history.events().iter().map(|event| (event.t, event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());
         let from = self.from.or(first.map(|first| first - TRIPS_AFTER * trip)).unwrap_or(0.0);
         if from >= end {
@@ -181,9 +180,9 @@ impl Request {
         Ok([from, to.min(end)])
     }
 
-    fn gather_quantities<S: Target>(
+    fn gather_quantities(
         &self,
-        history: &TypedHistory<S>,
+        history: &TypedHistory<f64>,
         extent: &Extent,
         rays: &[Ray],
     ) -> Result<Vec<(Quantity, Vec<Curve>)>, Error> {
@@ -214,19 +213,19 @@ impl Request {
 }
 
 /// Returns the end of the history, or the time from which its events are not settled.
-fn settled_until<S: Target>(history: &TypedHistory<S>) -> f64 {
+fn settled_until(history: &TypedHistory<f64>) -> f64 {
     let unsettled = history.warnings().into_iter().filter_map(|warning| match warning {
         Warning::EventsOverlap { from } | Warning::NotDetermined { from } => Some(from),
         _ => None,
     });
-    unsettled.fold(history.end().to_f64(), f64::min)
+    unsettled.fold(*history.end(), f64::min)
 }
 
 /// Returns every ray that is in the rod during the span, in the order in which they leave the ground.
-fn rays<S: Target>(history: &TypedHistory<S>, extent: &Extent) -> Result<Vec<Ray>, Error> {
+fn rays(history: &TypedHistory<f64>, extent: &Extent) -> Result<Vec<Ray>, Error> {
     let ([from, to], trip, damping) = (extent.span, extent.trip(), extent.rod.damping);
     if damping == 0.0 {
-        let waves = history.waves()?.map(|x| x.to_f64());
+        let waves = history.waves()?;
         let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
         let ray = |pair: &[WavePiece<f64>]| {
             let jump = (pair[1].rate - pair[0].at(&pair[1].from).1).abs();
@@ -237,7 +236,7 @@ fn rays<S: Target>(history: &TypedHistory<S>, extent: &Extent) -> Result<Vec<Ray
     }
     // A ray of a damped rod is reflected for ever, and fades.
     let faded = damping.recip() * -FADED.ln();
-    let jumps = |motion: &dyn Motion<S::Carried>| {
+    let jumps = |motion: &dyn Motion<Double>| {
         let (end, scales) = (motion.end(), motion.scales());
         let mut rays = RayRegister::of(motion).passing(&end.zero(), from - trip, to);
         rays.retain(|ray| ray.age <= faded);
@@ -266,12 +265,12 @@ fn rays<S: Target>(history: &TypedHistory<S>, extent: &Extent) -> Result<Vec<Ray
 }
 
 /// Returns the times at which curves have points: evenly spaced, at events, and where rays are at the ends of the rod.
-fn times<S: Scalar>(motion: &dyn Motion<S>, extent: &Extent, rays: &[Ray]) -> Result<Vec<S>, Error> {
+fn times(motion: &dyn Motion<Double>, extent: &Extent, rays: &[Ray]) -> Result<Vec<Double>, Error> {
     let (end, [from, to]) = (motion.end(), extent.span);
     let count = if rays.len() > MAX_RAY_POINTS { DENSE_POINTS } else { POINTS };
     let even = (0..=count).map(|k| from + (to - from) * k as f64 / count as f64);
     // The engine's own numbers meet the rays, at which values from the left and from the right may differ.
-    let mut exact: Vec<S> = motion.events().iter().map(|event| event.t.clone()).collect();
+    let mut exact: Vec<Double> = motion.events().iter().map(|event| event.t.clone()).collect();
     if rays.len() <= MAX_RAY_POINTS {
         let scales = motion.scales();
         match motion.waves() {
@@ -287,7 +286,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, extent: &Extent, rays: &[Ray]) -> Re
             Err(error) => return Err(error),
         }
     }
-    let mut times: Vec<(f64, S)> = exact.into_iter().map(|time| (time.to_f64(), time)).collect();
+    let mut times: Vec<(f64, Double)> = exact.into_iter().map(|time| (time.to_f64(), time)).collect();
     times.extend(even.map(|time| (time, end.double(time))));
     times.retain(|(time, _)| *time >= from && *time <= to);
     times.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -300,11 +299,7 @@ fn times<S: Scalar>(motion: &dyn Motion<S>, extent: &Extent, rays: &[Ray]) -> Re
 }
 
 /// Returns points along the rod, each with its displacement over time.
-fn world_lines<S: Target>(
-    history: &TypedHistory<S>,
-    extent: &Extent,
-    rays: &[Ray],
-) -> Result<Vec<(f64, Curve)>, Error> {
+fn world_lines(history: &TypedHistory<f64>, extent: &Extent, rays: &[Ray]) -> Result<Vec<(f64, Curve)>, Error> {
     let shares: Vec<f64> = (0..WORLD_LINES).map(|k| k as f64 / (WORLD_LINES - 1) as f64).collect();
     let found = history.ask(
         |motion| {
@@ -320,7 +315,7 @@ fn world_lines<S: Target>(
         },
         |rows| rows.iter().map(|row| &row.1).collect(),
     )?;
-    let point = |(t, v): &(S::Carried, S::Carried)| DVec2::new(t.to_f64(), v.to_f64());
+    let point = |(t, v): &(Double, Double)| DVec2::new(t.to_f64(), v.to_f64());
     let curve = |k: usize| found.iter().skip(k).step_by(WORLD_LINES).map(point).collect();
     Ok(shares.iter().enumerate().map(|(k, share)| (share * extent.rod.length, curve(k))).collect())
 }

@@ -2,7 +2,7 @@
 
 use dalembert::engine::Motion;
 use dalembert::number::{Estimate, Scalar};
-use dalembert::quantity::{Units, columns, of_contact};
+use dalembert::quantity::{Units, columns, contact_value};
 use dalembert::reason::Warning;
 use dalembert::solve::{Numbers, Question, TypedHistory};
 use dalembert::{Error, Scene, Target, builtin};
@@ -37,7 +37,7 @@ impl PublishedScene {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(name: &str, scene: &Scene) -> Result<Self, Error> {
-        let (problem, units) = (&scene.problem, Units::of(&scene.problem, scene.units));
+        let (problem, units) = (&scene.problem, Units::new(&scene.problem, scene.units));
         let history: TypedHistory<f64> = problem.answer(&Question::run(Numbers::Double(scene.accuracy)))?;
         let compare = |motion: &dyn Motion<Double>| {
             scene.targets.iter().map(|target| ComparedValue::new(target, motion, &units)).collect()
@@ -77,7 +77,7 @@ impl ComparedValue {
             None => {
                 let contact = target.contact - 1;
                 let none = |_| Error::NoContact { contact, found: motion.contacts().len() };
-                of_contact(motion, units, target.quantity, contact)?.map_err(none)?
+                contact_value(motion, units, target.quantity, contact)?.map_err(none)?
             }
             Some(time) => {
                 let at = |time: Double| {

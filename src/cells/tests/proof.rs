@@ -22,7 +22,7 @@ fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
     (proof.even, proof.masses) = (even / unit, masses / unit);
     let task = Task { problem, precision: &BITS, effort, observe: &unobserved };
     let found = Follower::new(&medium, &data, Some(proof)).run(&task).unwrap();
-    Damped::record_of(&task, (medium, data), None, found).unwrap()
+    Damped::record_of(&task, (medium, data), found).unwrap()
 }
 
 /// Greatest ratio of error and bound, and the number of comparisons.

@@ -27,10 +27,11 @@ impl<const N: usize> Wide<N> {
         let mut small = b.limbs;
         let mut guard = shift_down(&mut small, apart % 64);
         if apart >= 64 {
-            let mut lost = 0;
-            for _ in 0..apart / 64 {
+            let (mut lost, mut left) = (0, apart / 64);
+            while left > 0 {
                 lost |= guard;
                 guard = move_down(&mut small);
+                left -= 1;
             }
             guard |= u64::from(lost != 0);
         }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::motion::{Pair, Side};
+use crate::number::Scalar;
 use crate::solve::question::{Question, unobserved};
 
 /// A rod that bounces three times, damped or not.

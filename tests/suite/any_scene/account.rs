@@ -2,10 +2,11 @@
 
 use dalembert::engine::Motion;
 use dalembert::number::Scalar;
-use dalembert::quantity::{Needs, Slice, Table, slices};
+use dalembert::quantity::{Needs, Slice, Table, rows, slices};
 use dalembert::solve::Target;
 use dalembert::{
-    Ending, Error, Estimate, EventKind, Float, Interval, Number, Quantity, Rational, Side, TypedHistory, Warning,
+    Ending, Error, Estimate, EventKind, Float, Interval, Number, Numbers, Quantity, Rational, Side, TypedHistory,
+    Warning,
 };
 
 /// Bits in which numbers are compared.
@@ -134,8 +135,22 @@ impl Account {
             .collect();
         let mut tables = Vec::new();
         for table in [Table::Contacts, Table::Flights] {
-            for (name, column) in history.ask_table(table).map_err(at("table"))? {
-                tables.push((name.name(), column.iter().map(|x| x.as_ref().map(S::read)).collect()));
+            let quantities = table.quantities();
+            let doubles = matches!(history.plan().numbers, Numbers::Double(_));
+            let rows = history
+                .ask(
+                    |run| rows(run, quantities),
+                    |rows| {
+                        // A ratio in doubles is as accurate as its parts.
+                        let numbers = rows.iter().flat_map(|row| row.iter().zip(quantities));
+                        let settled = numbers.filter(|(_, quantity)| !doubles || quantity.measure().is_some());
+                        settled.filter_map(|(number, _)| number.as_ref().ok()).collect()
+                    },
+                )
+                .map_err(at("table"))?;
+            for (k, quantity) in quantities.iter().enumerate() {
+                let number = |row: &Vec<Result<_, _>>| row[k].as_ref().ok().map(S::read);
+                tables.push((quantity.name(), rows.iter().map(number).collect()));
             }
         }
         let mut found = Vec::new();

@@ -18,9 +18,20 @@ use against::{balances, compare};
 use draw::{any_scene, spelled, times};
 use traced::Traced;
 
-use crate::common::Random;
-use dalembert::{Ending, Error, Number, Numbers, Plan, Problem, Question, Rational, Solution, Start, Top};
+use crate::common::{Random, Solution};
+use dalembert::{Ending, Error, Number, Numbers, Problem, Rational, Start, Top};
 
+/// Evaluates `$body` for the history of a `Solution`, in any number system.
+macro_rules! in_any {
+    ($solution:expr, $history:ident => $body:expr) => {
+        match $solution {
+            Solution::Double($history) => $body,
+            Solution::Digits($history) => $body,
+            Solution::Exact($history) => $body,
+            Solution::Certified($history) => $body,
+        }
+    };
+}
 /// What was drawn, compared and found.
 #[derive(Debug, Default)]
 struct Counts {
@@ -56,16 +67,11 @@ impl Counts {
 fn solve(problem: &Problem, numbers: Numbers, limit: Duration) -> Result<Solution, Error> {
     let begun = Instant::now();
     let observe = move |_, _| if begun.elapsed() > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-    Plan::of(problem, &Question::run(numbers))?.solve_typed(problem, Arc::new(observe))
+    Solution::of(problem, numbers, Arc::new(observe))
 }
 
 fn account(solution: &Solution, times: &[Number], points: &[Number]) -> Result<Account, (String, Error)> {
-    match solution {
-        Solution::Double(history) => Account::of(history, times, points),
-        Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => Account::of(history, times, points),
-        Solution::Exact(history) => Account::of(history, times, points),
-        Solution::Certified(history, _) => Account::of(history, times, points),
-    }
+    in_any!(solution, history => Account::of(history, times, points))
 }
 
 const SLOW: Duration = Duration::from_secs(5);
@@ -153,9 +159,9 @@ fn held(mut random: Random, number: usize, explore: bool, counts: &mut Counts) {
         counts.runs += 1;
         let end = match solution {
             Solution::Exact(history) => history.end().to_f64(),
-            Solution::Certified(history, _) => history.end().lo().to_f64(),
+            Solution::Certified(history) => history.end().lo().to_f64(),
             Solution::Double(history) => *history.end(),
-            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => history.end().to_f64(),
+            Solution::Digits(history) => history.end().to_f64(),
         };
         // What ends earlier is asked as far as it goes.
         let open = matches!(
@@ -204,12 +210,7 @@ fn held(mut random: Random, number: usize, explore: bool, counts: &mut Counts) {
 }
 
 fn solution_ending(solution: &Solution) -> &Ending {
-    match solution {
-        Solution::Double(history) => history.ending(),
-        Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => history.ending(),
-        Solution::Exact(history) => history.ending(),
-        Solution::Certified(history, _) => history.ending(),
-    }
+    in_any!(solution, history => history.ending())
 }
 
 fn explore(seed: u64, from: usize, scenes: usize, explore: bool) -> Counts {

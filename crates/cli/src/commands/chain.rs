@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use crate::failure::Failure;
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, DataColumn, Dataset, json_bytes, rows_bytes};
+use crate::output::{Cell, Column, Dataset, json_bytes, rows_bytes};
 use crate::terminal;
 use dalembert::chain::{ChainColumn, ChainHistory, ChainListing};
 use dalembert::number::{List, Value};
@@ -35,8 +35,8 @@ fn digits(numbers: Numbers) -> u32 {
     }
 }
 
-fn column(name: &'static str) -> DataColumn {
-    DataColumn::new(name).bounded()
+fn column(name: &'static str) -> Column {
+    Column::new(name).bounded()
 }
 
 /// Returns the name of a node as it stands after the dot of a column: `bottom`, `1`, `top`.
@@ -48,8 +48,8 @@ fn events(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |event: &dalembert::chain::ChainEvent<Value>| {
         let number = |value: &Value| Cell::Number(value.clone());
         vec![
-            (DataColumn::new("node").text(), place(scene, event.node)),
-            (DataColumn::new("event").text(), event.kind.name().into()),
+            (Column::new("node").text(), place(scene, event.node)),
+            (Column::new("event").text(), event.kind.name().into()),
             (column("t"), number(&event.t)),
             (column("gap_rate_before"), number(&event.before)),
             (column("gap_rate_after"), number(&event.after)),
@@ -60,7 +60,7 @@ fn events(scene: &ChainScene, listing: &ChainListing) -> Dataset {
 
 fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |touch: &dalembert::chain::Touch<Value>| {
-        vec![(DataColumn::new("node").text(), place(scene, touch.node)), (column("t"), Cell::Number(touch.t.clone()))]
+        vec![(Column::new("node").text(), place(scene, touch.node)), (column("t"), Cell::Number(touch.t.clone()))]
     };
     Dataset::from_rows(listing.touches.iter().map(row))
 }
@@ -69,7 +69,7 @@ fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |contact: &dalembert::chain::ChainContact<Value>| {
         let number = |value: &Value| Cell::Number(value.clone());
         vec![
-            (DataColumn::new("node").text(), place(scene, contact.node)),
+            (Column::new("node").text(), place(scene, contact.node)),
             (column("impact"), number(&contact.impact)),
             (column("release"), Cell::number(contact.release.clone())),
             (column("impulse"), number(&contact.impulse)),
@@ -86,7 +86,7 @@ fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     Dataset::from_rows(rows.map(|(node, piece)| {
         let number = |value: &Value| Cell::Number(value.clone());
         vec![
-            (DataColumn::new("node").text(), place(scene, node)),
+            (Column::new("node").text(), place(scene, node)),
             (column("start"), number(&piece.start)),
             (column("end"), number(&piece.end)),
             (column("force_start"), number(&piece.first)),
@@ -166,12 +166,12 @@ pub(crate) fn sample(
     for time in &times {
         for side in sides {
             let mut row = vec![
-                (DataColumn::new("t"), Cell::Plain(time_json(time, numbers))),
-                (DataColumn::new("side").text(), side.name().into()),
+                (Column::new("t"), Cell::Plain(time_json(time, numbers))),
+                (Column::new("side").text(), side.name().into()),
             ];
             for column in &columns {
                 let value = history.value(*column, time, *side)?;
-                let head = DataColumn::new(column.name(chain));
+                let head = Column::new(column.name(chain));
                 row.push((if uncertainty { head.bounded() } else { head }, Cell::Number(value)));
             }
             rows.push(row);
@@ -180,7 +180,7 @@ pub(crate) fn sample(
     note(&history)?;
     let mut data = Dataset::from_rows(rows.into_iter());
     (data.digits, data.keys, data.list) = (digits(numbers), Some(2), "rows");
-    data.header = vec![("schema", json!(1)), ("title", json!(scene.title)), ("number", json!(numbers.to_string()))];
+    data.header = json!({"schema": 1, "title": scene.title, "number": numbers.to_string()});
     write_all(destinations, |format| match format {
         Format::Table => Ok(data.table().into_bytes()),
         Format::Json => Ok(json_bytes(&data.json())),
@@ -219,10 +219,10 @@ pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Dest
         let row = |effect: &dalembert::ChainEffect| {
             let line = effect.line.map_or(Json::Null, Json::from);
             vec![
-                (DataColumn::new("effect").text(), effect.effect.into()),
-                (DataColumn::new("called").text(), (if effect.called { "yes" } else { "no" }).into()),
-                (DataColumn::new("line").text(), Cell::Plain(line)),
-                (DataColumn::new("because").text(), effect.because.as_str().into()),
+                (Column::new("effect").text(), effect.effect.into()),
+                (Column::new("called").text(), (if effect.called { "yes" } else { "no" }).into()),
+                (Column::new("line").text(), Cell::Plain(line)),
+                (Column::new("because").text(), effect.because.as_str().into()),
             ]
         };
         let table = Dataset::from_rows(effects.iter().map(row)).table();

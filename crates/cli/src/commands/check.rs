@@ -4,15 +4,16 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::args::OutputArgs;
+use crate::args::{OutputArgs, known_formats};
 use crate::failure::Failure;
-use crate::file::{Format, formats, write_all};
+use crate::file::{Format, write_all};
 use crate::output::{check_json, check_page, check_summary, check_table, json_bytes};
 use crate::{source, terminal};
 use dalembert_verify::check::{CATALOGUE, Case, CheckedCase, Group, UnknownName, Verdict, select};
 use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 #[command(after_help = "Examples:\n  dalembert check\n  dalembert check --only late --only figure-4\n  \
     dalembert check --format markdown -o check.md\n\nThe exit code is 1 if any promise is not kept.")]
 pub(crate) struct Check {
@@ -22,9 +23,6 @@ pub(crate) struct Check {
     /// Print one line a case, and how many came to each verdict
     #[arg(long, conflicts_with = "format")]
     summary: bool,
-    /// Format of the output; by default that of the ending of FILE, or a table
-    #[arg(long, value_parser = formats(FORMATS))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -36,7 +34,7 @@ const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Markdown];
 
 impl Check {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        let destinations = self.output.destinations(self.format, FORMATS)?;
+        let destinations = self.output.destinations(FORMATS)?;
         let (targets, cases): (Vec<&String>, Vec<&String>) = self.only.iter().partition(|name| *name == TARGETS);
         let is_everything = self.only.is_empty();
         let cases: Vec<String> = cases.into_iter().cloned().collect();

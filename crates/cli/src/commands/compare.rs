@@ -6,9 +6,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::args::OutputArgs;
+use crate::args::{OutputArgs, known_formats};
 use crate::failure::Failure;
-use crate::file::{self, Destination, Format, ROWS, ROWS_OR_PICTURE, formats, write_all, write_with_rows};
+use crate::file::{self, Destination, Format, ROWS, ROWS_OR_PICTURE, write_all, write_with_rows};
 use crate::output::{compare_data, compare_svg, json_bytes, rows_bytes};
 use crate::progress::Progress;
 use crate::{source, terminal};
@@ -23,10 +23,11 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v, \
     strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes \
     them; a column side (left, right, both) says which. A unit in a name, as in `force [kN]`, is brought to that of \
-    the scene. The exit code is 1 where a bound fails; with any bound, data \
+    the scene. A CSV has every sample; beside a picture the table is printed as well. The exit code is 1 where a bound fails; with any bound, data \
     that end before the run of the scene do, or before --to, fail.";
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(ROWS)))]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nWords of the report:\n{LEGEND}"))]
 pub(crate) struct Compare {
     /// A scene file, `-`, or a built-in scene; it is followed as far as the data go
@@ -51,10 +52,6 @@ pub(crate) struct Compare {
     /// Write the outcome of every bound as JUnit's XML, whole or not at all
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Format of the output; by default that of the ending of FILE (a picture, .json, .csv with every sample), or a
-    /// table. Beside pictures the table is printed as well
-    #[arg(long, value_parser = formats(ROWS))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -93,7 +90,7 @@ impl Compare {
         let scene = source::read(&self.scene)?;
         let limits = self.limits()?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
-        let units = Units::of(&scene.problem, scene.units);
+        let units = Units::new(&scene.problem, scene.units);
         let prepared =
             Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
         let progress = Progress::new(&scene, &prepared.plan);
@@ -109,7 +106,7 @@ impl Compare {
         };
         // Before anything is written.
         let outcomes = comparison.outcomes(&limits).map_err(|error| failure!("{error}").help(BOUNDS))?;
-        write_with_rows(destinations, self.format, bytes)?;
+        write_with_rows(destinations, self.output.format, bytes)?;
         if let Some(path) = &self.junit {
             let destination = Destination { path: Some(path.clone()), format: Format::Table };
             write_all(&[destination], |_| Ok(junit(&outcomes).into_bytes()))?;
@@ -140,7 +137,7 @@ impl Compare {
 
     /// Returns where the output goes. Several files of data are refused for a picture or CSV.
     fn destinations(&self) -> Result<Vec<Destination>, Failure> {
-        let destinations = self.output.destinations(self.format, ROWS_OR_PICTURE)?;
+        let destinations = self.output.destinations(ROWS_OR_PICTURE)?;
         let is_of_one = |format: Format| !matches!(format, Format::Table | Format::Json);
         if self.data.len() > 1
             && let Some(destination) = destinations.iter().find(|destination| is_of_one(destination.format))

@@ -2,12 +2,12 @@
 
 use clap::Args;
 
-use crate::args::{NumberArgs, OutputArgs};
+use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
-use crate::file::{self, Format, ROWS, ROWS_OR_PICTURE, formats, write_with_rows};
+use crate::file::{self, ROWS, ROWS_OR_PICTURE, write_with_rows};
 use crate::output::{cost_data, cost_svg, effects_data, rows_bytes};
 use crate::quantities::{NameParser, Scope, has_material};
-use crate::{source, terminal};
+use crate::terminal;
 use dalembert::number::Number;
 use dalembert::quantity::{Measure, Quantity};
 use dalembert_plot::draw::Size;
@@ -15,12 +15,13 @@ use dalembert_verify::RouteQuestion;
 use dalembert_verify::cost;
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(ROWS)))]
 #[command(after_help = "Examples:\n  dalembert cost figure-4-r02 --quantity e_E2 -o cost.svg\n  \
     dalembert cost figure-4-r02 --quantity energy --time 2 --seconds 60\n  \
-    dalembert cost doyen-ern-piperno --effects")]
+    dalembert cost doyen-ern-piperno --effects\n\nBeside a picture the table is printed as well.")]
 pub(crate) struct Cost {
-    /// A scene file, `-`, or a built-in scene
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// The quantity that every route computes, or a group, which stands for its first one; by default the bounce time,
     /// or the last event of a scene with several impacts
     #[arg(long, value_parser = NameParser::new(&[Scope::SingleNumber], []))]
@@ -35,20 +36,12 @@ pub(crate) struct Cost {
     /// Seconds to measure, about
     #[arg(long, value_name = "S", default_value_t = 10.0, allow_negative_numbers = true)]
     seconds: f64,
-    #[command(flatten)]
-    numbers: NumberArgs,
-    /// Format of the output; by default that of the ending of FILE, or a table. Beside pictures the rows are printed as
-    /// well
-    #[arg(long, value_parser = formats(ROWS))]
-    format: Option<Format>,
-    #[command(flatten)]
-    output: OutputArgs,
 }
 
 impl Cost {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = source::read(&self.scene)?;
-        let destinations = self.output.destinations(self.format, ROWS_OR_PICTURE)?;
+        let (scene, numbers) = self.scene.read()?;
+        let destinations = self.scene.output.destinations(ROWS_OR_PICTURE)?;
         if self.effects && destinations.iter().any(|destination| destination.format.is_picture()) {
             return Err(failure!("found --effects with a picture, expected a table, JSON or CSV"));
         }
@@ -68,12 +61,12 @@ impl Cost {
             (effects_data(&cost::effects(&scene, energies, self.seconds, observe)?, title), None)
         } else {
             let question = RouteQuestion::from_scene(&scene, quantity, self.time.clone())?;
-            let plan = question.plan(self.numbers.numbers(&scene))?;
+            let plan = question.plan(numbers)?;
             let table = cost::work_precision(&question, &plan, self.seconds, observe)?;
             (cost_data(&table, title), Some(cost_svg(&table, title)))
         };
         bar.finish_and_clear();
-        write_with_rows(destinations, self.format, |format| match &svg {
+        write_with_rows(destinations, self.scene.output.format, |format| match &svg {
             Some(svg) if format.is_picture() => file::picture(format, svg.clone(), Size::Page),
             _ => rows_bytes(&data, format),
         })

@@ -4,9 +4,9 @@ use clap::Args;
 use serde_json::json;
 
 use super::chain;
-use crate::args::{NumberArgs, OutputArgs};
+use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
-use crate::file::{Format, formats, write_all};
+use crate::file::{Format, write_all};
 use crate::output::{json_bytes, wrapped};
 use crate::source::{self, AnyScene};
 use crate::terminal;
@@ -15,16 +15,10 @@ use dalembert::{Effect, EffectUse, Scene};
 use dalembert_compare::aligned::table;
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 pub(crate) struct Explain {
-    /// A scene file, `-`, or a built-in scene
-    scene: String,
     #[command(flatten)]
-    numbers: NumberArgs,
-    /// Format of the output; by default that of the ending of FILE, or a table
-    #[arg(long, value_parser = formats(FORMATS))]
-    format: Option<Format>,
-    #[command(flatten)]
-    output: OutputArgs,
+    scene: SceneArgs,
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
     wide: bool,
@@ -34,16 +28,16 @@ const FORMATS: &[Format] = &[Format::Table, Format::Json];
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = match source::read_any(&self.scene)? {
+        let scene = match source::read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) => {
-                let numbers = self.numbers.numbers_to(scene.accuracy);
-                return chain::explain(&scene, numbers, &self.output.destinations(self.format, FORMATS)?);
+                let numbers = self.scene.numbers.numbers_to(scene.accuracy);
+                return chain::explain(&scene, numbers, &self.scene.output.destinations(FORMATS)?);
             }
         };
-        let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(&scene)))?;
+        let plan = Plan::of(&scene.problem, &Question::run(self.scene.numbers.numbers(&scene)))?;
         let effects = effects(&scene, &plan);
-        write_all(&self.output.destinations(self.format, FORMATS)?, |format| {
+        write_all(&self.scene.output.destinations(FORMATS)?, |format| {
             if format == Format::Table {
                 return Ok(self.text(&scene, &effects, &plan).into_bytes());
             }

@@ -6,21 +6,21 @@ use clap::Args;
 use clap::builder::PossibleValue;
 
 use crate::answer::{Answer, solve};
-use crate::args::{NumberArgs, OutputArgs, words};
+use crate::args::{NumberArgs, OutputArgs, known_formats, words};
 use crate::failure::Failure;
-use crate::file::{self, Format, PICTURES, formats, write_all};
+use crate::file::{self, PICTURES, write_all};
 use crate::output::RunInfo;
 use crate::quantities::{NameParser, Scope};
 use crate::{source, terminal};
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
-use dalembert::quantity::Units;
-use dalembert::solve::{History, Numbers, Question, Target, TypedHistory, Visitor};
+use dalembert::solve::{History, Numbers, Question};
 use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(PICTURES)))]
 #[command(after_help = "\
     Without --quantity, one scene is told in four pictures: the field along the rod with its rays and contacts, the \
     stress at the ground, the motion of both ends and of the centre of mass, and the energy; several scenes are drawn \
@@ -53,9 +53,6 @@ pub(crate) struct Plot {
     size: Size,
     #[command(flatten)]
     numbers: NumberArgs,
-    /// Format of the picture; by default that of the ending of FILE, or SVG
-    #[arg(long, value_parser = formats(PICTURES))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -74,7 +71,7 @@ impl Plot {
         if !self.output.is_given() {
             return Err(failure!("found no file, expected --output FILE, such as -o bounces.svg"));
         }
-        let destinations = self.output.destinations(self.format, PICTURES)?;
+        let destinations = self.output.destinations(PICTURES)?;
         let time = |time: &Option<Number>| time.as_ref().map(Number::to_f64);
         let (from, to) = (time(&self.from), time(&self.to));
         if let Some(from) = from.filter(|from| *from < 0.0) {
@@ -148,7 +145,7 @@ impl Plot {
         };
         let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
         let Answer { history, info, progress } = solve(scene, &question)?;
-        let found = history.visit(Gather { name: file, request, units: info.units.clone() })?;
+        let found = history.in_doubles(|doubles| request.gather(file.into(), info.units.clone(), doubles))??;
         drop(progress);
         RunInfo { warnings: history.warnings(), ..info }.print_warnings();
         note_span(file, request, &found, &history);
@@ -196,20 +193,5 @@ fn name_by_differences(scenes: &mut [SceneData]) {
     for (scene, values) in scenes.iter_mut().zip(&all) {
         let values = different.iter().map(|k| format!("{} = {}", values[*k].0, values[*k].1.decimal(6)));
         scene.name = values.collect::<Vec<_>>().join(", ");
-    }
-}
-
-/// A request for the data of the pictures of a history, whatever its numbers.
-struct Gather<'a> {
-    name: &'a str,
-    request: &'a Request,
-    units: Units,
-}
-
-impl Visitor for Gather<'_> {
-    type Output = Result<SceneData, dalembert::Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        self.request.gather(self.name.into(), self.units, history)
     }
 }

@@ -2,15 +2,16 @@
 
 use clap::Args;
 
-use crate::args::{OutputArgs, in_threads};
+use crate::args::{OutputArgs, in_threads, known_formats};
 use crate::failure::{Failure, cannot};
-use crate::file::{self, Format, formats, write_all};
+use crate::file::{self, Format, write_all};
 use crate::output::{regimes_data, regimes_npz, regimes_svg, regimes_text, rows_bytes, threshold_data};
 use crate::terminal;
 use dalembert_plot::draw::Size;
 use dalembert_verify::regimes::{GridError, Map};
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 #[command(after_help = "Examples:\n  dalembert regimes -o regimes.png\n  dalembert regimes --damping-ratio 0..4:1000 \
     --speed-ratio 0.05..1e4:1000:log -o regimes.npz\n\nAll first contacts are those of two numbers, R = r t₁ and \
     M = μ/(g t₁), with the round trip t₁ = 2L/c. The bounce comes\nat t₁ above the curve \
@@ -28,9 +29,6 @@ pub(crate) struct Regimes {
     /// Number of threads; by default one for each core
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Format of the output; by default that of the ending of FILE, or a table of the share of each regime
-    #[arg(long, value_parser = formats(FORMATS))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -39,8 +37,7 @@ const FORMATS: &[Format] = &[Format::Table, Format::Csv, Format::Npz, Format::Sv
 
 impl Regimes {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let requested = self.format.or(self.curve.then_some(Format::Csv));
-        let destinations = self.output.destinations(requested, FORMATS)?;
+        let destinations = self.output.destinations_in(self.curve.then_some(Format::Csv), FORMATS)?;
         if self.curve && destinations.iter().any(|destination| destination.format != Format::Csv) {
             return Err(failure!("found --curve with another format, expected CSV"));
         }

@@ -9,9 +9,9 @@ use clap::Args;
 
 use super::chain;
 use crate::answer::{Answer, solve};
-use crate::args::{NumberArgs, OutputArgs, list, words};
+use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
-use crate::file::{Destination, Format, formats, write_all};
+use crate::file::{Destination, Format, write_all};
 use crate::output::{
     Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
 };
@@ -53,16 +53,18 @@ pub(crate) struct Reference {
 }
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 struct SampleArgs {
-    /// A scene file, `-`, or a built-in scene. With times it is followed to the last one, whatever its own run says
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
     /// golden file has the columns as they are listed, by default all. Of a chain they are u_top.2 of the second body,
     /// force.bottom, force.1 of the joint above the first body, force.top, and so on; by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).with_places())]
     quantity: Vec<String>,
-    /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B
+    /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B. The scene is followed
+    /// to the last of them, whatever its own run says
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
     times: Option<List>,
     /// Times from a file, `-` for standard input: one a line, `#` begins a comment
@@ -91,13 +93,6 @@ struct SampleArgs {
     /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
     #[arg(long)]
     uncertainty: bool,
-    #[command(flatten)]
-    numbers: NumberArgs,
-    /// Format of the output; by default that of the ending of FILE, or a table, or CSV for a golden file
-    #[arg(long, value_parser = formats(FORMATS))]
-    format: Option<Format>,
-    #[command(flatten)]
-    output: OutputArgs,
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
     wide: bool,
@@ -129,9 +124,9 @@ impl Sample {
 impl Reference {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let Some(language) = self.language else { return self.args.run(true) };
-        let scene = source::read(&self.args.scene)?;
-        let question = Question::run(self.args.numbers.numbers(&scene));
-        let destinations = self.args.output.destinations(Some(Format::Table), FORMATS)?;
+        let (scene, numbers) = self.args.scene.read()?;
+        let question = Question::run(numbers);
+        let destinations = self.args.scene.output.destinations_in(Some(Format::Table), FORMATS)?;
         let Answer { history, info, progress } = solve(&scene, &question)?;
         let info = RunInfo { warnings: history.warnings(), ..info };
         progress.suspend(|| info.print_warnings());
@@ -144,16 +139,17 @@ impl Reference {
 
 impl SampleArgs {
     fn run(&self, is_golden: bool) -> Result<(), Failure> {
-        let scene = match source::read_any(&self.scene)? {
+        let scene = match source::read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) if is_golden => {
-                let name = scene.title.as_deref().unwrap_or(&self.scene);
+                let name = scene.title.as_deref().unwrap_or(&self.scene.scene);
                 return Err(failure!("found a chain of bodies, {name}, expected a single rod; `sample` takes chains"));
             }
             AnyScene::Chain(scene) => return self.chain(&scene),
         };
+        let numbers = self.scene.numbers.numbers(&scene);
         let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
-        let destinations = self.output.destinations(self.format, known)?;
+        let destinations = self.scene.output.destinations(known)?;
         if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
             return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
@@ -171,7 +167,6 @@ impl SampleArgs {
         if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
             return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
         }
-        let numbers = self.numbers.numbers(&scene);
         let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
             None => Question::run(numbers),
             Some((Some(first), _)) if first.to_f64() < 0.0 => {
@@ -205,8 +200,8 @@ impl SampleArgs {
             Some(SideArg::Both) => &[Side::Left, Side::Right],
             Some(SideArg::Right) | None => &[Side::Right],
         };
-        let destinations = self.output.destinations(self.format, FORMATS)?;
-        let numbers = self.numbers.numbers_to(scene.accuracy);
+        let destinations = self.scene.output.destinations(FORMATS)?;
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
         chain::sample(scene, numbers, (&self.quantity, &times), sides, &destinations, self.uncertainty)
     }
 
@@ -324,7 +319,7 @@ impl Rows<'_> {
         let by = || self.args.derivatives.iter().copied().zip(&derivatives);
         let (derived_columns, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
             by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
-        let columns = self.quantities.iter().map(|quantity| Column::new(*quantity, &info.units));
+        let columns = self.quantities.iter().map(|quantity| Column::from_quantity(*quantity, &info.units));
         let columns: Vec<Column> = columns.chain(derived_columns).collect();
         let writer = |destination: &Destination| {
             // A table has derivatives below it.
@@ -333,23 +328,13 @@ impl Rows<'_> {
         };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let mut write = |cells: &[Vec<Cell>]| writers.iter_mut().try_for_each(|writer| writer.push(cells));
-        let count = self.times.as_ref().map_or(1, List::len);
         // Derivatives are computed all at once.
         let at_once = match derivatives.is_empty() {
             true => CHUNK / self.points.as_ref().map_or(1, List::len).min(CHUNK),
-            false => count,
+            false => usize::MAX,
         };
         progress.set_stage("values of the answer");
-        let (mut cells, mut written) = (Vec::new(), Ok(()));
-        for begin in (0..count).step_by(at_once) {
-            let (part, mut values) = (begin..(begin + at_once).min(count), Ok(Vec::new()));
-            std::thread::scope(|scope| {
-                scope.spawn(|| written = write(&cells));
-                values = self.values(&history, part);
-            });
-            std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
-            cells = values?.into_iter().map(|column| column.into_iter().map(Cell::Number).collect()).collect();
-        }
+        let mut cells = self.push_rows(&history, at_once, &mut write)?;
         cells.extend(derived_cells);
         write(&cells).map_err(cannot("keep the rows"))?;
         let mut tables = String::new();
@@ -375,6 +360,27 @@ impl Rows<'_> {
             terminal::note(history.ending());
         }
         Ok(())
+    }
+
+    /// Passes rows to `write`, in parts of as many times, while the next part is computed, and returns the last part.
+    fn push_rows(
+        &self,
+        history: &History,
+        at_once: usize,
+        write: &mut (impl FnMut(&[Vec<Cell>]) -> std::io::Result<()> + Send),
+    ) -> Result<Vec<Vec<Cell>>, Failure> {
+        let count = self.times.as_ref().map_or(1, List::len);
+        let (mut cells, mut written) = (Vec::new(), Ok(()));
+        for begin in (0..count).step_by(at_once) {
+            let (part, mut values) = (begin..begin.saturating_add(at_once).min(count), Ok(Vec::new()));
+            std::thread::scope(|scope| {
+                scope.spawn(|| written = write(&cells));
+                values = self.values(history, part);
+            });
+            std::mem::replace(&mut written, Ok(())).map_err(cannot("keep the rows"))?;
+            cells = values?.into_iter().map(|column| column.into_iter().map(Cell::Number).collect()).collect();
+        }
+        Ok(cells)
     }
 
     /// Returns a label for each row of derivatives: `t = 1/2   x = 0`.

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::args::OutputArgs;
+use crate::args::{OutputArgs, known_formats};
 use crate::failure::{Failure, cannot};
-use crate::file::{Format, ROWS, formats, write_all};
+use crate::file::{Format, ROWS, write_all};
 use crate::output::{rows_bytes, targets_data};
 use crate::{source, terminal};
 use dalembert::builtin;
@@ -15,6 +15,7 @@ use dalembert_compare::aligned::table;
 use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(ROWS)))]
 #[command(
     after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json\n  \
     dalembert scenes my_scenes/ --targets\n\nWith --targets the exit code is 1 where a value differs by more than \
@@ -27,9 +28,6 @@ pub(crate) struct Scenes {
     /// ones
     #[arg(long)]
     targets: bool,
-    /// Format of the published values; by default that of the ending of FILE, or a table
-    #[arg(long, value_parser = formats(ROWS))]
-    format: Option<Format>,
     #[command(flatten)]
     output: OutputArgs,
     /// Keep each row of a table on one line, however wide
@@ -42,7 +40,7 @@ impl Scenes {
         if self.targets {
             return self.published();
         }
-        if self.format.is_some_and(|format| format != Format::Table) {
+        if self.output.format.is_some_and(|format| format != Format::Table) {
             return Err(failure!("found --format, expected it with --targets: a list of scenes is a text"));
         }
         let text = match &self.name {
@@ -63,7 +61,7 @@ impl Scenes {
                 }
             },
         };
-        write_all(&self.output.destinations(Some(Format::Table), ROWS)?, |_| Ok(text.clone().into_bytes()))?;
+        write_all(&self.output.destinations(ROWS)?, |_| Ok(text.clone().into_bytes()))?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -86,7 +84,7 @@ impl Scenes {
             }
         }
         let data = targets_data(&all, self.wide);
-        write_all(&self.output.destinations(self.format, ROWS)?, |format| rows_bytes(&data, format))?;
+        write_all(&self.output.destinations(ROWS)?, |format| rows_bytes(&data, format))?;
         let (count, agreed) = PublishedScene::count(&all);
         Ok(ExitCode::from(u8::from(agreed < count)))
     }

@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::chain;
 use crate::answer::{Answer, note_end, solve};
-use crate::args::{NumberArgs, OutputArgs};
+use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
-use crate::file::{Destination, Format, ROWS, formats, write_all};
+use crate::file::{Destination, Format, ROWS, write_all};
 use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
 use crate::source::{self, AnyScene};
 use dalembert::ChainScene;
@@ -23,23 +23,17 @@ const EXAMPLES: &str = "Examples:\n  dalembert solve doyen-ern-piperno --exact\n
     dalembert scenes paper-weak | dalembert solve - --part stress";
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(ROWS)))]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\nSymbols:\n{LEGEND}"))]
 pub(crate) struct Solve {
-    /// A scene file, `-`, or a built-in scene
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// The last time, in place of the scene's own run
     #[arg(long, value_name = "T", conflicts_with = "impacts", allow_hyphen_values = true)]
     to: Option<Number>,
     /// Number of contacts, each with the flight after it, in place of the scene's own run
     #[arg(long, value_name = "N", value_parser = contacts)]
     impacts: Option<u32>,
-    #[command(flatten)]
-    numbers: NumberArgs,
-    /// Format of the output; by default that of the ending of FILE, or a table
-    #[arg(long, value_parser = formats(ROWS))]
-    format: Option<Format>,
-    #[command(flatten)]
-    output: OutputArgs,
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
     wide: bool,
@@ -66,8 +60,7 @@ fn contacts(text: &str) -> Result<u32, String> {
 
 impl Solve {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let requested = self.format.or(self.part.map(|_| Format::Csv));
-        let destinations = self.output.destinations(requested, ROWS)?;
+        let destinations = self.scene.output.destinations_in(self.part.map(|_| Format::Csv), ROWS)?;
         if self.part.is_some() && destinations.iter().any(|destination| destination.format != Format::Csv) {
             return Err(failure!(
                 "found --part, expected it with CSV only: JSON holds all parts, and a table all but the stress"
@@ -79,14 +72,15 @@ impl Solve {
         if self.part == Some(HistoryPart::Stress) && !self.derivatives.is_empty() {
             return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
-        let mut scene = match source::read_any(&self.scene)? {
+        let mut scene = match source::read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
         };
+        let numbers = self.scene.numbers.numbers(&scene);
         if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
             scene.problem = scene.problem.with_run(run)?;
         }
-        let Answer { history, info, progress } = solve(&scene, &Question::run(self.numbers.numbers(&scene)))?;
+        let Answer { history, info, progress } = solve(&scene, &Question::run(numbers))?;
         progress.set_stage("values of the answer");
         let has = |format: Format| destinations.iter().any(|destination| destination.format == format);
         let is_stress = self.part == Some(HistoryPart::Stress);
@@ -95,7 +89,7 @@ impl Solve {
             (false, true) => Some(StressForm::Straight(STRAIGHT_ERROR)),
             (false, false) => None,
         };
-        let listing = history.listing(stress, !self.numbers.is_double())?;
+        let listing = history.listing(stress, !self.scene.numbers.is_double())?;
         let info = RunInfo { wide: self.wide, ..info };
         let mut tables = HistoryTables::new(&history, listing, stress, &info);
         if has_outline(&destinations) {
@@ -141,7 +135,7 @@ impl Solve {
         if let Some(to) = &self.to {
             scene.chain = scene.chain.with_until(to.clone())?;
         }
-        let numbers = self.numbers.numbers_to(scene.accuracy);
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
         chain::solve(&scene, numbers, destinations)
     }
 }

@@ -8,26 +8,27 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::json;
 
-use crate::args::{NumberArgs, OutputArgs, in_threads};
+use crate::args::{SceneArgs, in_threads, known_formats};
 use crate::failure::{self, Failure};
-use crate::file::{Format, formats, write_all};
+use crate::file::{Format, write_all};
 use crate::output::{rows_bytes, sweep_data};
 use crate::quantities::{NameParser, Scope, has_material};
 use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
-use crate::{source, terminal};
+use crate::terminal;
 use dalembert::number::Number;
 use dalembert::quantity::Needs;
 use dalembert_verify::regimes::GridError;
 
 #[derive(Args, Debug)]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 #[command(after_help = "Examples:\n  dalembert sweep figure-4-r02 --vary impact.speed=0.05..12.5:500:log \
     --vary rod.damping=0,0.1,0.2,0.3 --quantity bounce_time,e_E2 -o figure-4.csv\n  dalembert sweep rod.toml \
     --vary rod.damping=0..1:1001 --quantity energy --shard 3/8 -o part-3.npz\n\nThe last --vary changes fastest. \
     With -o FILE, finished points are kept in FILE.unfinished until all are;\nafter an interruption, the same command \
     with --resume goes on from there and writes the same bytes.\n\nThe exit code is 1 where no point has a number.")]
 pub(crate) struct Sweep {
-    /// A scene file, `-`, or a built-in scene
-    scene: String,
+    #[command(flatten)]
+    scene: SceneArgs,
     /// A value to vary: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
     /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
@@ -39,8 +40,6 @@ pub(crate) struct Sweep {
     /// The time of quantities over time; by default the first bounce
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
-    #[command(flatten)]
-    numbers: NumberArgs,
     /// Only the i-th of n consecutive parts of the points, for job arrays
     #[arg(long, value_name = "I/N", value_parser = shard)]
     shard: Option<[usize; 2]>,
@@ -50,11 +49,6 @@ pub(crate) struct Sweep {
     /// Number of threads; by default one for each core
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Format of the output; by default that of the ending of FILE, or a table
-    #[arg(long, value_parser = formats(FORMATS))]
-    format: Option<Format>,
-    #[command(flatten)]
-    output: OutputArgs,
 }
 
 const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Csv, Format::Npz];
@@ -79,8 +73,8 @@ fn axis(text: &str) -> Result<Axis, Failure> {
 impl Sweep {
     /// Solves all points and writes them. The exit code is 1 if no point has a number.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        let destinations = self.output.destinations(self.format, FORMATS)?;
-        let scene = source::read(&self.scene)?;
+        let destinations = self.scene.output.destinations(FORMATS)?;
+        let (scene, numbers) = self.scene.read()?;
         let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
             return Err(failure!("found time {time}, expected one from 0 on"));
@@ -91,8 +85,7 @@ impl Sweep {
         {
             return Err(failure!("found time {time}, expected none: {quantity} is not asked at a time"));
         }
-        let (time, numbers) = (self.time.clone(), self.numbers.numbers(&scene));
-        let request = Request { quantities, time, numbers, units: scene.units };
+        let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, request };
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;

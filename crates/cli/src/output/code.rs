@@ -1,11 +1,11 @@
 //! The exact solution of an undamped rod as a function for other programs: Python, MATLAB, C.
 
 use super::header::Header;
-use dalembert::Error;
-use dalembert::engine::{WavePiece, Waves};
-use dalembert::number::{Scalar, bound_of_log2};
+use dalembert::engine::WavePiece;
+use dalembert::number::bound_of_log2;
 use dalembert::problem::Top;
-use dalembert::solve::{History, Target, TypedHistory, Visitor};
+use dalembert::solve::History;
+use dalembert::{Error, Value};
 
 /// A programming language of functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -32,38 +32,19 @@ const NEAR: &str = "1 + 2e-15";
 
 /// Returns the function `uExact(x, t, d)` of a history of an undamped rod.
 pub(crate) fn code(history: &History, language: Language, header: &Header<'_>) -> Result<String, Error> {
-    history.visit(Code { language, header })
-}
-
-/// A request for the function of a history, whatever its numbers.
-struct Code<'a> {
-    language: Language,
-    header: &'a Header<'a>,
-}
-
-impl Visitor for Code<'_> {
-    type Output = Result<String, Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        let waves = history.ask(|motion| motion.waves(), |waves| waves.numbers())?;
-        Ok(code_of_waves(&waves, &S::carry(history.end()), self.language, self.header))
-    }
-}
-
-/// Returns the function of `waves`, which reach to `end`.
-fn code_of_waves<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, header: &Header<'_>) -> String {
+    let (waves, end) = (history.waves()?, history.end());
     // Fractions stay fractions where the language has them.
-    let exact = language == Language::Python && end.bits().is_none() && end.ends(1).is_none();
-    let number = |x: &S| match exact {
-        true => format!("F(\"{}\")", x.text()),
-        false => format!("{:?}", x.to_f64() + 0.0),
+    let exact = language == Language::Python && end.as_rational().is_some();
+    let number = |x: &Value| match x.as_rational() {
+        Some(fraction) if exact => format!("F(\"{fraction}\")"),
+        _ => format!("{:?}", x.to_f64() + 0.0),
     };
     let sign = if waves.top == Top::Free { "1" } else { "-1" };
     let constants = [
         ("LENGTH", &waves.length),
         ("WAVE_SPEED", &waves.wave_speed),
         ("ROUND_TRIP", &waves.round_trip),
-        ("END", end),
+        ("END", &end),
         ("A", &waves.constant),
         ("B", &waves.linear),
         ("D", &waves.quadratic),
@@ -77,7 +58,7 @@ fn code_of_waves<S: Scalar>(waves: &Waves<S>, end: &S, language: Language, heade
     for number in waves.numbers() {
         error = error.max(number.log2_error());
     }
-    written((constants, rows, error), (language, exact, sign), header)
+    Ok(written((constants, rows, error), (language, exact, sign), header))
 }
 
 /// The numbers as texts: constants by their names, pieces, and `log₂` of the greatest bound.

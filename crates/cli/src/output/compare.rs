@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::dataset::{Column, Dataset};
+use super::column::Column;
+use super::dataset::Dataset;
 use dalembert::quantity::{Measure, Units};
 use dalembert_compare::{ComparedColumn, ComparedFile};
 use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};

@@ -3,7 +3,8 @@
 use glam::DVec2;
 use serde_json::json;
 
-use super::dataset::{Column, Dataset};
+use super::column::Column;
+use super::dataset::Dataset;
 use dalembert::number::Number;
 use dalembert_plot::draw::{Axis, Key, Mark, Panel, Sheet, Size, Stroke, power_of_ten, without_subscripts};
 use dalembert_verify::cost::{CostRow, CostTable, EffectCost, Family};
@@ -83,17 +84,17 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
     let above = title.map_or_else(String::new, |title| format!("{title}\n"));
     let unit = if cost.unit.is_empty() { String::new() } else { format!(" {}", cost.unit) };
     Dataset {
-        header: vec![
-            ("schema", 1.into()),
-            ("title", title.into()),
-            ("quantity", cost.quantity.name().into()),
-            ("unit", cost.unit.into()),
-            ("time", cost.time.as_ref().map(Number::to_f64).into()),
-            ("truth", truth.into()),
-            ("truth_log10_half_width", cost.truth.log10_half_width.into()),
-            ("truth_proved", cost.truth.proved.into()),
-            ("left_out", left_out.collect()),
-        ],
+        header: json!({
+            "schema": 1,
+            "title": title,
+            "quantity": cost.quantity.name(),
+            "unit": cost.unit,
+            "time": cost.time.as_ref().map(Number::to_f64),
+            "truth": truth,
+            "truth_log10_half_width": cost.truth.log10_half_width,
+            "truth_proved": cost.truth.proved,
+            "left_out": left_out.collect::<Vec<_>>(),
+        }),
         list: "rows",
         around: [format!("{above}{} = {truth:?}{unit}\n\n", quantity_text(cost)), below],
         ..Dataset::from_rows(cost.rows.iter().map(row))
@@ -126,7 +127,7 @@ pub(crate) fn effects_data(rows: &[EffectCost], title: Option<&str>) -> Dataset 
         the engine called directly\n\
         costs:   median of the differences of neighbouring runs, and what it may be by chance\n";
     Dataset {
-        header: vec![("schema", 1.into()), ("title", title.into()), ("quantity", "effects".into())],
+        header: json!({"schema": 1, "title": title, "quantity": "effects"}),
         list: "rows",
         around: [title.map_or_else(String::new, |title| format!("{title}\n\n")), below.into()],
         ..Dataset::from_rows(rows.iter().map(row))
@@ -143,7 +144,7 @@ fn color_and_mark(family: Family) -> (&'static str, Mark) {
     match family {
         Family::ClosedForm => ("#0072b2", Mark::Dot),
         Family::Lattice => ("#009e73", Mark::Square),
-        Family::ContactThenCells => ("#009e73", Mark::Square),
+        Family::PlannedCells => ("#009e73", Mark::Square),
         Family::Cells => ("#d55e00", Mark::Diamond),
         Family::Modes => ("#cc79a7", Mark::Triangle),
         Family::Printed => ("#8c6d1f", Mark::TriangleDown),

@@ -1,9 +1,8 @@
 //! Data sets: named columns and rows, with the text above and below them.
 
-use std::borrow::Cow;
-
 use serde_json::{Value as Json, json};
 
+use super::column::Column;
 use dalembert::{Number, Value};
 
 /// A cell of a row.
@@ -96,93 +95,11 @@ fn plain_text(value: &Json) -> String {
     }
 }
 
-/// A column, and its names in each format.
-#[derive(Clone, Debug)]
-pub(crate) struct Column {
-    /// Head in a table.
-    pub(super) head: Option<Cow<'static, str>>,
-    /// Name in CSV and NPZ.
-    pub(super) name: Option<Cow<'static, str>>,
-    /// Key in JSON, with `/` before a key inside.
-    pub(super) key: Option<Cow<'static, str>>,
-    /// Empty if there is none.
-    pub(super) unit: &'static str,
-    /// Whether its values are words.
-    pub(super) is_text: bool,
-    /// Whether CSV and JSON have the bounds of its numbers too.
-    pub(super) is_bounded: bool,
-    /// Whether JSON leaves it out where it is empty.
-    pub(super) is_optional: bool,
-}
-
-impl Column {
-    fn in_formats(head: bool, name: bool, key: bool, text: Cow<'static, str>) -> Self {
-        let [head, name, key] = [head, name, key].map(|there| there.then(|| text.clone()));
-        Column { head, name, key, unit: "", is_text: false, is_bounded: false, is_optional: false }
-    }
-
-    /// Returns a column of every format.
-    pub(crate) fn new(name: impl Into<Cow<'static, str>>) -> Self {
-        Column::in_formats(true, true, true, name.into())
-    }
-
-    /// Returns a column of tables.
-    pub(crate) fn table(head: impl Into<Cow<'static, str>>) -> Self {
-        Column::in_formats(true, false, false, head.into())
-    }
-
-    /// Returns a column of CSV, NPZ and JSON.
-    pub(crate) fn data(name: impl Into<Cow<'static, str>>) -> Self {
-        Column::in_formats(false, true, true, name.into())
-    }
-
-    /// Returns a column of CSV and NPZ.
-    pub(crate) fn csv(name: impl Into<Cow<'static, str>>) -> Self {
-        Column::in_formats(false, true, false, name.into())
-    }
-
-    /// Returns a column of JSON.
-    pub(crate) fn json(key: impl Into<Cow<'static, str>>) -> Self {
-        Column::in_formats(false, false, true, key.into())
-    }
-
-    /// Returns the column with this head in tables.
-    pub(crate) fn headed(self, head: impl Into<Cow<'static, str>>) -> Self {
-        Column { head: Some(head.into()), ..self }
-    }
-
-    /// Returns the column with this name in CSV.
-    pub(crate) fn named(self, name: impl Into<Cow<'static, str>>) -> Self {
-        Column { name: Some(name.into()), ..self }
-    }
-
-    /// Returns the column with this key in JSON.
-    pub(crate) fn keyed(self, key: impl Into<Cow<'static, str>>) -> Self {
-        Column { key: Some(key.into()), ..self }
-    }
-
-    pub(crate) fn text(self) -> Self {
-        Column { is_text: true, ..self }
-    }
-
-    pub(crate) fn with_unit(self, unit: &'static str) -> Self {
-        Column { unit, ..self }
-    }
-
-    pub(crate) fn bounded(self) -> Self {
-        Column { is_bounded: true, ..self }
-    }
-
-    pub(crate) fn optional(self) -> Self {
-        Column { is_optional: true, ..self }
-    }
-}
-
 /// Named columns and rows, with the text around them.
 #[derive(Clone, Default)]
 pub(crate) struct Dataset {
-    /// Entries above the rows in JSON.
-    pub(crate) header: Vec<(&'static str, Json)>,
+    /// Object with the entries above the rows in JSON; null without any.
+    pub(crate) header: Json,
     /// Key of the rows in JSON.
     pub(crate) list: &'static str,
     pub(crate) columns: Vec<Column>,

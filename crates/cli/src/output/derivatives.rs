@@ -1,7 +1,7 @@
 //! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
-use super::column;
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use super::run_info::RunInfo;
 use super::table::TextTable;
 use dalembert::Value;
@@ -41,7 +41,7 @@ pub(crate) fn derivative_rows(
     by: Parameter,
     quantities: &[Quantity],
     rows: &Derivatives<Value>,
-) -> Vec<(column::Column, Vec<Cell>)> {
+) -> Vec<(Column, Vec<Cell>)> {
     let mut columns = Vec::new();
     for (k, quantity) in quantities.iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
@@ -57,13 +57,9 @@ pub(crate) fn derivative_rows(
                 },
                 (_, _) => Cell::number(None::<Value>),
             };
-            let column = column::Column {
-                name: format!("{quantity}_by_{by}{suffix}").into(),
-                symbol: format!("∂ {}", quantity.symbol()).into(),
-                meaning: format!("derivative of {quantity} by {by}").into(),
-                unit: "",
-                kind: column::Kind::Number,
-            };
+            let (symbol, meaning) = (format!("∂ {}", quantity.symbol()), format!("derivative of {quantity} by {by}"));
+            let name = Column::new(format!("{quantity}_by_{by}{suffix}"));
+            let column = Column { symbol: symbol.into(), meaning: meaning.into(), ..name };
             columns.push((column, cells().map(cell).collect()));
         }
     }

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use super::regimes::{regimes_data, regimes_panel};
 use dalembert::number::Analytic;
 use dalembert_plot::draw::{Anchor, Axis, Key, LINES, Mark, Panel, Sheet, Stroke};

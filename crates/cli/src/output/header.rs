@@ -1,13 +1,16 @@
 //! The header of rows and functions: scene, units, signs, what the numbers are worth, and how to cite them.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::column::Column;
-use super::run_info::RunInfo;
+use super::run_info::{ExactUntil, RunInfo};
+use super::schema::BoundSchema;
 use crate::answer::note_end;
 use dalembert::solve::{History, Numbers};
 use dalembert::{Bound, Estimate};
+use dalembert_compare::SchemaVersion;
 
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
@@ -36,36 +39,44 @@ pub(crate) struct Header<'a> {
 }
 
 /// The header as JSON.
-#[derive(Debug, Serialize)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub(super) struct HeaderJson<'a> {
-    schema: u32,
+    schema: SchemaVersion,
+    /// The word reference.
     kind: &'static str,
+    /// The version of dalembert.
     dalembert: &'static str,
     title: Option<&'a str>,
+    /// The text of the scene, without comments.
     scene: String,
     effects: &'a [&'static str],
+    /// The last time of the history.
     until: f64,
     numbers: &'a str,
     proved: bool,
+    /// The worth of the numbers.
     promise: String,
     signs: &'static str,
     side: &'static str,
+    /// The reason why the history ends where it does; null where the times are chosen.
     ends: Option<&'a str>,
-    #[serde(skip_serializing_if = "Json::is_null")]
-    exact_until: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exact_until: Option<ExactUntil>,
     warnings: Vec<String>,
     cite: &'static str,
     columns: Vec<ColumnJson<'a>>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, JsonSchema, Serialize)]
 struct ColumnJson<'a> {
     name: &'a str,
     symbol: &'a str,
     meaning: &'a str,
+    /// The unit, empty where there is none or none is known.
     unit: &'a str,
     /// Bound of the error of every value of the column; absent in fractions, null where it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<BoundSchema>")]
     bound: Option<Json>,
 }
 
@@ -112,14 +123,14 @@ impl Header<'_> {
     pub(super) fn to_json<'a>(&'a self, columns: &'a [Column], bounds: &[Bound], is_npz: bool) -> HeaderJson<'a> {
         let bound = |bound: &Bound| if bound.to_string() == "unknown" { Json::Null } else { json!(bound) };
         let columns = columns.iter().zip(bounds).map(|(column, greatest)| ColumnJson {
-            name: &column.name,
+            name: column.csv_name(),
             symbol: &column.symbol,
             meaning: &column.meaning,
             unit: column.unit,
             bound: self.has_bound(column).then(|| bound(greatest)),
         });
         HeaderJson {
-            schema: 1,
+            schema: SchemaVersion,
             kind: "reference",
             dalembert: env!("CARGO_PKG_VERSION"),
             title: self.info.title.as_deref(),
@@ -161,7 +172,7 @@ impl Header<'_> {
         let mut text: String = self.lines().iter().map(|line| format!("# {line}\n")).collect();
         text += &format!("# read: {READ}\n");
         for (column, bound) in columns.iter().zip(bounds) {
-            let Column { name, meaning, .. } = column;
+            let (name, meaning) = (column.csv_name(), &column.meaning);
             let within = if self.has_bound(column) { format!("; within {bound}") } else { String::new() };
             let symbol = if column.symbol.is_empty() { String::new() } else { format!("{}: ", column.symbol) };
             let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };

@@ -3,9 +3,9 @@
 use super::run_info::RunInfo;
 use dalembert::StressPiece;
 use dalembert::engine::straight;
-use dalembert::number::Scalar;
+use dalembert::number::{Estimate, Scalar};
 use dalembert::quantity::Measure;
-use dalembert::solve::{History, Target, TypedHistory, Visitor};
+use dalembert::solve::History;
 
 const BLOCKS: usize = 76;
 const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
@@ -17,21 +17,10 @@ const STRAIGHT_ERROR: f64 = 0.05;
 ///
 /// **Accuracy**: 0.05 of the greatest `|v_x(0,t)|`.
 pub(crate) fn outline(history: &History) -> Vec<f64> {
-    history
-        .visit(StressPieces)
-        .map_or_else(|_| Vec::new(), |pieces| least_values(&straight(&pieces, STRAIGHT_ERROR), history.end().to_f64()))
-}
-
-/// A request for the pieces of the stress at the ground in doubles, whatever their digits.
-struct StressPieces;
-
-impl Visitor for StressPieces {
-    type Output = Result<Vec<StressPiece<f64>>, dalembert::Error>;
-
-    fn visit<S: Target>(self, history: &TypedHistory<S>) -> Self::Output {
-        let pieces = history.ask(|motion| Ok(motion.stress_pieces()), |_| Vec::new())?;
-        Ok(pieces.into_iter().map(|piece| piece.map(|x| x.to_f64())).collect())
-    }
+    let pieces = history.in_doubles(|history| history.ask(|motion| Ok(motion.stress_pieces()), |_| Vec::new()));
+    let Ok(Ok(pieces)) = pieces else { return Vec::new() };
+    let pieces: Vec<_> = pieces.into_iter().map(|piece| piece.map(Estimate::into_value)).collect();
+    least_values(&straight(&pieces, STRAIGHT_ERROR), history.end().to_f64())
 }
 
 /// Returns the least value of straight pieces in each part of a history up to `end`.

@@ -4,7 +4,8 @@ use std::io::{self, Cursor};
 
 use glam::DVec2;
 
-use super::dataset::{Column, Dataset};
+use super::column::Column;
+use super::dataset::Dataset;
 use super::npz::Npz;
 use dalembert::number::{Estimate, Number, Scalar, bound_of_log2, double_bound};
 use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke};

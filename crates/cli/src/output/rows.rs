@@ -1,16 +1,16 @@
 //! Rows of named columns, written as they are computed: a table, CSV, JSON or NPZ.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, Write};
+use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
 
-use serde::ser::{Error, SerializeSeq};
-use serde::{Serialize, Serializer};
-use serde_json::value::RawValue;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::column::{Column, Kind};
 use super::dataset::Cell;
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
+use super::schema::NumberSchema;
 use super::table::{TextTable, table_digits};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
@@ -53,14 +53,7 @@ impl RowWriter {
         for (place, column) in columns.iter().enumerate() {
             all.push((column.clone(), place));
             if bounds && column.kind == Kind::Number {
-                let bound = Column {
-                    name: format!("{}_uncertainty", column.name).into(),
-                    symbol: "".into(),
-                    meaning: format!("bound of the error of {}", column.name).into(),
-                    unit: column.unit,
-                    kind: Kind::Bound,
-                };
-                all.push((bound, place));
+                all.push((column.bounds(), place));
             }
         }
         let files = if format == Format::Npz { all.len() } else { 1 };
@@ -115,7 +108,7 @@ impl RowWriter {
     pub(crate) fn finish(self, header: &Header<'_>, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
         let RowWriter { format, columns, kept, table, bounds, count, .. } = self;
         let columns: Vec<Column> = columns.into_iter().map(|(column, _)| column).collect();
-        let names = || columns.iter().map(|column| column.name.as_ref()).collect::<Vec<&str>>();
+        let names = || columns.iter().map(|column| column.csv_name()).collect::<Vec<&str>>();
         let rewound = |file: BufWriter<File>| {
             let mut file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
             file.rewind()?;
@@ -129,12 +122,13 @@ impl RowWriter {
                 write!(file, "{}{}", table.format(), layout.below)
             }
             Format::Json => {
-                let rows = JsonRows(BufReader::with_capacity(BUFFER, kept.swap_remove(0)).into());
-                let document = Document { header: header.to_json(&columns, &bounds, false), rows };
-                let mut out = BufWriter::with_capacity(BUFFER, file);
-                serde_json::to_writer_pretty(&mut out, &document)?;
-                out.write_all(b"\n")?;
-                out.flush()
+                let document = Document { header: header.to_json(&columns, &bounds, false), rows: [] };
+                let text = serde_json::to_string_pretty(&document)?;
+                // The rows are as they are read: to parse each again would take as long as to write them all.
+                let before = text.strip_suffix(JSON_END).unwrap_or(&text);
+                file.write_all(before.as_bytes())?;
+                io::copy(&mut kept[0], file)?;
+                writeln!(file, "{}{JSON_END}", if count > 0 { "\n  " } else { "" })
             }
             Format::Npz => {
                 let mut npz = Npz::new(file, false);
@@ -149,9 +143,9 @@ impl RowWriter {
                     let values = (0..count).map(|_| next()).collect::<Result<Vec<_>, _>>()?;
                     match column.kind {
                         Kind::Side | Kind::Flag => {
-                            npz.add(&column.name, &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>())
+                            npz.add(column.csv_name(), &[count], values.iter().map(|x| *x as i8).collect::<Vec<_>>())
                         }
-                        Kind::Number | Kind::Bound => npz.add(&column.name, &[count], values),
+                        Kind::Number | Kind::Bound | Kind::Word => npz.add(column.csv_name(), &[count], values),
                     }?;
                 }
                 npz.finish()
@@ -171,7 +165,7 @@ impl RowWriter {
     /// Returns the text of a table.
     fn text(&self, kind: Kind, cell: &Cell) -> String {
         match (cell, kind) {
-            (Cell::Number(value), Kind::Number) => value.to_digits(table_digits(self.digits)),
+            (Cell::Number(value), Kind::Number | Kind::Word) => value.to_digits(table_digits(self.digits)),
             (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
             (Cell::Number(value), Kind::Side) => side_word(value).into(),
             (Cell::Number(value), Kind::Flag) => flag(value).into(),
@@ -181,7 +175,11 @@ impl RowWriter {
 
     /// Adds the text of a row of CSV or JSON.
     fn write_row(&self, text: &mut Vec<u8>, cells: &[Vec<Cell>], row: usize) {
-        let [begin, between, end] = if self.format == Format::Json { ["[", ", ", "]\n"] } else { ["", ",", "\n"] };
+        let [begin, between, end] = match self.format {
+            Format::Json if self.count + row == 0 => ["\n    [", ", ", "]"],
+            Format::Json => [",\n    [", ", ", "]"],
+            _ => ["", ",", "\n"],
+        };
         text.extend_from_slice(begin.as_bytes());
         for (k, (column, place)) in self.columns.iter().enumerate() {
             text.extend_from_slice(if k > 0 { between.as_bytes() } else { b"" });
@@ -206,11 +204,13 @@ impl RowWriter {
                 add(if is_double { "" } else { quote }, &bound);
             }
             // The shortest text that reads as the same double.
-            (Cell::Number(value), Kind::Number) if value.is_double() => {
+            (Cell::Number(value), Kind::Number | Kind::Word) if value.is_double() => {
                 add("", ryu::Buffer::new().format(written_double(value)));
             }
-            (Cell::Number(value), Kind::Number) if is_json => add("", &serde_json::json!(value).to_string()),
-            (Cell::Number(value), Kind::Number) => add("", &value.to_digits(shown_digits(self.digits))),
+            (Cell::Number(value), Kind::Number | Kind::Word) if is_json => {
+                add("", &serde_json::json!(value).to_string())
+            }
+            (Cell::Number(value), Kind::Number | Kind::Word) => add("", &value.to_digits(shown_digits(self.digits))),
             (Cell::Plain(_) | Cell::Numbers(_), _) if is_json => add("", &cell.json().to_string()),
             (Cell::Plain(_) | Cell::Numbers(_), _) => (),
         }
@@ -265,24 +265,17 @@ fn written_double(value: &Value) -> f64 {
     if is_zero { 0.0 } else { value.to_f64() + 0.0 }
 }
 
-/// A JSON file.
-#[derive(Serialize)]
-struct Document<'a> {
+/// Rows of named columns, without the rows: they follow as they are kept.
+#[derive(JsonSchema, Serialize)]
+#[schemars(rename = "reference")]
+pub(super) struct Document<'a> {
     #[serde(flatten)]
     header: HeaderJson<'a>,
-    rows: JsonRows,
+    /// A value for each column: left, right or both for a side, 0 or 1 for contact. A derivative that does not exist is
+    /// null, or the reason on its side.
+    #[schemars(with = "Vec<Vec<Option<NumberSchema>>>")]
+    rows: [(); 0],
 }
 
-/// Rows of JSON, one a line of a file.
-struct JsonRows(std::cell::RefCell<BufReader<File>>);
-
-impl Serialize for JsonRows {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut rows = serializer.serialize_seq(None)?;
-        for line in self.0.borrow_mut().by_ref().lines() {
-            let row = RawValue::from_string(line.map_err(S::Error::custom)?).map_err(S::Error::custom)?;
-            rows.serialize_element(&row)?;
-        }
-        rows.end()
-    }
-}
+/// End of a [`Document`].
+const JSON_END: &str = "]\n}";

@@ -1,6 +1,8 @@
 //! Facts about a run that every output states beside its numbers.
 
-use serde_json::{Value as Json, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value as Json, json};
 
 use super::table::{table_digits, wrapped};
 use crate::terminal;
@@ -59,15 +61,11 @@ impl RunInfo {
         end.chain(self.warnings.iter().map(|warning| format!("warning: {warning}"))).collect()
     }
 
-    pub(super) fn exact_until_json(&self) -> Json {
-        match &self.exact_until {
-            None => Json::Null,
-            Some(ExactnessEnd::Event(Ending::ExactnessEnds { kind, time, near })) => {
-                json!({"event": kind, "surd": time, "near": near})
-            }
-            Some(ExactnessEnd::Event(other)) => json!({"reason": other.to_string()}),
-            Some(parameter) => json!({"reason": parameter.to_string()}),
-        }
+    pub(super) fn exact_until_json(&self) -> Option<ExactUntil> {
+        self.exact_until.as_ref().map(|end| match end {
+            ExactnessEnd::Event(ending) => ExactUntil::new(ending).unwrap_or_else(|| ExactUntil::from_reason(ending)),
+            parameter => ExactUntil::from_reason(parameter),
+        })
     }
 
     /// Returns the lines below a table of values of `quantities`: the end of exactness, units and warnings.
@@ -101,14 +99,37 @@ impl RunInfo {
 
     /// Returns the name of the unit of each measure, null if it is not known; impulse and energy are per `ρS` without a
     /// material.
-    pub(super) fn units_json(&self) -> Json {
+    pub(super) fn units_json(&self) -> Map<String, Json> {
         use Measure::{Energy, Force, Impulse, Length, Stress, Time, Velocity};
         let measures = [Time, Length, Velocity, Stress, Force, Impulse, Energy];
         let name = |measure: Measure| Some(self.units.name(measure)).filter(|name| !name.is_empty());
-        measures
-            .iter()
-            .map(|measure| (measure.name().to_string(), json!(name(*measure))))
-            .collect::<serde_json::Map<_, _>>()
-            .into()
+        measures.iter().map(|measure| (measure.name().to_string(), json!(name(*measure)))).collect()
+    }
+}
+
+/// The end of fractions: the event, its time as a surd and the nearest double; or the reason in words.
+#[derive(Debug, Default, JsonSchema, Serialize)]
+#[serde(rename = "exact_until")]
+pub(super) struct ExactUntil {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    event: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    surd: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    near: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+impl ExactUntil {
+    /// Returns the event at which exactness ends; `None` for another ending.
+    pub(super) fn new(ending: &Ending) -> Option<Self> {
+        let Ending::ExactnessEnds { kind, time, near } = ending else { return None };
+        let (event, surd, near) = (Some(kind.to_string()), Some(time.to_string()), Some(*near));
+        Some(ExactUntil { event, surd, near, reason: None })
+    }
+
+    fn from_reason(reason: &impl ToString) -> Self {
+        ExactUntil { reason: Some(reason.to_string()), ..ExactUntil::default() }
     }
 }

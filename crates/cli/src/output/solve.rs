@@ -1,11 +1,17 @@
 //! The output of a history: events, contacts, flights, the stress at the ground, and the end.
 
-use serde_json::{Value as Json, json};
+use std::collections::BTreeMap;
 
-use super::dataset::{Cell, Column, Dataset};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value as Json, json};
+
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use super::derivatives::{add_columns, derivative_table};
 use super::outline::sparkline;
-use super::run_info::RunInfo;
+use super::run_info::{ExactUntil, RunInfo};
+use super::schema::{BoundSchema, ContactRow, EventRow, FlightRow, NumberSchema, StressRow};
 use super::table::table_digits;
 use dalembert::Ending;
 use dalembert::Value;
@@ -13,6 +19,7 @@ use dalembert::problem::Parameter;
 use dalembert::quantity::Quantity::{self, *};
 use dalembert::quantity::{Measure, Needs, Table, Undefined};
 use dalembert::solve::{Derivatives, History, Listing, Rows, StressForm};
+use dalembert_compare::SchemaVersion;
 
 /// The coefficients of a contact that may be undefined.
 const RATIOS: [Quantity; 2] = [MomentumRestitution, EnergyRestitution];
@@ -153,40 +160,29 @@ impl HistoryTables {
 
     /// Returns the whole history as JSON, schema 1.
     pub(crate) fn json(&self, info: &RunInfo) -> Json {
-        json!({
-            "schema": 1,
-            "title": info.title,
-            "number": info.number,
-            "effects": info.effects,
-            "units": info.units_json(),
-            "exact_until": info.exact_until_json(),
-            "events": self.events.objects(),
-            "contacts": self.contacts.objects(),
-            "flights": self.flights.objects(),
-            "stress": {"pieces": self.stress.objects()},
-            "end": self.end_json(),
-            "error_estimate": self.error,
-            "digits_lost": self.lost.map(|(_, digits)| digits),
-            "warnings": info.warning_texts(),
+        json!(HistoryJson {
+            schema: SchemaVersion,
+            title: info.title.as_deref(),
+            number: &info.number,
+            effects: &info.effects,
+            units: info.units_json(),
+            exact_until: info.exact_until_json(),
+            events: self.events.objects(),
+            contacts: self.contacts.objects(),
+            flights: self.flights.objects(),
+            stress: StressJson { pieces: self.stress.objects() },
+            end: self.end_json(),
+            error_estimate: self.error,
+            digits_lost: self.lost.map(|(_, digits)| digits),
+            warnings: info.warning_texts(),
         })
     }
 
-    fn end_json(&self) -> Json {
-        let reason = match &self.ending {
-            Ending::ExactnessEnds { .. } => "exactness ends".into(),
-            ending => ending.to_string(),
-        };
-        let mut value = json!({
-            "t": self.end,
-            "reason": reason,
-            "uncertainty": {"t": Cell::Number(self.end.clone()).bound_json()},
-        });
-        if let Ending::ExactnessEnds { kind, time, near } = &self.ending {
-            value["event"] = json!(kind);
-            value["surd"] = json!(time);
-            value["near"] = json!(near);
-        }
-        value
+    fn end_json(&self) -> EndJson<'_> {
+        let exact_until = ExactUntil::new(&self.ending);
+        let reason = if exact_until.is_some() { "exactness ends".into() } else { self.ending.to_string() };
+        let bound = Cell::Number(self.end.clone()).bound_json();
+        EndJson { t: &self.end, reason, uncertainty: TimeBound { t: bound }, exact_until }
     }
 
     /// Returns one part of the history; the stress with the `coefficients` of its Chebyshev series, or in straight
@@ -287,6 +283,59 @@ impl HistoryTables {
         }
         out
     }
+}
+
+/// A history as JSON.
+#[derive(JsonSchema, Serialize)]
+#[schemars(rename = "history")]
+pub(super) struct HistoryJson<'a> {
+    schema: SchemaVersion,
+    title: Option<&'a str>,
+    /// The numbers of the answer, in words.
+    number: &'a str,
+    /// The effects that the scene calls for.
+    effects: &'a [&'static str],
+    /// The name of the unit of each measure, null where it is not known; "per ρS" where no material is given.
+    #[schemars(with = "BTreeMap<String, Option<String>>")]
+    units: Map<String, Json>,
+    exact_until: Option<ExactUntil>,
+    #[schemars(with = "Vec<EventRow>")]
+    events: Vec<Json>,
+    #[schemars(with = "Vec<ContactRow>")]
+    contacts: Vec<Json>,
+    #[schemars(with = "Vec<FlightRow>")]
+    flights: Vec<Json>,
+    stress: StressJson,
+    end: EndJson<'a>,
+    /// Bound of the error relative to the natural scales; 0 where all is exact or enclosed.
+    error_estimate: f64,
+    digits_lost: Option<f64>,
+    warnings: Vec<String>,
+}
+
+/// The stress at the ground.
+#[derive(JsonSchema, Serialize)]
+struct StressJson {
+    /// Pieces of v_x(0,t), linear in time from strain_start to strain_end where there are no Chebyshev coefficients.
+    #[schemars(with = "Vec<StressRow>")]
+    pieces: Vec<Json>,
+}
+
+/// The last time that is known.
+#[derive(JsonSchema, Serialize)]
+struct EndJson<'a> {
+    #[schemars(with = "NumberSchema")]
+    t: &'a Value,
+    reason: String,
+    uncertainty: TimeBound,
+    #[serde(flatten)]
+    exact_until: Option<ExactUntil>,
+}
+
+#[derive(JsonSchema, Serialize)]
+struct TimeBound {
+    #[schemars(with = "BoundSchema")]
+    t: Json,
 }
 
 /// Least number of lost digits that the table mentions.

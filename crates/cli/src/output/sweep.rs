@@ -1,12 +1,19 @@
 //! Sweeps: a row for each point.
 
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
+use super::schema::{NumberSchema, UncertaintySchema};
 use super::table::wrapped;
-use crate::sweep::{Point, PointNumber, Sweep};
+use crate::sweep::{Axis, Point, PointNumber, Sweep};
 use crate::terminal;
-use dalembert::number::{DOUBLE_DIGITS, Estimate, Rounded, show};
+use dalembert::number::{DOUBLE_DIGITS, Estimate, Number, Rounded, show};
+use dalembert_compare::SchemaVersion;
 
 /// Returns the notes on the numbers of a point, each once.
 fn notes(point: &Point) -> String {
@@ -28,27 +35,77 @@ fn shown(cell: &PointNumber) -> Cell {
     }
 }
 
-/// Returns a row for each point; a table has the notes below it, each once.
-pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
-    let mut columns = vec![Column::new("point")];
-    columns.extend(
-        sweep
-            .grid
-            .axes
-            .iter()
-            .map(|axis| Column::new(axis.parameter.path()).keyed(format!("at/{}", axis.parameter.path()))),
-    );
-    for (name, unit) in sweep.units().map(|(quantity, unit)| (quantity.name(), unit)) {
+/// The header of a sweep.
+#[derive(JsonSchema, Serialize)]
+struct SweepHeader<'a> {
+    schema: SchemaVersion,
+    title: Option<&'a str>,
+    number: String,
+    /// The time of quantities over time.
+    time: Option<String>,
+    /// The unit of each quantity; empty where there is none or none is known.
+    #[schemars(with = "BTreeMap<String, String>")]
+    units: Map<String, Value>,
+    /// The axes of the grid; the last one runs fastest.
+    vary: Vec<AxisJson<'a>>,
+}
+
+#[derive(JsonSchema, Serialize)]
+struct AxisJson<'a> {
+    path: String,
+    #[schemars(with = "Vec<String>")]
+    values: &'a [Number],
+}
+
+impl<'a> From<&'a Axis> for AxisJson<'a> {
+    fn from(Axis { parameter, values }: &'a Axis) -> Self {
+        AxisJson { path: parameter.path().to_string(), values }
+    }
+}
+
+/// A sweep as JSON.
+#[derive(JsonSchema)]
+#[schemars(rename = "sweep")]
+#[expect(dead_code, reason = "describes the rows of the data set")]
+pub(super) struct SweepJson<'a> {
+    #[serde(flatten)]
+    header: SweepHeader<'a>,
+    points: Vec<PointRow>,
+}
+
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "describes a row of the data set")]
+struct PointRow {
+    /// The place in the whole grid.
+    point: usize,
+    at: BTreeMap<String, String>,
+    values: BTreeMap<String, Option<NumberSchema>>,
+    uncertainty: BTreeMap<String, UncertaintySchema>,
+    /// The reasons why values are null.
+    notes: BTreeMap<String, Option<String>>,
+}
+
+/// Returns the columns of a sweep; a table has one of notes where there are any.
+fn columns(sweep: &Sweep, noted: bool) -> Vec<Column> {
+    let axis = |path: String| Column::new(path.clone()).keyed(format!("at/{path}"));
+    let axes = sweep.grid.axes.iter().map(|it| axis(it.parameter.path().to_string()));
+    let numbers = sweep.units().flat_map(|(quantity, unit)| {
+        let name = quantity.name();
         let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
-        columns.extend([
+        [
             Column::table(head),
             Column::data(name).keyed(format!("values/{name}")).with_unit(unit),
             Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")).with_unit(unit),
             Column::json(format!("notes/{name}")),
-        ]);
-    }
+        ]
+    });
+    let notes = [Column::csv("note").text()].into_iter().chain(noted.then(|| Column::table("note")));
+    [Column::new("point")].into_iter().chain(axes).chain(numbers).chain(notes).collect()
+}
+
+/// Returns a row for each point; a table has the notes below it, each once.
+pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -> Dataset {
     let noted = points.iter().any(|point| !notes(point).is_empty());
-    columns.extend([Column::csv("note").text()].into_iter().chain(noted.then(|| Column::table("note"))));
     let mut below: Vec<String> = Vec::new();
     let mut row = |point: &Point| {
         let mut row: Vec<Cell> = vec![point.index.into()];
@@ -72,19 +129,18 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         .enumerate()
         .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
-    let vary = sweep.grid.axes.iter().map(|axis| json!({"path": axis.parameter.path(), "values": axis.values}));
-    let units = sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into()));
+    let header = SweepHeader {
+        schema: SchemaVersion,
+        title,
+        number: sweep.request.numbers.to_string(),
+        time: sweep.request.time.as_ref().map(Number::to_string),
+        units: sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into())).collect(),
+        vary: sweep.grid.axes.iter().map(AxisJson::from).collect(),
+    };
     Dataset {
-        header: vec![
-            ("schema", 1.into()),
-            ("title", title.into()),
-            ("number", sweep.request.numbers.to_string().into()),
-            ("time", json!(sweep.request.time)),
-            ("units", units.collect::<Map<_, _>>().into()),
-            ("vary", vary.collect::<Value>()),
-        ],
+        header: json!(header),
         list: "points",
-        columns,
+        columns: columns(sweep, noted),
         rows,
         around: [String::new(), if noted { format!("\n\n{below}") } else { "\n".into() }],
         shape: sweep.grid.axes.iter().map(|axis| axis.values.len()).collect(),

@@ -1,6 +1,7 @@
 //! Tables for a person.
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::{Column, Kind};
+use super::dataset::{Cell, Dataset};
 use crate::terminal;
 use dalembert_compare::aligned::table as aligned;
 
@@ -23,7 +24,7 @@ impl Dataset {
             cells.map(|(_, cell)| cell.text(digits, "–")).collect()
         };
         let rows = self.rows.iter().map(row).collect();
-        let words = columns.iter().take_while(|column| column.is_text).count();
+        let words = columns.iter().take_while(|column| column.kind == Kind::Word).count();
         let table = TextTable { head: &head, rows, words, keys: self.keys }.format();
         format!("{above}{table}{below}")
     }

@@ -2,7 +2,8 @@
 
 use serde_json::{Value as Json, json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::Column;
+use super::dataset::{Cell, Dataset};
 use dalembert::Target;
 use dalembert::number::{Estimate, Scalar, show};
 use dalembert_verify::published::PublishedScene;
@@ -52,6 +53,12 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
         _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
     };
     let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
+    let keys = (!wide && !several).then_some(1);
+    Dataset { columns: columns(several), rows, around: [above, below], keys, ..Dataset::default() }
+}
+
+/// Returns the columns of published values, of one scene or of several.
+fn columns(several: bool) -> Vec<Column> {
     let mut columns = if several { vec![Column::new("scene").text()] } else { Vec::new() };
     columns.extend([
         Column::table("quantity").text(),
@@ -69,8 +76,7 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
         Column::data("agrees"),
         Column::data("source"),
     ]);
-    let keys = (!wide && !several).then_some(1);
-    Dataset { columns, rows, around: [above, below], keys, ..Dataset::default() }
+    columns
 }
 
 /// Returns the published values as a section of a page.

@@ -4,14 +4,12 @@ use std::io::{self, Cursor};
 
 use serde_json::{Map, Value as Json};
 
-use super::dataset::{Cell, Column, Dataset};
+use super::column::{Column, Kind};
+use super::dataset::{Cell, Dataset};
 use super::npz::Npz;
 use crate::failure::{Failure, cannot};
 use crate::file::Format;
 use dalembert::number::DOUBLE_DIGITS;
-
-/// The JSON Schema of histories, samples, golden files, comparisons and sweeps.
-pub(crate) const SCHEMA: &str = include_str!("schema.json");
 
 /// Key of the bounds of a row, each under the key of its number.
 const UNCERTAINTY: &str = "uncertainty";
@@ -21,11 +19,10 @@ const VALUES: &str = "values/";
 impl Dataset {
     /// Returns the header and an object for each row; without a header the list of objects.
     pub(crate) fn json(&self) -> Json {
-        if self.header.is_empty() {
-            return self.objects().into();
-        }
-        let header = self.header.iter().map(|(key, value)| ((*key).to_string(), value.clone()));
-        header.chain([(self.list.to_string(), self.objects().into())]).collect()
+        let rows = Json::from(self.objects());
+        let Json::Object(mut document) = self.header.clone() else { return rows };
+        document.insert(self.list.into(), rows);
+        document.into()
     }
 
     pub(super) fn objects(&self) -> Vec<Json> {
@@ -38,7 +35,7 @@ impl Dataset {
         let digits = if self.digits == 0 { DOUBLE_DIGITS } else { self.digits };
         let named = |column: &&Column| column.name.is_some();
         let with_unit = |column: &Column, suffix: &str| {
-            let name = column.name.as_deref().unwrap_or_default();
+            let name = column.csv_name();
             if column.unit.is_empty() { format!("{name}{suffix}") } else { format!("{name}{suffix} [{}]", column.unit) }
         };
         let bounded = || self.columns.iter().filter(named).filter(|column| column.is_bounded);
@@ -70,11 +67,8 @@ impl Dataset {
             npz.add("shape", &[self.shape.len()], self.shape.iter().map(|n| *n as i64).collect())?;
         }
         for (k, column) in self.columns.iter().enumerate() {
-            let (Column { name: Some(name), is_text: false, .. }, cells) =
-                (column, self.rows.iter().map(|row| &row[k]))
-            else {
-                continue;
-            };
+            let cells = self.rows.iter().map(|row| &row[k]);
+            let Some(name) = column.name.as_deref().filter(|_| column.kind != Kind::Word) else { continue };
             let whole = |cell: &Cell| if let Cell::Plain(value) = cell { value.as_i64() } else { None };
             match cells.clone().map(whole).collect::<Option<Vec<i64>>>().filter(|all| !all.is_empty()) {
                 Some(whole) => npz.add(name, count, whole)?,

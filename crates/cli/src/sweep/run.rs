@@ -11,7 +11,7 @@ use dalembert::Error;
 use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::problem::{Problem, ProblemError};
-use dalembert::quantity::{Missing, Needs, One, Quantity, UnitSystem, Units};
+use dalembert::quantity::{Missing, Needs, Quantity, UnitSystem, Units, ValueQuery};
 use dalembert::solve::{History, Numbers, Question, unobserved};
 
 /// A request for the numbers of every point.
@@ -65,8 +65,8 @@ impl PointNumber {
     }
 
     /// Returns the number of a history.
-    fn new(history: &History, one: &One) -> Self {
-        let found: Result<Result<Value, Missing>, Error> = history.one(one);
+    fn new(history: &History, query: &ValueQuery) -> Self {
+        let found: Result<Result<Value, Missing>, Error> = history.query(query);
         let number = match found {
             Ok(Ok(value)) if !value.is_finite() => PointNumber::missing("no finite number"),
             Ok(Ok(value)) => {
@@ -106,7 +106,7 @@ impl Request {
                 runs.len() - 1
             });
             numbers.push(match &runs[known].1 {
-                Ok(history) => PointNumber::new(history, &One::new(*quantity, time)),
+                Ok(history) => PointNumber::new(history, &ValueQuery::new(*quantity, time)),
                 Err(error) => PointNumber::missing(error),
             });
         }
@@ -163,7 +163,7 @@ impl Sweep {
     /// Returns the quantities with their units, which are the same at every point.
     pub(crate) fn units(&self) -> impl Iterator<Item = (Quantity, &'static str)> {
         let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(index).ok());
-        let units = problem.map_or_else(Units::default, |problem| Units::of(&problem, self.request.units));
+        let units = problem.map_or_else(Units::default, |problem| Units::new(&problem, self.request.units));
         self.request.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
     }
 

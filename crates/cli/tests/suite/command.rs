@@ -362,11 +362,11 @@ fn a_damped_history() {
     let rows = quiet(&[&args[..], &["--bare"]].concat());
     assert!(rows.lines().count() == 21 && rows.lines().last().unwrap().starts_with("1.7,"));
     let explained = json(&["explain", "figure-4-r02", "--format", "json"]);
-    assert_eq!(explained["engine"], "closed_form_then_cells");
-    // All that is decided, as data: what cells compute, how late a first contact is marched over, what follows doubles.
+    assert_eq!(explained["engine"], "cells");
+    // All that is decided, as data: what cells compute, what follows doubles.
     let plan = &explained["plan"];
     assert_eq!((&plan["rung"], &plan["goal"]["digits"]), (&"double".into(), &9.0.into()));
-    assert_eq!(plan["cells"]["marched_trips"], serde_json::json!([4.0, 64.0]));
+    assert_eq!(plan["cells"]["double_digits"], 13.0);
     assert_eq!(plan["climb"]["bits"], 128);
 }
 

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use dalembert::quantity::Table;
-use dalembert::{Numbers, Plan, Problem, Question, Solution, TypedHistory};
+use dalembert::{History, Numbers, Plan, Problem, Quantity, Question};
 
 use crate::command::{quiet, refused, run};
 use crate::common::close;
@@ -305,20 +304,17 @@ fn figures_5_to_7_agree_with_cells_from_data() {
             let speed = format!("{}", -mu);
             let data = [("0", speed.as_str()), ("1", speed.as_str())];
             let rod = Problem::builder().length(1).wave_speed(1).gravity(1).damping(r).velocity(data);
-            let table = cells(&rod.time(3).build().unwrap()).table(Table::Contacts).unwrap();
-            let first = |wanted| table.iter().find(|(quantity, _)| *quantity == wanted).unwrap().1[0].unwrap();
-            close(&what, translational, first(dalembert::Quantity::TranslationalShare), 1.0, 1e-12);
-            close(&what, left, first(dalembert::Quantity::EnergyKept), 1.0, 1e-12);
+            let shares = [Quantity::TranslationalShare, Quantity::EnergyKept];
+            let first = cells(&rod.time(3).build().unwrap()).list(&shares).unwrap().remove(0);
+            close(&what, translational, first[0].as_ref().unwrap().to_f64(), 1.0, 1e-12);
+            close(&what, left, first[1].as_ref().unwrap().to_f64(), 1.0, 1e-12);
         }
     }
 }
-fn cells(rod: &Problem) -> TypedHistory<f64> {
+fn cells(rod: &Problem) -> History {
     let plan = Plan::of(rod, &Question::run(Numbers::Double(Some(1e-13)))).unwrap();
     assert_eq!(plan.engine, dalembert::Engine::Cells);
-    match plan.solve_typed(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap() {
-        Solution::Double(history) => history,
-        other => panic!("{other:?}"),
-    }
+    plan.solve(rod, std::sync::Arc::new(dalembert::engine::unobserved)).unwrap()
 }
 
 #[test]

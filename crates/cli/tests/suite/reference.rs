@@ -104,12 +104,13 @@ fn means_and_projections_are_integrals() {
         // Not the whole rod, and not equally spaced.
         let grid: Vec<Rational> = [1, 2, 4, 7, 9].map(|k| length.clone() * fraction(k, 10)).into();
         let field = history.field(&grid, std::slice::from_ref(&t), Side::Right).unwrap();
-        let means = history.slices(Slice::Averages, &grid, std::slice::from_ref(&t), None).unwrap();
+        let at = |slice| history.ask_slices(slice, None, |_| Ok((grid.clone(), vec![t.clone()]))).unwrap();
+        let means = at(Slice::Averages);
         for (k, mean) in means[5].iter().enumerate() {
             let rise = field[k + 1].displacement.clone() - &field[k].displacement;
             assert_eq!(*mean, rise / (grid[k + 1].clone() - &grid[k]), "{name}");
         }
-        let nodal = history.slices(Slice::P1, &grid, std::slice::from_ref(&t), None).unwrap();
+        let nodal = at(Slice::P1);
         let mut cuts = cuts(&rod, &history, &t);
         cuts.extend(grid.iter().cloned());
         cuts.sort();

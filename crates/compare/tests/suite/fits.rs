@@ -30,7 +30,7 @@ const NAMES: [&str; 6] = ["length", "wave_speed", "damping", "gravity", "impact_
 
 /// What of `columns` at `times` is `data`, fitted from `start`.
 fn fitted(start: &Problem, names: &[&str], times: &[f64], columns: &[Quantity], data: Vec<Vec<f64>>) -> Value {
-    let units = Units::of(start, UnitSystem::Si);
+    let units = Units::new(start, UnitSystem::Si);
     let all = std::iter::once(times.to_vec()).chain(data).map(Ok).collect();
     let header = std::iter::once("t".to_string()).chain(columns.iter().map(|column| column.name().to_string()));
     let source = Source::from_columns("data", header.collect(), all);

@@ -22,7 +22,7 @@ fn scene(text: &str) -> Scene {
 
 /// The report on columns of data as JSON.
 fn compare_columns(scene: &Scene, columns: &[(&str, Vec<f64>)], options: &Options) -> Value {
-    let units = Units::of(&scene.problem, scene.units);
+    let units = Units::new(&scene.problem, scene.units);
     let (names, values) = columns.iter().map(|(name, values)| (name.to_string(), Ok(values.clone()))).unzip();
     let source = Source::from_columns("data", names, values);
     let prepared = Prepared::new(&scene.problem, &units, scene.accuracy, vec![source], options).unwrap();

@@ -9,7 +9,7 @@ use crate::paper::formulas::Constant;
 use crate::routes::{Route, RouteQuestion, Transform, Truth};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
-use dalembert::quantity::{One, Quantity, Units};
+use dalembert::quantity::{Quantity, Units, ValueQuery};
 use dalembert::solve::Numbers;
 use dalembert::{Scene, Side};
 
@@ -150,8 +150,8 @@ impl CaseQuestion {
     fn question(&self) -> Result<RouteQuestion, VerifyError> {
         let number = |text: &str| (!text.is_empty()).then(|| text.parse::<Number>()).transpose();
         let (point, time) = (number(self.point)?, number(self.time)?);
-        let one = One { quantity: self.quantity, point, time, side: self.side };
-        Ok(RouteQuestion { problem: self.rod.problem()?, one, units: Units::default(), transform: self.transform })
+        let query = ValueQuery { quantity: self.quantity, point, time, side: self.side };
+        Ok(RouteQuestion { problem: self.rod.problem()?, query, units: Units::default(), transform: self.transform })
     }
 
     /// Takes every route.

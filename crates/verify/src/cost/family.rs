@@ -11,10 +11,10 @@ pub enum Family {
     /// The lattice: undamped, from event to event.
     #[strum(serialize = "lattice")]
     Lattice,
-    /// The closed form of the first contact, then cells: the plan of a damped scene.
-    #[strum(serialize = "closed form, then cells")]
-    ContactThenCells,
-    /// Characteristic cells from the start.
+    /// Characteristic cells with the settings of the plan.
+    #[strum(serialize = "cells, planned")]
+    PlannedCells,
+    /// Characteristic cells in doubles, to a given number of digits.
     #[strum(serialize = "cells")]
     Cells,
     /// The sum over modes.

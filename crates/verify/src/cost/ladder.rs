@@ -41,13 +41,13 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
         Engine::ClosedForm => Family::ClosedForm,
-        Engine::ClosedFormThenCells | Engine::Cells => Family::ContactThenCells,
+        Engine::Cells => Family::PlannedCells,
     };
     let damped = question.problem.damping().is_some();
     if damped {
         take(Family::Lattice, Err(OmissionReason::Damping));
     } else {
-        take(Family::ContactThenCells, Err(OmissionReason::NoDamping(family)));
+        take(Family::PlannedCells, Err(OmissionReason::NoDamping(family)));
     }
     match plan.numbers {
         Numbers::Certified(_) => take(family, Err(OmissionReason::PlanEncloses)),
@@ -64,7 +64,7 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     }
     let cells = [1, 3, 5, 7, 9, 11, 13].map(|digits| (format!("to 1e-{digits}"), Route::Cells(digits)));
     take(Family::Cells, Ok(in_doubles(Family::Cells, [1e-4, 1.5], cells)));
-    let whole = match question.one.quantity {
+    let whole = match question.query.quantity {
         Quantity::VibrationalEnergy => Err(OmissionReason::WholeEnergy),
         _ => first.clone(),
     };
@@ -162,7 +162,7 @@ fn covered_by_first_contact(question: &RouteQuestion) -> Result<(), OmissionReas
     if !question.problem.has_closed_form() {
         return Err(OmissionReason::NoClosedForm);
     }
-    if question.one.quantity == Quantity::LastEvent && *question.problem.run() != Run::Impacts(1) {
+    if question.query.quantity == Quantity::LastEvent && *question.problem.run() != Run::Impacts(1) {
         return Err(OmissionReason::LaterEvent);
     }
     let Some(time) = question.time().map(|time| time.to_f64()) else { return Ok(()) };

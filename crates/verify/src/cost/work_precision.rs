@@ -6,7 +6,7 @@ use super::family::{Family, OmissionReason};
 use super::ladder::{Candidate, Ladder, ladders};
 use super::timing::{Timing, check_budget, repeat};
 use crate::error::VerifyError;
-use crate::routes::{RouteQuestion, Truth};
+use crate::routes::{Route, RouteQuestion, Truth};
 use dalembert::Value;
 use dalembert::number::Number;
 use dalembert::quantity::Quantity;
@@ -104,16 +104,10 @@ pub fn work_precision(
             continue;
         }
         let began = Instant::now();
-        // A run that can stop itself leaves most of the time to others.
-        let answer = candidate.route.run(question, left / 4.0);
-        let once = began.elapsed().as_secs_f64();
-        let mut took = once;
+        let answer = measure(question, candidate.route, slot, left);
+        let mut took = began.elapsed().as_secs_f64();
         match answer {
-            Ok(value) => {
-                let left = (seconds - spent()).max(0.0);
-                // Three samples at least, where that is little of what is left.
-                let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
-                let timing = repeat(once, Duration::from_secs_f64(room), || candidate.route.run(question, left));
+            Ok((value, timing)) => {
                 took = timing.seconds;
                 measured.push(Measured { candidate, ladder, value, timing });
             }
@@ -126,44 +120,41 @@ pub fn work_precision(
             next.expected *= took.max(1e-7);
         }
     }
-    let truth = loop {
-        let digits = measured.iter().map(|row| row.candidate.digits).max().unwrap_or(0);
-        observe(spent() / seconds, &format!("the truth, to {} digits", digits + BEYOND));
-        match Truth::compute(question, digits + BEYOND) {
-            Ok(truth) => break truth,
-            // Rows without a truth are left out, down to doubles.
-            Err(error) if measured.iter().any(|row| row.candidate.digits < digits) => {
-                let (kept, lost): (Vec<_>, Vec<_>) =
-                    measured.into_iter().partition(|row| row.candidate.digits < digits);
-                measured = kept;
-                let why = OmissionReason::NoTruth(error);
-                left_out.extend(lost.into_iter().map(|row| row.candidate.left_out(why.clone())));
-            }
-            Err(error) => return Err(error),
-        }
-    };
-    let mut rows: Vec<CostRow> = measured
-        .into_iter()
-        .map(|Measured { candidate, ladder, value, timing }| CostRow {
-            family: candidate.family,
-            ladder,
-            setting: candidate.setting,
-            log10_error: truth.log10_error(&value),
-            timing,
-            chosen: candidate.chosen,
-        })
-        .collect();
+    let truth = truth(question, &mut measured, &mut left_out, |digits| {
+        observe(spent() / seconds, &format!("the truth, to {digits} digits"));
+    })?;
+    let mut rows: Vec<CostRow> = measured.into_iter().map(|row| row.into_row(&truth)).collect();
     // Settings stay in the order of their ladder.
     rows.sort_by_key(|row| (row.family as u8, row.ladder));
     left_out.sort_by_key(|item| item.family as u8);
     Ok(CostTable {
-        quantity: question.one.quantity,
-        unit: question.one.quantity.unit(&question.units),
-        time: question.one.time.clone(),
+        quantity: question.query.quantity,
+        unit: question.query.quantity.unit(&question.units),
+        time: question.query.time.clone(),
         truth,
         rows,
         left_out,
     })
+}
+
+/// Computes the truth to more digits than every row of `measured` has. Rows without a truth are `left_out`, down to
+/// doubles. `observe` receives the digits.
+fn truth(
+    question: &RouteQuestion,
+    measured: &mut Vec<Measured>,
+    left_out: &mut Vec<Omission>,
+    mut observe: impl FnMut(u32),
+) -> Result<Truth, VerifyError> {
+    loop {
+        let digits = measured.iter().map(|row| row.candidate.digits).max().unwrap_or(0);
+        observe(digits + BEYOND);
+        let why = match Truth::compute(question, digits + BEYOND) {
+            Err(error) if measured.iter().any(|row| row.candidate.digits < digits) => OmissionReason::NoTruth(error),
+            found => return found,
+        };
+        let lost = measured.extract_if(.., |row| row.candidate.digits >= digits);
+        left_out.extend(lost.map(|row| row.candidate.left_out(why.clone())));
+    }
 }
 
 /// A candidate that has run.
@@ -172,6 +163,26 @@ struct Measured {
     ladder: usize,
     value: Value,
     timing: Timing,
+}
+
+impl Measured {
+    fn into_row(self, truth: &Truth) -> CostRow {
+        let Measured { candidate: Candidate { family, setting, chosen, .. }, ladder, value, timing } = self;
+        CostRow { family, ladder, setting, log10_error: truth.log10_error(&value), timing, chosen }
+    }
+}
+
+/// Answers `question` by `route`, in the seconds that are `left`, and repeats the run for about as many seconds as
+/// `slot`.
+fn measure(question: &RouteQuestion, route: Route, slot: f64, left: f64) -> Result<(Value, Timing), VerifyError> {
+    let began = Instant::now();
+    // A run that can stop itself leaves most of the time to others.
+    let value = route.run(question, left / 4.0)?;
+    let once = began.elapsed().as_secs_f64();
+    let left = (left - once).max(0.0);
+    // Three samples at least, where that is little of what is left.
+    let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
+    Ok((value, repeat(once, Duration::from_secs_f64(room), || route.run(question, left))))
 }
 
 impl Candidate {

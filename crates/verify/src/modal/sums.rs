@@ -56,6 +56,30 @@ struct Expansion<S> {
     circle: [f64; 2],
 }
 
+impl<S: RoundedSpecial> Expansion<S> {
+    /// Adds the powers of ε, whose sums are known in closed form, to the `sum` of a series.
+    fn add_closed(&self, mut sum: Estimate<S>, closed: &ClosedSums<S>, series: Series) -> Estimate<S> {
+        let Series { power: p, time, space } = series;
+        for (m, factor) in self.powers[time as usize].iter().enumerate() {
+            let Some(value) = closed.get(space, m + p) else { continue };
+            let part = if p / 2 % 2 == 0 { value } else { -value };
+            sum = sum + part * factor;
+        }
+        sum
+    }
+
+    /// Returns the logarithm of the bound of what the modes from N on add to a series, see [`Modal::sums`].
+    fn log_tail(&self, Series { power: p, time, .. }: Series) -> f64 {
+        let (order, [log_radius, log_bound]) = (self.powers[0].len(), self.circle);
+        let log_bound = if matches!(time, TimeFactor::Sine) { log_bound + log_radius } else { log_bound };
+        let q = (order + p) as f64 - 1.0;
+        8f64.ln() + log_bound
+            - order as f64 * log_radius
+            - q * (2.0 * PI * self.modes as f64).ln()
+            - (2.0 * PI * q).ln()
+    }
+}
+
 /// A choice of K powers of ε and N modes.
 struct Truncation {
     /// Estimated error of the sums.
@@ -133,22 +157,8 @@ impl<S: RoundedSpecial> Modal<S> {
             }
         }
         std::array::from_fn(|k| {
-            let Series { power: p, time, space } = list[k];
-            let mut sum = bare[k].clone();
-            for (m, factor) in expansion.powers[time as usize].iter().enumerate() {
-                let Some(value) = closed.get(space, m + p) else { continue };
-                let part = if p / 2 % 2 == 0 { value } else { -value };
-                sum = sum + part * factor;
-            }
-            let [log_radius, log_bound] = expansion.circle;
-            let log_bound = if matches!(time, TimeFactor::Sine) { log_bound + log_radius } else { log_bound };
-            let q = (order + p) as f64 - 1.0;
-            let log_tail = 8f64.ln() + log_bound
-                - order as f64 * log_radius
-                - q * (2.0 * PI * expansion.modes as f64).ln()
-                - (2.0 * PI * q).ln()
-                - r * tau;
-            within(sum * &fade + &damped[k], log_tail)
+            let sum = expansion.add_closed(bare[k].clone(), &closed, list[k]);
+            within(sum * &fade + &damped[k], expansion.log_tail(list[k]) - r * tau)
         })
     }
 

@@ -6,8 +6,8 @@ use crate::error::VerifyError;
 use dalembert::engine::{Motion, Scales};
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
-use dalembert::quantity::{Missing, Needs, One, Quantity, Units};
-use dalembert::solve::{self, Numbers, Plan, Solution, Target, TypedHistory};
+use dalembert::quantity::{Missing, Needs, Quantity, Units, ValueQuery};
+use dalembert::solve::{self, Numbers, Plan, Target, TypedHistory};
 use dalembert::{Error, Scene, Side, Value};
 
 /// A function of an answer, for claims of the paper that are no quantities of a motion.
@@ -27,7 +27,7 @@ pub(crate) enum Transform {
 #[derive(Clone, Debug)]
 pub struct RouteQuestion {
     pub(crate) problem: Problem,
-    pub(crate) one: One,
+    pub(crate) query: ValueQuery,
     pub(crate) units: Units,
     pub(crate) transform: Transform,
 }
@@ -77,8 +77,8 @@ impl RouteQuestion {
             (None, Needs::FirstContact | Needs::Contact) => scene.problem.with_run(Run::Impacts(1))?,
             _ => scene.problem.clone(),
         };
-        let (one, units) = (One::new(quantity, time), Units::of(&problem, scene.units));
-        Ok(RouteQuestion { problem, one, units, transform: Transform::Identity })
+        let (query, units) = (ValueQuery::new(quantity, time), Units::new(&problem, scene.units));
+        Ok(RouteQuestion { problem, query, units, transform: Transform::Identity })
     }
 
     /// Builds the question at the first default time at which the answer in doubles is not zero.
@@ -104,12 +104,12 @@ impl RouteQuestion {
 
     /// Returns the time of the question; `None` for a quantity without a time.
     pub fn time(&self) -> Option<&Number> {
-        self.one.time.as_ref()
+        self.query.time.as_ref()
     }
 
     /// Plans the answer in `numbers`, and nothing more.
     pub fn plan(&self, numbers: Numbers) -> Result<Plan, VerifyError> {
-        let One { quantity, time, .. } = &self.one;
+        let ValueQuery { quantity, time, .. } = &self.query;
         Ok(Plan::of(&self.problem, &solve::Question::of(*quantity, time.as_ref(), numbers))?)
     }
 
@@ -119,13 +119,13 @@ impl RouteQuestion {
         rod: &Parameters<S>,
         method: &dyn Method<S>,
     ) -> Result<Value, VerifyError> {
-        let quantity = self.one.quantity;
+        let quantity = self.query.quantity;
         let convert = |number: &Number| S::from_number(number, &rod.length.precision());
-        let (zero, point) = (rod.length.zero(), self.one.point.as_ref().map(convert));
+        let (zero, point) = (rod.length.zero(), self.query.point.as_ref().map(convert));
         let query = |side: Side| Query { rod, point: point.clone().unwrap_or(zero.clone()), time: zero.clone(), side };
         let bounce = || evaluate(method, Quantity::BounceTime, &query(Side::Right));
         let find = |side: Side| {
-            let time = match &self.one.time {
+            let time = match &self.query.time {
                 Some(time) => convert(time),
                 None if matches!(quantity.needs(), Needs::Time | Needs::PointAndTime) => bounce()?,
                 None => zero.clone(),
@@ -150,31 +150,27 @@ impl RouteQuestion {
         plan.ask::<f64, _>(&self.problem, query, |found| found.iter().collect())?.map(Into::into)
     }
 
-    /// Answers by a solution, whatever its numbers.
-    pub(super) fn ask_solution(&self, solution: &Solution) -> Result<Value, VerifyError> {
-        match solution {
-            Solution::Double(history) => self.ask_history(history),
-            Solution::Digits(history, _) | Solution::DigitsAfter(history, ..) => self.ask_history(history),
-            Solution::Exact(history) => self.ask_history(history),
-            Solution::Certified(history, _) => self.ask_history(history),
-        }
+    /// Answers by a history in numbers `S`, with all its events.
+    pub(super) fn ask_history<S: Target<Carried: RouteNumber>>(&self, plan: &Plan) -> Result<Value, VerifyError> {
+        let history = TypedHistory::<S>::solve(&self.problem, plan, solve::unobserved())?;
+        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
     }
 
-    fn ask_history<S: Target<Carried: RouteNumber>>(&self, history: &TypedHistory<S>) -> Result<Value, VerifyError> {
-        history.ask(|motion| self.find_in(motion), |found| found.iter().collect())?.map(Into::into)
+    /// Answers by the library, for a question without a transform.
+    pub(super) fn ask_library(&self, plan: &Plan) -> Result<Value, VerifyError> {
+        plan.solve(&self.problem, solve::unobserved())?.query(&self.query)?.map_err(missing)
     }
 
     /// Answers by a motion. **Errors**: the outer ones may be settled by more bits.
     fn find_in<S: RouteNumber>(&self, motion: &dyn Motion<S>) -> Result<Result<S, VerifyError>, Error> {
-        let find = |one: &One| match one.of(motion, &self.units, self.problem.run())? {
+        let find = |query: &ValueQuery| match query.evaluate(motion, &self.units, self.problem.run())? {
             Ok([value, _]) => Ok(value),
-            Err(Missing { open: true, why }) => Err(VerifyError::Undecided(why)),
-            Err(Missing { why, .. }) => Err(VerifyError::none(why)),
+            Err(why) => Err(missing(why)),
         };
         let rod = Parameters::of(&self.problem, &motion.end().precision()).map_err(VerifyError::from);
         let found = rod.and_then(|rod| {
-            let bounce = || find(&One::new(Quantity::BounceTime, None));
-            self.transformed(&rod, |side| find(&One { side, ..self.one.clone() }), bounce)
+            let bounce = || find(&ValueQuery::new(Quantity::BounceTime, None));
+            self.transformed(&rod, |side| find(&ValueQuery { side, ..self.query.clone() }), bounce)
         });
         match found {
             Err(VerifyError::Library(error @ (Error::NotDecided { .. } | Error::Open(_)))) => Err(error),
@@ -192,7 +188,7 @@ impl RouteQuestion {
         let no_fraction = || VerifyError::none("no fraction");
         let exponential = |exponent: S| exponent.try_exp().ok_or_else(no_fraction);
         let transformed = || {
-            let value = find(self.one.side)?;
+            let value = find(self.query.side)?;
             Ok(match self.transform {
                 Transform::Identity => value,
                 Transform::Jump => find(Side::Right)? - find(Side::Left)?,
@@ -205,11 +201,16 @@ impl RouteQuestion {
         };
         transformed().map_err(|error| match error {
             VerifyError::NoSuchQuantity { why, .. } => {
-                VerifyError::NoSuchQuantity { quantity: self.one.quantity.name(), why }
+                VerifyError::NoSuchQuantity { quantity: self.query.quantity.name(), why }
             }
             other => other,
         })
     }
+}
+
+/// Converts the reason why there is no number to an error.
+fn missing(Missing { open, why }: Missing) -> VerifyError {
+    if open { VerifyError::Undecided(why) } else { VerifyError::none(why) }
 }
 
 /// Rounds a time to three digits; `None` beyond the range of numbers.

@@ -9,7 +9,7 @@ use crate::paper::formulas::Constant;
 use crate::paper::{PrintedIntegrals, UndampedContact};
 use dalembert::Value;
 use dalembert::engine::{Damped, Undamped};
-use dalembert::number::{Estimate, Float, Rational, Scalar};
+use dalembert::number::{Estimate, Float, Interval, Rational, Scalar};
 use dalembert::problem::{Parameters, Problem};
 use dalembert::solve::{self, Numbers, Plan, TypedHistory};
 
@@ -71,9 +71,12 @@ impl Route {
             Route::Cells(digits) => question.ask_engine(&Damped::<f64>::solve(problem, &(), f64::from(digits))?),
             Route::Differences(cells) => question.ask(&Parameters::of(problem, &())?, &march(problem, cells)?),
             Route::Planned(numbers @ Numbers::Double(_)) => question.ask_plan(&question.plan(numbers)?),
-            Route::Planned(numbers) => {
-                question.ask_solution(&question.plan(numbers)?.solve_typed(problem, solve::unobserved())?)
+            Route::Planned(numbers @ Numbers::Digits(_)) => question.ask_history::<Float>(&question.plan(numbers)?),
+            Route::Planned(numbers @ Numbers::Certified(_)) => {
+                question.ask_history::<Interval>(&question.plan(numbers)?)
             }
+            Route::Planned(numbers @ Numbers::Exact) => question.ask_history::<Rational>(&question.plan(numbers)?),
+            Route::Planned(numbers) => question.ask_library(&question.plan(numbers)?),
             Route::ClosedForm(_) | Route::Lattice(_) => Err(VerifyError::NotGiven),
         }
     }

@@ -1,7 +1,7 @@
-//! One number of a motion: of the run, of its first contact, or at a time.
+//! Query for one value of a motion: of the run, of its first contact, or at a time.
 
-use super::column::{at, columns};
-use super::listing::of_contact;
+use super::column::{columns, values_at};
+use super::listing::contact_value;
 use super::restitution::Undefined;
 use super::table::{Needs, Quantity};
 use super::unit::Units;
@@ -10,9 +10,9 @@ use crate::motion::{Ending, EventKind, Motion, Side};
 use crate::number::{Number, Scalar};
 use crate::problem::Run;
 
-/// Question for one number: a quantity with its place and time.
+/// Query for one value: a quantity with its place and time.
 #[derive(Clone, Debug)]
-pub struct One {
+pub struct ValueQuery {
     /// The quantity.
     pub quantity: Quantity,
     /// `x`, for a quantity along the rod.
@@ -44,7 +44,7 @@ impl Missing {
 const NEXT: f64 = 0.25;
 
 impl Quantity {
-    /// Every quantity that can be asked as one number, each name once.
+    /// Returns every quantity that is one value of a run, each name once.
     pub fn singles() -> impl Iterator<Item = Quantity> {
         let all =
             [Needs::FirstContact, Needs::Contact, Needs::Time, Needs::Run].into_iter().flat_map(Needs::quantities);
@@ -54,22 +54,22 @@ impl Quantity {
         })
     }
 
-    /// The one that is called so among [`Quantity::singles`].
+    /// Returns the quantity of this name, or of this other name, among [`Quantity::singles`].
     pub fn single(name: &str) -> Option<Quantity> {
         let named = Quantity::singles().find(|quantity| quantity.name() == name);
         named.or_else(|| Quantity::singles().find(|quantity| quantity.also().contains(&name)))
     }
 }
 
-impl One {
-    /// `quantity`, at `time` if it is one at a time.
+impl ValueQuery {
+    /// Builds the query for `quantity`, at `time` if it depends on time.
     pub fn new(quantity: Quantity, time: Option<Number>) -> Self {
-        One { quantity, point: None, time, side: Side::Right }
+        ValueQuery { quantity, point: None, time, side: Side::Right }
     }
 
-    /// The number, in units of the problem, whose run is `run`; and the same as the motion has it, without a unit.
-    /// What there is not has the reason in its place.
-    pub fn of<S: Scalar>(
+    /// Returns the value in units of the problem, whose run is `run`, and the same value without a unit; or the reason why
+    /// there is none.
+    pub fn evaluate<S: Scalar>(
         &self,
         motion: &dyn Motion<S>,
         units: &Units,
@@ -77,12 +77,7 @@ impl One {
     ) -> Result<Result<[S; 2], Missing>, Error> {
         let ended = || Missing { open: motion.ending().is_open(), why: motion.ending().to_string() };
         let bounce = || motion.contact_times(0).and_then(|(_, to)| to).ok_or_else(ended);
-        let event = |kind: EventKind, near: f64| {
-            let apart = |time: &S| (time.to_f64() - near).abs();
-            let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.t.clone());
-            let found = of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-            found.ok_or_else(ended)
-        };
+        let event = |kind, near| event_near(motion, kind, near).ok_or_else(ended);
         let lift = |number: &Number| S::spelling(number, &motion.end().precision());
         let near = self.time.as_ref().map(Number::to_f64);
         let found = match (self.quantity, near, self.quantity.needs()) {
@@ -100,7 +95,7 @@ impl One {
                 let lengths = motion.stress_pieces().into_iter().map(|piece| piece.end - &piece.start);
                 lengths.min_by(|a, b| a.to_f64().total_cmp(&b.to_f64())).ok_or_else(ended)
             }
-            (quantity, _, Needs::Contact | Needs::Flight) => match of_contact(motion, units, quantity, 0) {
+            (quantity, _, Needs::Contact | Needs::Flight) => match contact_value(motion, units, quantity, 0) {
                 Err(Error::NoContact { .. }) | Ok(Err(Undefined::Unfinished | Undefined::Lasts)) => Err(ended()),
                 found => found?.map_err(Missing::none),
             },
@@ -111,7 +106,8 @@ impl One {
                 };
                 let answer = |time: S| match (needs, &self.point) {
                     (Needs::PointAndTime, Some(point)) => {
-                        at(motion, units, &[quantity], (&lift(point), &time), self.side).map(|mut row| row.remove(0))
+                        values_at(motion, units, &[quantity], (&lift(point), &time), self.side)
+                            .map(|mut row| row.remove(0))
                     }
                     _ => {
                         columns(motion, units, &[quantity], &[time], Some(self.side)).map(|mut t| t.remove(0).remove(0))
@@ -129,4 +125,11 @@ impl One {
             None => [value.clone(), value],
         }))
     }
+}
+
+/// Returns the time of the event of this kind that is next to a time, if one is.
+fn event_near<S: Scalar>(motion: &dyn Motion<S>, kind: EventKind, near: f64) -> Option<S> {
+    let apart = |time: &S| (time.to_f64() - near).abs();
+    let of_kind = motion.events().iter().filter(|event| event.kind == kind).map(|event| event.t.clone());
+    of_kind.filter(|time| apart(time) < NEXT).min_by(|a, b| apart(a).total_cmp(&apart(b)))
 }

@@ -1,0 +1,51 @@
+//! Longer runs for times and points with more digits than the numbers of a history hold.
+//!
+//! A number of 40 digits may lie 1e-30 from an event. Doubles round it to the event; a run in as many digits as are
+//! written does not. Such runs are made at the first question that needs one, and kept.
+
+use std::sync::{Arc, Mutex};
+
+use super::places::Places;
+use super::plan::{LONG, Plan};
+use super::question::{Numbers, Observer};
+use super::typed::TypedHistory;
+use crate::number::{Estimate, Float, Number, Scalar, Spelling};
+use crate::problem::Problem;
+use crate::threads::locked;
+
+/// Maximum number of digits of a longer run, in which a number of more digits is rounded.
+const MOST_DIGITS: u32 = 240;
+/// Digits of a longer run beyond those of the number.
+const MORE_DIGITS: u32 = 17;
+
+/// A run in long numbers; `None` if it failed.
+type LongRun = Option<Arc<TypedHistory<Float>>>;
+
+/// The longest run so far, and its digits.
+#[derive(Debug, Default)]
+pub(super) struct Finer(Mutex<Option<(u32, LongRun)>>);
+
+impl Finer {
+    /// Returns a run of `plan` in the digits that `places` need; `None` if the numbers of the plan hold them.
+    pub(super) fn run(&self, problem: &Problem, plan: &Plan, observe: &Observer, places: &[&Places<'_>]) -> LongRun {
+        let held = |number: &Number| match plan.numbers {
+            Numbers::Double(_) => Estimate::<f64>::spelling(number, &()).spelled_as() != Some(Spelling::Near),
+            Numbers::Digits(digits) => number.written_digits() <= digits,
+            // Fractions hold every number, and enclosures decide or are made longer.
+            Numbers::Exact | Numbers::ExactThenDigits(_) | Numbers::Certified(_) => true,
+        };
+        let longer = places.iter().flat_map(|places| places.spelled()).filter(|number| !held(number));
+        let digits = longer.map(Number::written_digits).max().filter(|_| LONG)?;
+        // Few lengths, so that few runs are made.
+        let digits = (digits + MORE_DIGITS).next_multiple_of(40).min(MOST_DIGITS);
+        let mut kept = locked(&self.0);
+        match &*kept {
+            Some((known, run)) if *known >= digits => run.clone(),
+            _ => {
+                let plan = plan.in_numbers(problem, Numbers::Digits(digits));
+                let run = TypedHistory::solve(problem, &plan, observe.clone()).ok();
+                kept.insert((digits, run.map(Arc::new))).1.clone()
+            }
+        }
+    }
+}
