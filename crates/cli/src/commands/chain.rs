@@ -126,7 +126,7 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
                 [("events", &events), ("touches", &touches), ("contacts", &contacts), ("forces", &forces)]
             {
                 if !data.rows.is_empty() {
-                    text += &format!("{name}\n{}\n", data.table());
+                    text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
             }
             Ok(format!("{text}{ending}\n").into_bytes())
