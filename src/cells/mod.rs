@@ -1,13 +1,14 @@
 //! The damped rod, any number of impacts: characteristic cells, the contact law, marching.
 //!
 //! Reading order. `series` holds Chebyshev series, `cell` computes one cell and `march` one strip. `start` builds the
-//! first state from the data at `t = 0`. `flight` separates a flight into centre of mass and vibration, `leap` computes many round trips of it in one step. `root` finds events,
-//! `near` finds what the error bound leaves undecided about them, `effort` limits a run. `follow` decides the events at
-//! the ground, `long_flight` decides when to leap, `event` carries an event out, `piece` stores the result. `budget`
-//! adds up the error bound, with the signs that `dependence` follows. `proof` proves each event by the `signs` of its
-//! series, from the `account` of the `defect` of each step. `rest` proves that no event can follow. `record` computes
-//! the field again, from cells that `strips` caches, `history` answers queries, `bounds` gives each answer the bound
-//! that follows from the `uncertainty` of the run. `estimated_contact` is the closed form of a first contact with such bounds.
+//! first state from the data at `t = 0`. `flight` separates a flight into centre of mass and vibration, `leap` computes
+//! many round trips of it in one step. `root` finds events, `near` finds what the error bound leaves undecided about
+//! them, `effort` limits a run. `follow` decides the events at the ground, `long_flight` decides when to leap, `event`
+//! carries an event out, `piece` stores the result. `budget` adds up the error bound, with the signs that `dependence`
+//! follows. `proof` proves each event by the `signs` of its series, from the `account` of the `defect` of each step.
+//! `rest` proves that no event can follow. `record` computes the field again, from cells that `strips` caches, `history`
+//! answers queries, `bounds` gives each answer the bound that follows from the `uncertainty` of the run.
+//! `estimated_contact` is the closed form of a first contact with such bounds.
 
 mod account;
 mod bounds;

@@ -107,15 +107,15 @@ pub struct ChainBuilder(Chain);
 impl Body {
     /// Returns an undeformed bar at rest, with this length, wave speed and impedance.
     pub fn new(length: Number, wave_speed: Number, impedance: Number) -> Self {
-        Body::of(length, BodyMaterial::Impedance { wave_speed, impedance })
+        Body::with_material(length, BodyMaterial::Impedance { wave_speed, impedance })
     }
 
     /// Returns an undeformed bar at rest, with this length, modulus, density and cross-section.
     pub fn elastic(length: Number, modulus: Number, density: Number, area: Number) -> Self {
-        Body::of(length, BodyMaterial::Elastic { modulus, density, area })
+        Body::with_material(length, BodyMaterial::Elastic { modulus, density, area })
     }
 
-    pub(super) fn of(length: Number, material: BodyMaterial) -> Self {
+    pub(super) fn with_material(length: Number, material: BodyMaterial) -> Self {
         Body { name: None, length, material, velocity: Vec::new(), displacement: Vec::new() }
     }
 

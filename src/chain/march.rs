@@ -35,7 +35,7 @@ impl<N: Bounded> ChainRun<N> {
         precision: &N::Precision,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let Start { bars, mut nodes, mut waves, gravity, until } = Start::<N>::of(chain, precision)?;
+        let Start { bars, mut nodes, mut waves, gravity, until } = Start::<N>::new(chain, precision)?;
         let (mut events, mut touches) = (Vec::new(), Vec::new());
         let mut ending = Ending::Time;
         let mut end = until.clone();

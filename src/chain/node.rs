@@ -53,8 +53,8 @@ pub(super) struct Stage<N> {
     pub(super) force: Line<N>,
     /// `y`: the rate of the gap between free ends.
     pub(super) drive: Line<N>,
-    /// The gap at the stored beginning.
-    pub(super) gap: N,
+    /// The gap at the stored beginning; `None` where it stays zero: no contact, a closed one, or one at rest.
+    pub(super) gap: Option<N>,
     /// Whether a contact is closed.
     pub(super) closed: bool,
 }
@@ -346,7 +346,8 @@ impl<N: Bounded> Node<N> {
     /// Returns whether the gap closes before or at `t`, given that it does so at all while no signal changes.
     fn lands_before(&self, t: &N) -> Result<bool, Open> {
         let Some(stage) = self.stages.last() else { return Ok(false) };
-        let gap = stage.drive.integral(&stage.from, t) + &stage.gap;
+        let Some(gap) = &stage.gap else { return Ok(false) };
+        let gap = stage.drive.integral(&stage.from, t) + gap;
         Ok(!gap.positive()? || (stage.drive.slope.positive()? && !stage.drive.value_at(t).negative()?))
     }
 
@@ -431,7 +432,9 @@ impl<N: Bounded> Node<N> {
             }
         }
         self.root = if self.law == Law::Contact { self.find_root(&drive, &t)? } else { Root::None };
-        let (gap, closed, force) = (self.gap.clone(), self.closed, self.leaving.force.clone());
+        let (closed, force) = (self.closed, self.leaving.force.clone());
+        let is_open = self.law == Law::Contact && !closed && !self.resting;
+        let gap = is_open.then(|| self.gap.clone());
         self.stages.push(Stage { from: t, force, drive, gap, closed });
         Ok(())
     }
@@ -459,12 +462,17 @@ impl<N: Bounded> Node<N> {
         }
         if bend.is_eq() {
             let wait = gap.clone() / &(-y.clone());
-            // A slope that may be other than zero moves the root; twice its first order is counted.
-            let wait = match slope.deviation() {
-                Some(_) => gap.clone() / &(-(slope.taken_for_zero() * &wait + &y)),
-                None => wait,
-            };
-            return Ok(Root::At(wait + &from));
+            if slope.deviation().is_none() {
+                return Ok(Root::At(wait + &from));
+            }
+            // With `y² ≥ 2|a|G` the root of `G + y s + a s²/2` is at most twice as late as that of `G + y s`.
+            let drift = slope.taken_for_zero();
+            let square = y.square() - (drift.clone() * gap).doubled();
+            let at = gap.clone() / &(-(drift * &wait + &y)) + &from;
+            if !square.positive()? {
+                self.doubts(&square, &from);
+            }
+            return Ok(Root::At(at));
         }
         let square = y.square() - (slope.clone() * gap).doubled();
         match square.sign()? {

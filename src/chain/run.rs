@@ -221,12 +221,10 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn gap(&self, node: usize, time: &N) -> Result<N, Error> {
         let stage = self.stage(node, time, Side::Right)?;
-        if stage.closed || stage.gap.alike(&time.zero()) && stage.drive.intercept.alike(&time.zero()) {
-            return Ok(time.zero());
-        }
+        let Some(gap) = &stage.gap else { return Ok(time.zero()) };
         let from = stage.from.clone().nominal();
         let middle = (from.clone() + time).halved();
-        Ok(stage.drive.value_at(&middle) * (time.clone() - from) + &stage.gap)
+        Ok(stage.drive.value_at(&middle) * (time.clone() - from) + gap)
     }
 
     /// Returns whether a contact is closed.

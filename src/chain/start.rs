@@ -4,7 +4,7 @@ use super::definition::{Body, Chain, End, Joint, Points};
 use super::law::{Law, Mix};
 use super::node::{Node, Source};
 use super::wave::{Piece, Wave};
-use crate::error::Error;
+use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::lattice::Line;
 use crate::number::{Bounded, Number, Rational, Scalar};
 
@@ -29,28 +29,43 @@ pub(super) struct Start<N> {
     pub(super) until: N,
 }
 
-/// Converts a fraction, rounded once.
-fn lift<N: Bounded>(x: &Rational, precision: &N::Precision) -> N {
-    match Number::of_rational(x) {
-        Some(number) => N::from_number(&number, precision),
-        None => N::from_number(&Number::from(0), precision).double(Scalar::to_f64(x)),
+/// Converts a fraction; rounded once if it is short enough for a [`Number`].
+///
+/// **Errors**: [`Kind::OutOfRange`] if it is below 1e-300 or above 1e300.
+fn lift<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> {
+    if let Some(number) = Number::of_rational(x) {
+        return Ok(N::from_number(&number, precision));
+    }
+    // p/q = (P/Q) 10ᵏ, where P and Q have the digits of p and q with a point after the first.
+    let text = x.to_string();
+    let (p, q) = text.split_once('/').unwrap_or((&text, "1"));
+    let (sign, p) = p.strip_prefix('-').map_or(("", p), |p| ("-", p));
+    let spelled = |text: String| text.parse::<Number>().map(|number| N::from_number(&number, precision));
+    let mantissa = |sign: &str, digits: &str| spelled(format!("{sign}{}.{}", &digits[..1], &digits[1..]));
+    let power = spelled(format!("1e{}", p.len() as i64 - q.len() as i64));
+    match (mantissa(sign, p), mantissa("", q), power) {
+        (Ok(p), Ok(q), Ok(power)) => Ok(p / &q * power),
+        _ => {
+            let found = format!("a ratio of numbers of {} and {} digits", p.len(), q.len());
+            Err(ProblemError::new(Kind::OutOfRange, "body", found, "ratios between 1e-300 and 1e300").into())
+        }
     }
 }
 
 /// Returns the square root of a fraction.
 fn root<N: Bounded>(quantity: &'static str, square: &Rational, precision: &N::Precision) -> Result<N, Error> {
     if let Some(root) = square.try_sqrt() {
-        return Ok(lift(&root, precision));
+        return lift(&root, precision);
     }
     let irrational = || Error::Irrational { quantity, square: square.to_string() };
-    lift::<N>(square, precision).try_sqrt().ok_or_else(irrational)
+    lift::<N>(square, precision)?.try_sqrt().ok_or_else(irrational)
 }
 
 impl<N: Bounded> Start<N> {
     /// Converts `chain`.
     ///
     /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance.
-    pub(super) fn of(chain: &Chain, precision: &N::Precision) -> Result<Self, Error> {
+    pub(super) fn new(chain: &Chain, precision: &N::Precision) -> Result<Self, Error> {
         let number = |x: &Number| N::from_number(x, precision);
         let gravity = number(&chain.gravity);
         let mut squares = Vec::new();
@@ -60,14 +75,15 @@ impl<N: Bounded> Start<N> {
             let speed: N = root("wave speed", &wave_speed, precision)?;
             let length = number(&body.length);
             let travel = match wave_speed.try_sqrt() {
-                Some(speed) => lift(&(body.length.to_rational() / speed), precision),
+                Some(speed) => lift(&(body.length.to_rational() / speed), precision)?,
                 None => length.clone() / &speed,
             };
             let force = root("impedance", &impedance, precision)?;
             bars.push(Bar { length, wave_speed: speed, impedance: force, travel });
             squares.push(impedance);
         }
-        let waves = chain.bodies.iter().zip(&bars).map(|(body, bar)| waves(body, bar, precision)).collect();
+        let waves = chain.bodies.iter().zip(&bars).map(|(body, bar)| waves(body, bar, precision));
+        let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
         let mut nodes = Vec::with_capacity(top + 1);
         for at in 0..=top {
@@ -108,9 +124,12 @@ impl<N: Bounded> Start<N> {
             let impedances = [impedance(&below_square)?, impedance(&above_square)?];
             let reflection = match (&below_square, &above_square) {
                 (Some(below), Some(above)) => match (below.clone() / above).try_sqrt() {
-                    Some(ratio) => lift(&((ratio.clone() - &ratio.one()) / &(ratio.clone() + &ratio.one())), precision),
+                    Some(ratio) => {
+                        let one = ratio.one();
+                        lift(&((ratio.clone() - &one) / &(ratio + &one)), precision)?
+                    }
                     None => {
-                        let ratio = lift::<N>(&(below.clone() / above), precision);
+                        let ratio = lift::<N>(&(below.clone() / above), precision)?;
                         let irrational = || Error::Irrational { quantity: "ratio of impedances", square: ratio.text() };
                         let ratio = ratio.try_sqrt().ok_or_else(irrational)?;
                         (ratio.clone() - ratio.one()) / (ratio.clone() + ratio.one())
@@ -119,7 +138,7 @@ impl<N: Bounded> Start<N> {
                 (None, _) => gravity.one(),
                 (_, None) => -gravity.one(),
             };
-            let gap = chain.start_gap(at).map_or_else(|| gravity.zero(), |gap| lift(&gap, precision));
+            let gap = chain.start_gap(at).map_or_else(|| Ok(gravity.zero()), |gap| lift(&gap, precision))?;
             let delays = [below, above].map(|body| body.map(|body| bars[body].travel.clone()));
             nodes.push(Node::new([lower, upper], delays, law, Mix::new(reflection, impedances, &gravity), gap));
         }
@@ -153,7 +172,7 @@ fn signal<N: Bounded>(points: &Points, fall: &N, precision: &N::Precision) -> Ve
 /// **Source**: the upward wave leaves the bottom at `s` with `p(−cs, 0)`, the downward one the top with `q(L + cs, 0)`,
 /// for `−L/c ≤ s < 0`. Their integrals are 0 and `2v(0,0)` where the bottom is at the start, so that
 /// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
-fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> [Wave<N>; 2] {
+fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
     let fraction = |x: &Number| x.to_rational();
     // Places at which the start has a break, in exact order.
@@ -176,7 +195,7 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> [Wa
             })
         });
         // v_t = speed + rise·x, the first of which is extrapolated to either end.
-        let [speed, at_top, rise, strain, from, to] = [
+        let numbers = [
             speed.clone(),
             speed + rise.clone() * fraction(&body.length),
             rise,
@@ -185,6 +204,8 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> [Wa
             fraction(&body.length) - to,
         ]
         .map(|x| lift::<N>(&x, precision));
+        let [speed, at_top, rise, strain, from, to] = numbers;
+        let [speed, at_top, rise, strain, from, to] = [speed?, at_top?, rise?, strain?, from?, to?];
         let (rate, stretch) = (rise * wave_speed, strain * wave_speed);
         let up_line = Line { intercept: speed - &stretch, slope: -rate.clone() };
         let down_line = Line { intercept: at_top + &stretch, slope: rate };
@@ -198,7 +219,7 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> [Wa
     let start = body.displacement.first().map_or_else(|| length.zero(), |(_, v)| N::from_number(v, precision));
     let zero = length.zero();
     let up = wave(up, |total| -total.clone(), &zero);
-    [up, wave(down, |_| start.doubled(), &zero)]
+    Ok([up, wave(down, |_| start.doubled(), &zero)])
 }
 
 /// Builds a wave from its pieces before the start; `first` returns its integral at the first one, given that of all.

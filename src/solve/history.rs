@@ -66,9 +66,9 @@ macro_rules! typed {
 /// history inside `$history`.
 macro_rules! typed_at {
     ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
-        let finer = $history.finer(&$places).map(|$typed| (|| -> Result<_, Error> { $body })());
+        let finer = $history.finer(&$places)?.map(|$typed| (|| -> Result<_, Error> { $body })());
         match finer {
-            Some(Ok(found)) => Ok(found),
+            Some(found @ (Ok(_) | Err(Error::Interrupted))) => found,
             Some(Err(_)) | None => typed!($history, $typed => $body),
         }
     }};
@@ -470,7 +470,7 @@ impl History {
     }
 
     /// Returns the run in the digits that `places` need, if the numbers of this history do not hold them.
-    fn finer(&self, places: &[&Places<'_>]) -> Option<Arc<TypedHistory<Float>>> {
+    fn finer(&self, places: &[&Places<'_>]) -> Result<Option<Arc<TypedHistory<Float>>>, Error> {
         let observe = typed!(self, history => &history.observe);
         self.finer.run(self.problem(), self.plan(), observe, places)
     }

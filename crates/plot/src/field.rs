@@ -1,6 +1,6 @@
 //! Field along the rod over time: polygons between characteristics, in which the field does not jump.
 
-use dalembert::number::Scalar;
+use dalembert::number::{Estimate, Scalar};
 use dalembert::problem::Parameters;
 use dalembert::solve::TypedHistory;
 use dalembert::{Error, Field, Side};
@@ -8,7 +8,9 @@ use glam::DVec2;
 
 use crate::draw::{FieldPiece, clip};
 use crate::picture::FieldQuantity;
-use crate::scene_data::Double;
+
+/// A double with its bound.
+pub(crate) type Double = Estimate<f64>;
 
 /// Number of rays above which none is drawn, nor its jump measured.
 pub(crate) const MAX_RAYS: usize = 300;

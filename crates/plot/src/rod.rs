@@ -9,7 +9,7 @@ use dalembert::{Error, Side};
 use glam::DVec2;
 
 use crate::draw::{AREAS, Anchor, Stroke, Svg, diverging};
-use crate::scene_data::Double;
+use crate::field::Double;
 
 /// Number of parts of the rod, each of one colour.
 const PARTS: usize = 120;

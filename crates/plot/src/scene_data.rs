@@ -1,7 +1,7 @@
 //! Answers of a history, in doubles, that its pictures show.
 
 use dalembert::engine::{Motion, RayRegister, WavePiece, straight};
-use dalembert::number::{Estimate, Scalar};
+use dalembert::number::Scalar;
 use dalembert::problem::{Parameters, Problem};
 use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::reason::Warning;
@@ -10,7 +10,7 @@ use dalembert::{Error, EventKind, Side, StressPiece};
 use glam::DVec2;
 
 use crate::draw::{Axis, without_subscripts};
-use crate::field::{Extent, FieldMap, MAX_RAYS, Ray, settled};
+use crate::field::{Double, Extent, FieldMap, MAX_RAYS, Ray, settled};
 use crate::picture::{FieldQuantity, Picture};
 
 /// Pictures to be drawn, and their span.
@@ -27,8 +27,6 @@ pub struct Request {
     /// Last time; by default a time that shows the first contacts.
     pub to: Option<f64>,
 }
-
-pub(crate) type Double = Estimate<f64>;
 
 /// Points of a line in the coordinates of a panel.
 pub(crate) type Curve = Vec<DVec2>;

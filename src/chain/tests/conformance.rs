@@ -19,7 +19,7 @@ fn chain(problem: &Problem, until: Number) -> Option<Chain> {
             BodyMaterial::Elastic { modulus, density, area: area.unwrap_or_else(|| 1.into()) }
         }
     };
-    let body = Body::of(problem.length().clone(), material);
+    let body = Body::with_material(problem.length().clone(), material);
     let falling = |speed: &Number| {
         let speed: Number = format!("-{speed}").parse().ok()?;
         Some(body.clone().with_velocity(speed))

@@ -126,6 +126,26 @@ fn balances(chain: &Chain, run: &Run) {
 }
 
 /// Returns the occurrences at nodes, for comparison.
+/// Checks that the gap of each joint is its first one and what the displacements of both ends add: zero where the joint
+/// is bonded. Returns the number of open gaps.
+fn gaps_follow_displacements(chain: &Chain, run: &Run) -> usize {
+    let mut open = 0;
+    for node in 1..chain.bodies().len() {
+        let apart = |t: &Rational| {
+            let end = |body, is_top| run.end_field(body, is_top, t, Side::Right).unwrap().displacement;
+            end(node, false) - end(node - 1, true)
+        };
+        for part in [ratio(1, 7), ratio(5, 11), ratio(12, 13)] {
+            let t = run.end().clone() * part;
+            let expected = apart(&t) - apart(&zero()) + chain.start_gap(node).unwrap_or_default();
+            let gap = run.gap(node, &t).unwrap();
+            assert_eq!(gap, expected, "{chain:?} at {t}, node {node}");
+            open += usize::from(gap > zero());
+        }
+    }
+    open
+}
+
 fn events(run: &Run) -> Vec<(usize, String, Rational)> {
     run.events().iter().map(|event| (event.node, event.kind.to_string(), event.t.clone())).collect()
 }
@@ -147,18 +167,20 @@ fn forces(run: &Run, node: usize) -> Vec<[Rational; 4]> {
 #[test]
 fn momentum_and_energy_balance() {
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
-    let (mut contacts, mut gravity) = (0, 0);
+    let (mut contacts, mut gravity, mut gaps) = (0, 0, 0);
     for _ in 0..BALANCED {
         let chain = random.chain();
         let run = run(&chain);
         balances(&chain, &run);
+        gaps += gaps_follow_displacements(&chain, &run);
         gravity += usize::from(!chain.gravity().is_zero());
         contacts += run.events().len();
         for touching in run.nodes.iter().flatten() {
-            assert!(touching.gap >= zero());
+            assert!(touching.gap.as_ref().is_none_or(|gap| *gap >= zero()));
         }
     }
     assert!(gravity > BALANCED / 3 && contacts > BALANCED, "{gravity} with gravity, {contacts} events");
+    assert!(gaps > BALANCED, "{gaps} open gaps");
 }
 
 /// Number of random chains that are balanced.
@@ -301,6 +323,18 @@ fn a_mirror_changes_nothing() {
         assert_eq!(expected, events(&other), "{chain:?}");
         (0..=top).for_each(|node| assert_eq!(forces(&one, node), forces(&other, top - node)));
         compared += 1;
+    }
+}
+
+#[test]
+fn a_ground_that_accelerates_away_leaves_a_gap() {
+    // From rest, at −t up to t = 1: the gap is t²/2, and then t − 1/2.
+    let ground = End::Ground { gap: 0.into(), velocity: vec![(0.into(), 0.into()), (1.into(), (-1).into())] };
+    let bar = Body::new(1.into(), 1.into(), 1.into());
+    let run = run(&Chain::builder(bar).bottom(ground).until(5.into()).build().unwrap());
+    assert!(run.events().is_empty());
+    for (t, gap) in [(ratio(1, 2), ratio(1, 8)), (ratio(1, 1), ratio(1, 2)), (ratio(2, 1), ratio(3, 2))] {
+        assert_eq!(run.gap(0, &t).unwrap(), gap);
     }
 }
 

@@ -1,8 +1,8 @@
 //! The built-in chains against what others have published of them, and against their closed forms.
 
-use crate::chain::{ChainColumn, ChainHistory, ChainListing};
+use crate::chain::{Body, Chain, ChainColumn, ChainHistory, ChainListing, End};
 use crate::motion::Side;
-use crate::number::{Number, Scalar};
+use crate::number::{Number, Rational, Scalar};
 use crate::scene::{ChainScene, builtin};
 use crate::solve::Numbers;
 
@@ -142,4 +142,35 @@ fn values_settle_in_every_number_system() {
     let off = Scalar::square(&square) - "624e-9".parse::<Number>().unwrap().to_rational();
     assert!(Scalar::to_f64(&off).abs() < 1e-45, "{release}");
     assert!(steel.warning().is_none());
+}
+
+/// Checks that numbers of so many digits that their ratios are no short fractions lose none of them.
+#[test]
+fn long_numbers_keep_their_digits() {
+    let text = |first: &str| format!("{first}.{}", "1234567891".repeat(20));
+    let [modulus, density, area] = ["3", "2", "1"].map(|first| text(first).parse::<Number>().unwrap());
+    let bar = |area: &Number| {
+        Body::elastic(1.into(), modulus.clone(), density.clone(), area.clone()).with_velocity((-1).into())
+    };
+    let chain = Chain::builder(bar(&area)).bonded(bar(&2.into())).until(1.into());
+    let chain = chain.bottom(End::Velocity(Vec::new())).build().unwrap();
+    let history = chain.solve(Numbers::Digits(100)).unwrap();
+    let force = ChainColumn::read("force.bottom", history.chain()).unwrap();
+    let force = history.value(force, &"1/100".parse().unwrap(), Side::Right).unwrap();
+    // f = Zv with Z² = A²Mρ.
+    let [z2, found] = [
+        area.to_rational() * area.to_rational() * modulus.to_rational() * density.to_rational(),
+        Scalar::square(&force.to_string().parse::<Number>().unwrap().to_rational()),
+    ];
+    let off = Scalar::to_f64(&((z2.clone() - found) / z2)).abs();
+    assert!(off < 1e-98, "{force}: {off:e}");
+    // The wave that a change of the area reflects: r = (Z₁ − Z₂)/(Z₁ + Z₂) is that of the areas.
+    let late = ChainColumn::read("v_top.1", history.chain()).unwrap();
+    let t = "9/10".parse().unwrap();
+    let (velocity, area) = (history.value(late, &t, Side::Right).unwrap(), area.to_rational());
+    let two = Rational::from(2);
+    // The wave p = 1 of the held end meets q = −1: v = −1 + 2Z₁/(Z₁ + Z₂).
+    let expected = area.clone() * &two / (area + &two) - Rational::from(1);
+    let off = velocity.to_string().parse::<Number>().unwrap().to_rational() - &expected;
+    assert!(Scalar::to_f64(&off).abs() < 1e-98, "{velocity}");
 }

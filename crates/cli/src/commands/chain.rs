@@ -11,11 +11,6 @@ use dalembert::number::{List, Value};
 use dalembert::solve::Numbers;
 use dalembert::{ChainScene, Side};
 
-/// Returns the history of the scene, after its notes.
-fn history(scene: &ChainScene, numbers: Numbers) -> Result<ChainHistory, Failure> {
-    Ok(scene.chain.solve(numbers)?)
-}
-
 /// Prints what an answer does not decide.
 fn note(history: &ChainHistory) -> Result<(), Failure> {
     if let Some(warning) = history.warning() {
@@ -39,7 +34,7 @@ fn column(name: &'static str) -> Column {
     Column::new(name).bounded()
 }
 
-/// Returns the name of a node as it stands after the dot of a column: `bottom`, `1`, `top`.
+/// Returns the cell with the name of a node: `bottom`, `joint 1`, `top`.
 fn place(scene: &ChainScene, node: usize) -> Cell {
     scene.chain.node_name(node).into()
 }
@@ -97,7 +92,7 @@ fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
 
 /// Runs `solve`: events, touches, contacts and forces.
 pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
-    let history = history(scene, numbers)?;
+    let history = scene.chain.solve(numbers)?;
     let listing = history.listing()?;
     note(&history)?;
     let digits = digits(numbers);
@@ -161,7 +156,7 @@ pub(crate) fn sample(
         false => names.iter().map(read).collect::<Result<_, _>>()?,
     };
     let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
-    let history = history(scene, numbers)?;
+    let history = scene.chain.solve(numbers)?;
     let mut rows = Vec::new();
     for time in &times {
         for side in sides {

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::column::Column;
 use super::run_info::{ExactUntil, RunInfo};
-use super::schema::BoundSchema;
+use super::schema_types::BoundSchema;
 use crate::answer::note_end;
 use dalembert::solve::{History, Numbers};
 use dalembert::{Bound, Estimate};

@@ -10,7 +10,7 @@ use super::column::{Column, Kind};
 use super::dataset::Cell;
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
-use super::schema::NumberSchema;
+use super::schema_types::NumberSchema;
 use super::table::{TextTable, table_digits};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};

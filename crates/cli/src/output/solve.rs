@@ -11,7 +11,7 @@ use super::dataset::{Cell, Dataset};
 use super::derivatives::{add_columns, derivative_table};
 use super::outline::sparkline;
 use super::run_info::{ExactUntil, RunInfo};
-use super::schema::{BoundSchema, ContactRow, EventRow, FlightRow, NumberSchema, StressRow};
+use super::schema_types::{BoundSchema, ContactRow, EventRow, FlightRow, NumberSchema, StressRow};
 use super::table::table_digits;
 use dalembert::Ending;
 use dalembert::Value;

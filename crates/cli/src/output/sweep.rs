@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::column::Column;
 use super::dataset::{Cell, Dataset};
-use super::schema::{NumberSchema, UncertaintySchema};
+use super::schema_types::{NumberSchema, UncertaintySchema};
 use super::table::wrapped;
 use crate::sweep::{Axis, Point, PointNumber, Sweep};
 use crate::terminal;
