@@ -150,6 +150,21 @@ impl Body {
         &self.length
     }
 
+    /// Returns the points `(x, v_t)` of the start; none if it is at rest.
+    pub fn velocity(&self) -> &[(Number, Number)] {
+        &self.velocity
+    }
+
+    /// Returns the points `(x, v)` of the start; none if it is undeformed.
+    pub fn displacement(&self) -> &[(Number, Number)] {
+        &self.displacement
+    }
+
+    /// Returns the body with another length.
+    pub(crate) fn with_length(self, length: Number) -> Self {
+        Body { length, ..self }
+    }
+
     /// Returns the material.
     pub fn material(&self) -> &BodyMaterial {
         &self.material
@@ -219,6 +234,33 @@ impl Chain {
     /// **Errors**: those of [`ChainBuilder::build`].
     pub fn with_until(&self, until: Number) -> Result<Chain, ProblemError> {
         ChainBuilder(Chain { until, ..self.clone() }).build()
+    }
+
+    /// Returns the chain with another body in the place of one of its bodies, not checked.
+    pub(crate) fn with_body(&self, body: usize, by: Body) -> Chain {
+        let mut chain = self.clone();
+        chain.bodies[body] = by;
+        chain
+    }
+
+    /// Returns the chain with another gravity, not checked.
+    pub(crate) fn with_gravity(self, gravity: Number) -> Chain {
+        Chain { gravity, ..self }
+    }
+
+    /// Returns the chain with another last time, not checked.
+    pub(crate) fn with_end(self, until: Number) -> Chain {
+        Chain { until, ..self }
+    }
+
+    /// Returns the chain with another limit of its wave pieces.
+    pub(crate) fn with_max_pieces(&self, max_pieces: usize) -> Chain {
+        Chain { max_pieces, ..self.clone() }
+    }
+
+    /// Checks the chain after a change.
+    pub(crate) fn checked(self) -> Result<Chain, ProblemError> {
+        ChainBuilder(self).build()
     }
 
     /// Returns the name of a node in messages and output: `joint 1` lies between the bodies 1 and 2.

@@ -137,13 +137,12 @@ impl<N: Bounded> ChainRun<N> {
         let mut sums = [zero.clone(), zero.clone(), zero.clone(), zero];
         for stretch in self.stretches(body, time)? {
             let [displacement, velocity, _] = stretch.moments(&stretch.width);
-            let square = |[value, slope]: &[N; 2]| {
-                let rise = slope.clone() * &stretch.width;
-                let middle = rise.clone().halved() + value;
-                (middle.square() + rise.square() / rise.int(12)) * &stretch.width
-            };
-            let added =
-                [displacement[0].clone(), velocity[0].clone(), square(&stretch.velocity), square(&stretch.strain)];
+            let added = [
+                displacement[0].clone(),
+                velocity[0].clone(),
+                square(&stretch, &stretch.velocity),
+                square(&stretch, &stretch.strain),
+            ];
             for (sum, added) in sums.iter_mut().zip(added) {
                 *sum = sum.clone() + added;
             }
@@ -158,6 +157,27 @@ impl<N: Bounded> ChainRun<N> {
             velocity: velocity / length,
         })
     }
+
+    /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body whose centre has the velocity `rate`.
+    ///
+    /// **Errors**: those of [`ChainRun::stretches`].
+    pub(super) fn vibration(&self, body: usize, time: &N, rate: &N) -> Result<N, Error> {
+        let speed = &self.bars[body].wave_speed;
+        let mut sum = rate.zero();
+        for stretch in self.stretches(body, time)? {
+            let [velocity, slope] = stretch.velocity.clone();
+            let around = square(&stretch, &[velocity - rate, slope]);
+            sum = sum + around + square(&stretch, &stretch.strain) * speed * speed;
+        }
+        Ok(sum.halved())
+    }
+}
+
+/// Returns `∫ f² dx` over a stretch, on which `f` has a value at its lower end and a slope.
+fn square<N: Bounded>(stretch: &Stretch<N>, [value, slope]: &[N; 2]) -> N {
+    let rise = slope.clone() * &stretch.width;
+    let middle = rise.clone().halved() + value;
+    (middle.square() + rise.square() / rise.int(12)) * &stretch.width
 }
 
 /// Returns value and integral of a wave at a time.

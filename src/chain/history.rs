@@ -15,7 +15,8 @@ use crate::number::{
 };
 use crate::quantity::Measure;
 use crate::reason::Warning;
-use crate::solve::{DEFAULT_ACCURACY, LONG, MAX_DIGITS, Numbers, Observer};
+use crate::solve::chain::{EXACT_PIECES, rungs};
+use crate::solve::{DEFAULT_ACCURACY, LONG, MAX_DIGITS, Numbers, Observer, Rung};
 
 /// A quantity of a chain over time.
 #[derive(
@@ -257,60 +258,23 @@ impl<N: ToValue> Answers for ChainRun<N> {
     }
 }
 
-/// Numbers of an attempt.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Rung {
-    Double,
-    Fractions,
-    /// Long numbers of this many bits, with their bound.
-    Bits(u32),
-    /// Enclosures with exact roots, of this many bits.
-    Enclosures(u32),
-}
-
-/// Bits of the enclosures that decide whether events coincide.
-const DECIDING_BITS: u32 = 256;
-/// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
-const EXACT_PIECES: usize = 20_000;
-/// Bits that a run in digits has beyond those of its digits.
-const SPARE_BITS: u32 = 64;
-
-impl Rung {
-    /// Returns the attempts for `numbers`, in order.
-    fn list(numbers: Numbers) -> Vec<Rung> {
-        let long =
-            |bits: u32| [Rung::Bits(bits), Rung::Enclosures(bits.max(DECIDING_BITS)), Rung::Bits(2 * bits + 256)];
-        let digits = |digits: u32| bits_for_digits(digits) + SPARE_BITS;
-        match numbers {
-            Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
-            Numbers::Double(_) => {
-                let [first, second] = [Rung::Double, Rung::Fractions];
-                vec![first, second, Rung::Bits(128), Rung::Bits(256), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
-            }
-            Numbers::Exact => vec![Rung::Fractions],
-            Numbers::Digits(n) => long(digits(n)).into(),
-            Numbers::ExactThenDigits(n) => [Rung::Fractions].into_iter().chain(long(digits(n))).collect(),
-            Numbers::Certified(n) => [1, 2, 4].map(|times| Rung::Enclosures(times * digits(n))).into(),
+/// Runs `chain` in the numbers of `rung`.
+fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Arc<dyn Answers>, Error> {
+    let observe = &|events: usize, pieces: usize| observe(events, pieces);
+    Ok(match rung {
+        Rung::Double => Arc::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
+        Rung::Fractions => Arc::new(ChainRun::<Rational>::new(chain, &(), observe)?),
+        Rung::Bits(..=128) if LONG => Arc::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?),
+        Rung::Bits(129..=256) if LONG => Arc::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?),
+        Rung::Bits(bits) if LONG => Arc::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?),
+        Rung::Enclosures(bits) if LONG => {
+            let precision = IntervalPrecision { bits, exact: true };
+            Arc::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
         }
-    }
-
-    fn run(self, chain: &Chain, observe: &Observer) -> Result<Arc<dyn Answers>, Error> {
-        let observe = &|events: usize, pieces: usize| observe(events, pieces);
-        Ok(match self {
-            Rung::Double => Arc::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
-            Rung::Fractions => Arc::new(ChainRun::<Rational>::new(chain, &(), observe)?),
-            Rung::Bits(..=128) if LONG => Arc::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?),
-            Rung::Bits(129..=256) if LONG => Arc::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?),
-            Rung::Bits(bits) if LONG => Arc::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?),
-            Rung::Enclosures(bits) if LONG => {
-                let precision = IntervalPrecision { bits, exact: true };
-                Arc::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
-            }
-            Rung::Bits(bits) | Rung::Enclosures(bits) => {
-                return Err(Error::NotDecided { what: "what the answer is", bits });
-            }
-        })
-    }
+        Rung::Bits(bits) | Rung::Enclosures(bits) | Rung::Confirmed(bits) => {
+            return Err(Error::NotDecided { what: "what the answer is", bits });
+        }
+    })
 }
 
 type Attempt = OnceLock<Result<Arc<dyn Answers>, Error>>;
@@ -375,7 +339,7 @@ impl Chain {
         {
             return Err(Error::Digits { found, most: MAX_DIGITS });
         }
-        let attempts = Rung::list(numbers).into_iter().map(|rung| (rung, Attempt::new())).collect();
+        let attempts = rungs(numbers).into_iter().map(|rung| (rung, Attempt::new())).collect();
         let history = ChainHistory { chain: self.clone(), numbers, observe, attempts };
         history.attempt(0).map(|_| ()).or_else(|error| match error {
             Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
@@ -385,7 +349,7 @@ impl Chain {
     }
 
     /// Returns the largest number of each measure that the chain can be expected to have.
-    fn scale(&self, measure: Measure) -> f64 {
+    pub(super) fn scale(&self, measure: Measure) -> f64 {
         let size = |points: &[(Number, Number)]| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
         let mut velocity = self.gravity.to_f64() * self.until.to_f64();
         let (mut impedance, mut length) = (0.0f64, 0.0f64);
@@ -493,13 +457,13 @@ impl ChainHistory {
     /// Returns an attempt, which runs when it is needed first.
     fn attempt(&self, k: usize) -> Result<&Arc<dyn Answers>, Error> {
         let (rung, attempt) = &self.attempts[k];
-        let run = || {
+        let make = || {
             let doubles = matches!(self.numbers, Numbers::Double(_));
             let limited = *rung == Rung::Fractions && doubles && self.chain.max_pieces > EXACT_PIECES;
             let chain = Chain { max_pieces: EXACT_PIECES, ..self.chain.clone() };
-            rung.run(if limited { &chain } else { &self.chain }, &self.observe)
+            run(*rung, if limited { &chain } else { &self.chain }, &self.observe)
         };
-        attempt.get_or_init(run).as_ref().map_err(Clone::clone)
+        attempt.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// Returns the answer to `query` of the first attempt that leaves no event open and whose bounds are small enough;

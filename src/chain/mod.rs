@@ -16,9 +16,10 @@
 //!
 //! Reading order: `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers and initial
 //! waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop), `run`
-//! (a finished run), `field` (queries along a body), `history` (answers in
-//! numbers that are long enough).
+//! (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod),
+//! `history` (answers in numbers that are long enough).
 
+mod body_motion;
 mod definition;
 mod field;
 mod history;
@@ -29,6 +30,7 @@ mod run;
 mod start;
 mod wave;
 
+pub(crate) use body_motion::{BodyMotion, Runs};
 pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points};
 pub use field::BodySums;
 pub use history::{ChainColumn, ChainHistory, ChainListing, ChainQuantity};
@@ -38,6 +40,7 @@ pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 #[path = "tests"]
 #[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 mod tests {
+    mod bodies;
     mod conformance;
     mod properties;
     mod published;

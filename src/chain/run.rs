@@ -6,7 +6,7 @@ use super::wave::{Wave, index_at};
 use crate::error::Error;
 use crate::lattice::Line;
 use crate::motion::{Ending, EventKind, Side};
-use crate::number::Bounded;
+use crate::number::{Bounded, Open};
 
 /// An impact or a release at a node of a chain.
 #[derive(Clone, Debug)]
@@ -232,6 +232,13 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn is_closed(&self, node: usize, time: &N, side: Side) -> Result<bool, Error> {
         Ok(self.stage(node, time, side)?.closed)
+    }
+
+    /// Returns whether the state of a node changes at a time.
+    pub(super) fn is_break(&self, node: usize, time: &N) -> Result<bool, Open> {
+        let [left, right] =
+            [Side::Left, Side::Right].map(|side| index_at(&self.nodes[node], |stage| &stage.from, time, side));
+        Ok(left? != right?)
     }
 
     fn stage(&self, node: usize, time: &N, side: Side) -> Result<&Stage<N>, Error> {

@@ -95,6 +95,17 @@ impl<N: Bounded> Wave<N> {
         Ok(begun.max(1) - 1)
     }
 
+    /// Returns the value of the wave at a time, as the limit from `side`. Breaks that agree with the time within their
+    /// bounds are at the time.
+    pub(super) fn value_beside(&self, time: &N, side: Side) -> N {
+        let begun = self.pieces.partition_point(|piece| match place_to(time, &piece.from) {
+            Ok(order) if side == Side::Left => order.is_gt(),
+            Ok(order) => order.is_ge(),
+            Err(_) => side == Side::Right,
+        });
+        self.pieces[begun.max(1) - 1].line.value_at(time)
+    }
+
     /// Returns the integral of the wave up to a time in the piece with this index.
     pub(super) fn sum_at(&self, piece: usize, time: &N) -> N {
         let Piece { from, line, sum } = &self.pieces[piece];

@@ -151,7 +151,7 @@ impl Builder {
     }
 
     pub(super) fn from_problem(problem: &Problem) -> Self {
-        let mut base = Draft { top: Some(problem.top), ..Draft::default() };
+        let mut base = Draft { top: Some(problem.top), in_chain: problem.in_chain.clone(), ..Draft::default() };
         for parameter in Parameter::ALL {
             if let Some(number) = parameter.given(problem) {
                 base.numbers.insert(*parameter, number.into());

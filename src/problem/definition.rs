@@ -1,6 +1,7 @@
 //! The rod, the ground and the start: what is solved, in exact numbers.
 
 use super::given::{Given, UNITS};
+use super::in_chain::InChain;
 use super::validate::{DAMPING_RATIO, Draft};
 use super::{Builder, Parameter, ProblemError};
 use crate::number::Number;
@@ -44,6 +45,8 @@ pub struct Problem {
     pub(super) gravity: Option<Number>,
     pub(super) start: Start,
     pub(super) run: Run,
+    /// The chain that the body is part of; `None` for a rod by itself.
+    pub(crate) in_chain: Option<InChain>,
 }
 
 /// The material, which sets the wave speed `c`.
@@ -129,6 +132,7 @@ impl Problem {
             gravity: Some(gravity).filter(|g| !g.is_zero()),
             start: Start::Uniform(Speed::Given(speed)),
             run: Run::Impacts(1),
+            in_chain: None,
         }
     }
 
@@ -242,7 +246,7 @@ impl Problem {
 /// The number that `$problem`, a reference or a mutable one, gives for `$parameter`: a reference of the same kind.
 macro_rules! number_of {
     ($problem:expr, $parameter:expr) => {{
-        let Problem { length, material, damping, top: _, gravity, start, run } = $problem;
+        let Problem { length, material, damping, top: _, gravity, start, run, in_chain: _ } = $problem;
         match ($parameter, material, start, run) {
             (Parameter::Length, ..) => Some(length),
             (Parameter::Damping, ..) => damping.into(),
@@ -302,14 +306,19 @@ impl Draft {
         if let Some(damping) = &damping {
             damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
         }
-        Ok(Problem {
-            start: self.start(length.number, t1, g)?,
+        let problem = Problem {
+            start: match &self.in_chain {
+                Some(_) => Start::Profile(self.profile(length.number)?),
+                None => self.start(length.number, t1, g)?,
+            },
             run: self.run(t1)?,
             length: length.number.clone(),
             material,
             damping: number(&damping),
             top: self.top.unwrap_or_default(),
             gravity: number(&gravity),
-        })
+            in_chain: self.in_chain.clone(),
+        };
+        problem.checked_in_chain()
     }
 }

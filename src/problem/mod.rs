@@ -3,6 +3,7 @@
 mod builder;
 mod definition;
 pub(crate) mod given;
+mod in_chain;
 mod parameter;
 mod parameters;
 pub(crate) mod profile;

@@ -19,16 +19,16 @@ pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such
 pub(crate) type Points = Vec<(Written, Written)>;
 
 /// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
-/// is zero.
-pub(super) fn check(given: &ByParameter<Points>, length: &Number) -> Result<Profile, ProblemError> {
+/// is zero. `over_ground` states whether the ground at zero limits the displacement.
+pub(super) fn check(given: &ByParameter<Points>, length: &Number, over_ground: bool) -> Result<Profile, ProblemError> {
     let read = |parameter: Parameter| {
-        given.get(&parameter).map_or(Ok(Vec::new()), |points| read(parameter.name(), points, length))
+        given.get(&parameter).map_or(Ok(Vec::new()), |points| read(parameter.name(), points, length, over_ground))
     };
     Ok(Profile { displacement: read(Parameter::Displacement(None))?, velocity: read(Parameter::Velocity(None))? })
 }
 
 /// The points of one function on the whole rod.
-fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Number)>, ProblemError> {
+fn read(key: &str, points: &Points, length: &Number, over_ground: bool) -> Result<Vec<(Number, Number)>, ProblemError> {
     if !(2..=MAX_POINTS).contains(&points.len()) {
         let (path, found) = (format!("start.{key}"), format!("{} points of the {key}", points.len()));
         return Err(ProblemError::new(Kind::Profile, &path, found, format!("2 to {MAX_POINTS} {SHAPE}")));
@@ -37,7 +37,7 @@ fn read(key: &str, points: &Points, length: &Number) -> Result<Vec<(Number, Numb
     for (i, (x, v)) in points.iter().enumerate() {
         let before = i.checked_sub(1).map_or("", |before| &points[before].0.shown);
         let checked = point(key, x, v).and_then(|(number, value)| {
-            if i == 0 && key == "displacement" && value.to_f64() < 0.0 {
+            if over_ground && i == 0 && key == "displacement" && value.to_f64() < 0.0 {
                 let (found, expected) =
                     (format!("the displacement {} at x = 0", v.shown), "zero or more: the ground is at zero");
                 return Err(ProblemError::new(Kind::OutOfRange, "v", found, expected));

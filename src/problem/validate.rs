@@ -1,9 +1,10 @@
 //! The one set of checks that every problem goes through, from a scene file or from the builder.
 
 use super::given::{ByParameter, Given, UNITS, range, within};
+use super::in_chain::InChain;
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
-use super::{Material, Parameter, ProblemError, ProblemErrorKind as Kind, Run, Speed, Start, Top, Written};
+use super::{Material, Parameter, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top, Written};
 use crate::number::Number;
 
 pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap, Parameter::DropHeight];
@@ -25,6 +26,8 @@ pub(crate) struct Draft {
     /// Displacement and velocity at the start.
     pub(crate) profiles: ByParameter<Points>,
     pub(crate) top: Option<Top>,
+    /// The chain that the body is part of.
+    pub(crate) in_chain: Option<InChain>,
 }
 
 impl Draft {
@@ -47,6 +50,16 @@ impl Draft {
         Ok(Material::Elastic { modulus, density, area })
     }
 
+    /// The start of a body of a chain, whose displacement may have either sign.
+    pub(super) fn profile(&self, length: &Number) -> Result<Profile, ProblemError> {
+        if let Some(impact) = IMPACT.iter().find(|parameter| self.has(**parameter)) {
+            let found = format!("{} of a body of a chain", self.name(*impact));
+            let expected = "a velocity and a displacement of the start";
+            return Err(ProblemError::new(Kind::Contradiction, impact.path(), found, expected));
+        }
+        profile::check(&self.profiles, length, false)
+    }
+
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
     pub(super) fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
         let impact = IMPACT.iter().any(|parameter| self.has(*parameter));
@@ -55,7 +68,7 @@ impl Draft {
                 Some(gap) => self.above(&gap, t1, g),
                 None => self.impact(t1, g).map(Start::Uniform),
             },
-            (false, true) => profile::check(&self.profiles, length).map(Start::Profile),
+            (false, true) => profile::check(&self.profiles, length, true).map(Start::Profile),
             (true, true) => {
                 let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
                 let expected = self.word(

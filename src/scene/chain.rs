@@ -6,6 +6,7 @@ use serde::Serialize;
 use toml::de::DeTable;
 
 use super::error::{SceneError, position};
+use super::read::Scene;
 use super::reader::{Reader, Value};
 use crate::chain::{Body, Chain, End, Joint, MAX_PIECES, Points};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
@@ -119,6 +120,36 @@ impl ChainScene {
     pub fn parse(source: &str) -> Result<Self, SceneError> {
         let document = DeTable::parse(source).map_err(|error| super::read::syntax(source, &error))?;
         Reader { source, document: document.get_ref() }.chain()
+    }
+
+    /// Returns the scene of one body, from 0 at the bottom, whose problem is that of [`Chain::problems`].
+    ///
+    /// **Errors**: those of [`Chain::problems`]; a body that the chain does not have.
+    pub fn body(&self, body: usize) -> Result<Scene, ProblemError> {
+        let count = self.chain.bodies().len();
+        let problem = self.chain.problems()?.into_iter().nth(body).ok_or_else(|| {
+            let found = format!("body {} of a chain of {count}", body + 1);
+            ProblemError::new(Kind::OutOfRange, "body", found, format!("a body from 1 to {count}"))
+        })?;
+        let own = format!("body[{body}].");
+        let line = |(key, line): &(String, usize)| match key.strip_prefix(&own) {
+            Some(key @ ("velocity" | "displacement")) => (format!("start.{key}"), *line),
+            Some(key) => (format!("rod.{key}"), *line),
+            None => (key.clone(), *line),
+        };
+        Ok(Scene {
+            title: self.title.as_ref().map(|title| match self.chain.bodies()[body].name() {
+                _ if count == 1 => title.clone(),
+                Some(name) => format!("{title}: {name}"),
+                None => format!("{title}: body {}", body + 1),
+            }),
+            units: self.units,
+            problem,
+            accuracy: self.accuracy,
+            targets: Vec::new(),
+            source: self.source.clone(),
+            lines: self.lines.iter().map(line).collect(),
+        })
     }
 
     /// Returns the line, from 1, of a key such as `body[1].gap` or `ends.top`.

@@ -6,10 +6,10 @@ use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 use super::ladder::{Engined, Target};
-use super::plan::{DEFAULT_ACCURACY, LONG, Plan, Rung};
+use super::plan::{DEFAULT_ACCURACY, Engine, LONG, Plan, Rung};
 use super::planned::estimates;
 use super::question::Observer;
-use super::{interpolated, long, rates};
+use super::{chain, interpolated, long, rates};
 use crate::error::Error;
 use crate::motion::{Ending, Motion};
 use crate::number::{Estimate, Rational, Reads};
@@ -17,6 +17,16 @@ use crate::problem::Problem;
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+        if plan.engine == Engine::Chain {
+            return Ok(match rung {
+                Rung::Double => chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?,
+                Rung::Fractions => {
+                    Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?))
+                }
+                rung if LONG => long::chain_in_doubles(problem, plan, rung, observe)?,
+                _ => return Err(not_in_doubles()),
+            });
+        }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
         let longer = longer(problem, plan, if exact { Rung::Double } else { rung }, observe);
@@ -64,7 +74,10 @@ fn not_in_doubles() -> Error {
 }
 
 impl Target for Rational {
-    fn run(problem: &Problem, plan: &Plan, _: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+    fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+        if plan.engine == Engine::Chain {
+            return chain::engine::<Rational>(problem, plan, (rung, &()), observe);
+        }
         Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
     }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, not_told};
+use super::chain;
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Derivatives};
 pub(super) use super::differences::of as quotients;
@@ -44,6 +45,11 @@ macro_rules! in_numbers {
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
         match rung {
+            Rung::Bits(bits) if plan.engine == Engine::Chain => Ok(in_numbers!(
+                bits,
+                |S, precision| in_floats(chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?),
+                chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?
+            )),
             Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
             rung => {
                 let bits = rung.bits();
@@ -94,6 +100,21 @@ pub(super) fn in_doubles(
         Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, longer, observe)?,
         rung => Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer)),
     })
+}
+
+/// Makes an attempt at a chain in more bits than doubles have, converted to doubles.
+pub(super) fn chain_in_doubles(
+    problem: &Problem,
+    plan: &Plan,
+    rung: Rung,
+    observe: &Observer,
+) -> Result<Engined<f64>, Error> {
+    if let Rung::Enclosures(bits) = rung {
+        return Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)));
+    }
+    Ok(in_numbers!(rung.bits(), |S, precision| {
+        Arc::new(Converted::new(chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?))
+    }))
 }
 
 /// Makes an attempt in this many bits, converted to doubles; it reports times that it does not decide.
@@ -147,6 +168,10 @@ fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Resul
 fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
     let problem = &*plan.reaching(problem);
     match plan.engine {
+        Engine::Chain => {
+            let precision = IntervalPrecision::with_exact(bits);
+            chain::engine::<Interval>(problem, plan, (Rung::Enclosures(bits), &precision), observe)
+        }
         Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
         Engine::Cells if !problem.has_closed_form() => proved(problem, plan, bits, observe),
         // For more digits than a march can prove, the first contact provides all of them.

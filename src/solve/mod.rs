@@ -1,6 +1,7 @@
 //! Answers to questions: the plan, the engines in the planned numbers, and the ladder of precisions.
 
 mod asked;
+pub(crate) mod chain;
 mod converted;
 mod derivative;
 mod differences;

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use super::foresee;
 use super::question::{Numbers, Observer, Question, Want};
+use super::{chain, foresee};
 use crate::cells::{Effort, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
@@ -113,6 +113,9 @@ pub enum Engine {
     /// form and never ends is taken from there.
     #[strum(serialize = "strips of characteristic cells")]
     Cells,
+    /// An undamped chain of bodies, from node to node.
+    #[strum(serialize = "a chain of bodies, from node to node")]
+    Chain,
 }
 
 impl Engine {
@@ -218,10 +221,8 @@ impl Plan {
         let numbers = question.numbers;
         check(problem, numbers)?;
         let reach = match &question.want {
-            Want::Run => match problem.run() {
-                Run::Impacts(contacts) => Reach::Contacts(*contacts),
-                Run::Time(time) => Reach::Time(time.clone()),
-            },
+            Want::FirstContact | Want::Bounce if problem.in_chain.is_some() => Reach::run(problem),
+            Want::Run => Reach::run(problem),
             Want::FirstContact | Want::Bounce => Reach::FirstContact,
             Want::Between(_, to) if problem.damping().is_some() => Reach::Time(beyond(problem, to)),
             Want::Between(_, to) => Reach::Time(to.clone()),
@@ -232,6 +233,7 @@ impl Plan {
         };
         let single = question.want == Want::Bounce;
         let engine = match (problem.damping(), problem.has_closed_form()) {
+            _ if problem.in_chain.is_some() => Engine::Chain,
             // Corollary 1 needs no exact numbers, and its terms need no events.
             (None, true) if single && matches!(numbers, Numbers::Double(_)) => Engine::ClosedForm,
             (None, _) => Engine::Lattice,
@@ -285,6 +287,10 @@ impl Plan {
                 (Rung::Bits(size(bits)), lost * std::f64::consts::LOG10_2)
             }
         };
+        let rung = match engine {
+            Engine::Chain => chain::rungs(numbers)[0],
+            _ => rung,
+        };
         let goal = Goal::of(numbers);
         let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
         let climb = Climb {
@@ -327,6 +333,9 @@ impl Plan {
 
     /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
+        if self.engine == Engine::Chain {
+            return chain::rungs(self.numbers).into_iter().skip_while(|known| *known != rung).nth(1);
+        }
         let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         if !LONG && matches!(self.numbers, Numbers::Double(_)) {
             return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
@@ -378,6 +387,7 @@ impl Plan {
             Engine::ClosedForm => {
                 "damping couples the characteristics; the first contact has a closed form, and no more is asked for"
             }
+            Engine::Chain => "without damping waves travel unchanged through each body, and all happens at its ends",
             Engine::Cells => {
                 "damping couples the characteristics: inside a cell between rays Riemann's formula converges \
                  geometrically"
@@ -386,7 +396,9 @@ impl Plan {
         let numbers = match self.numbers {
             Numbers::Double(accuracy) => {
                 let exactly = match self.engine {
-                    Engine::Lattice => "; exact ones where an event and a ray coincide within their bounds",
+                    Engine::Lattice | Engine::Chain => {
+                        "; exact ones where an event and a ray coincide within their bounds"
+                    }
                     _ if self.cells.is_some() => {
                         "; those and a proof where bounds leave open what happens at the ground"
                     }
@@ -588,6 +600,16 @@ impl Rung {
         match self {
             Rung::Bits(bits) | Rung::Confirmed(bits) | Rung::Enclosures(bits) => bits,
             Rung::Double | Rung::Fractions => f64::MANTISSA_DIGITS,
+        }
+    }
+}
+
+impl Reach {
+    /// Returns the end of the run of `problem`.
+    fn run(problem: &Problem) -> Self {
+        match problem.run() {
+            Run::Impacts(contacts) => Reach::Contacts(*contacts),
+            Run::Time(time) => Reach::Time(time.clone()),
         }
     }
 }

@@ -26,6 +26,7 @@ pub(super) fn estimates<S: RoundedSpecial>(
     let march = || Ok(Arc::new(Damped::march(task, 1, false)?) as Engined<S>);
     let undecided = |what| Error::NotDecided { what, bits };
     Ok(match plan.engine {
+        Engine::Chain => return Err(undecided("a chain by an engine of a single rod")),
         Engine::Lattice => {
             let limits = plan.lattice_limits(problem);
             let history = Undamped::<Estimate<S>>::solve_within(problem, precision, limits, task.observe)?;

@@ -39,6 +39,10 @@ fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
 fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
     let zero = value.vanishes() == Ok(true);
+    if asked.plan.engine == Engine::Chain {
+        let expected = "digits or doubles: fractions carry no derivatives of a chain";
+        return Err(Error::Derivative { parameter: asked.by.name(), expected });
+    }
     if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
         let expected = "digits or doubles: a rod without it is another problem in fractions";
         return Err(Error::Derivative { parameter: asked.by.name(), expected });
@@ -117,7 +121,7 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
 /// Computes the derivatives in doubles that are `asked` for, by fractions, if fractions have decided the order of
 /// events in this `run`; `None` if first order does not settle them.
 pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
-    if asked.rung != Rung::Fractions {
+    if asked.rung != Rung::Fractions || asked.plan.engine == Engine::Chain {
         return Ok(None);
     }
     let (rates, settled) = on_both_sides(asked)?;

@@ -7,7 +7,7 @@ use clap::{Arg, Args};
 
 use crate::failure::Failure;
 use crate::file::{self, Destination, Format};
-use crate::source;
+use crate::source::{self, AnyScene};
 use dalembert::Scene;
 use dalembert::number::List;
 use dalembert::solve::{CERTIFIED_DIGITS, Numbers};
@@ -91,11 +91,36 @@ impl NumberArgs {
     }
 }
 
+/// The body of a chain that is taken as a rod.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct BodyArgs {
+    /// Take this body of a chain, from 1, the lowest, as a rod: its ground is the body or the stop below it
+    #[arg(long, value_name = "N")]
+    body: Option<usize>,
+}
+
+impl BodyArgs {
+    /// Reads the scene called `name`: that of a rod, or of the chosen body of a chain.
+    pub(crate) fn read(self, name: &str) -> Result<Scene, Failure> {
+        source::read(name, self.body)
+    }
+
+    /// Reads the scene called `name`: a rod or the chosen body of a chain, or a chain of which no body is chosen.
+    pub(crate) fn read_any(self, name: &str) -> Result<AnyScene, Failure> {
+        match self.body {
+            None => source::read_any(name),
+            Some(_) => self.read(name).map(|scene| AnyScene::Rod(Box::new(scene))),
+        }
+    }
+}
+
 /// A scene, the numbers of its answer, and where that goes.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneArgs {
     /// A scene file, `-`, or a built-in scene
     pub(crate) scene: String,
+    #[command(flatten)]
+    pub(crate) body: BodyArgs,
     #[command(flatten)]
     pub(crate) numbers: NumberArgs,
     #[command(flatten)]
@@ -105,7 +130,7 @@ pub(crate) struct SceneArgs {
 impl SceneArgs {
     /// Reads the scene, and returns it with the requested numbers.
     pub(crate) fn read(&self) -> Result<(Scene, Numbers), Failure> {
-        let scene = source::read(&self.scene)?;
+        let scene = self.body.read(&self.scene)?;
         let numbers = self.numbers.numbers(&scene);
         Ok((scene, numbers))
     }

@@ -19,17 +19,24 @@ pub(crate) enum AnyScene {
     Chain(Box<ChainScene>),
 }
 
-/// Returns the scene of a single rod called `name`.
+/// Returns the scene of a single rod called `name`, or that of a body of a chain, counted from 1 at the bottom.
 ///
-/// **Errors**: also for a scene with several bodies.
-pub(crate) fn read(name: &str) -> Result<Scene, Failure> {
-    match read_any(name)? {
-        AnyScene::Rod(scene) => Ok(*scene),
-        AnyScene::Chain(_) => {
-            let failure =
-                failure!("found several bodies in `{name}`, expected a single rod, [rod]: this is not done for chains");
-            Err(failure.help("`solve`, `sample` and `explain` take a scene with [[body]]"))
-        }
+/// **Errors**: also for a chain of several bodies of which none is chosen, and for a body that is not there.
+pub(crate) fn read(name: &str, body: Option<usize>) -> Result<Scene, Failure> {
+    match (read_any(name)?, body) {
+        (AnyScene::Rod(scene), None | Some(1)) => Ok(*scene),
+        (AnyScene::Rod(_), Some(body)) => Err(failure!("found --body {body} of `{name}`, expected 1: it has one rod")),
+        (AnyScene::Chain(scene), body) => match (body, scene.chain.bodies().len()) {
+            (Some(body), count) if body == 0 || body > count => {
+                Err(failure!("found --body {body} of `{name}`, expected a body from 1, the lowest, to {count}"))
+            }
+            (Some(body), _) => Ok(scene.body(body - 1)?),
+            (None, 1) => Ok(scene.body(0)?),
+            (None, count) => {
+                let failure = failure!("found {count} bodies in `{name}`, expected one of them to be chosen");
+                Err(failure.help(format!("--body N, from 1, the lowest, to {count}, takes a body as a rod")))
+            }
+        },
     }
 }
 

@@ -7,7 +7,7 @@ use crate::motion::Side;
 use crate::number::{Number, Rational};
 
 /// A generator of small numbers.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
     fn below(&mut self, n: u64) -> u64 {
@@ -55,7 +55,7 @@ impl Random {
         }
     }
 
-    fn chain(&mut self) -> Chain {
+    pub(super) fn chain(&mut self) -> Chain {
         let mut builder = Chain::builder(self.body()).bottom(self.end()).top(self.end()).until(6.into());
         for _ in 0..=self.below(4) {
             let gap = if self.below(4) == 0 { 0.into() } else { self.positive() };

@@ -6,12 +6,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::args::{OutputArgs, known_formats};
+use crate::args::{BodyArgs, OutputArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{self, Destination, Format, ROWS, ROWS_OR_PICTURE, write_all, write_with_rows};
 use crate::output::{compare_data, compare_svg, json_bytes, rows_bytes};
 use crate::progress::Progress;
-use crate::{source, terminal};
+use crate::terminal;
 use dalembert::quantity::Units;
 use dalembert_compare::data::Source;
 use dalembert_compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
@@ -32,6 +32,8 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
 pub(crate) struct Compare {
     /// A scene file, `-`, or a built-in scene; it is followed as far as the data go
     scene: String,
+    #[command(flatten)]
+    body: BodyArgs,
     /// Data: text with columns, .npy, .npz, or a folder with a .npy for each quantity; `-` is standard input. Several
     /// show the order of convergence
     #[arg(required = true)]
@@ -87,7 +89,7 @@ fn junit(outcomes: &[Outcome]) -> String {
 impl Compare {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let destinations = self.destinations()?;
-        let scene = source::read(&self.scene)?;
+        let scene = self.body.read(&self.scene)?;
         let limits = self.limits()?;
         let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
         let units = Units::new(&scene.problem, scene.units);

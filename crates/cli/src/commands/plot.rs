@@ -6,12 +6,12 @@ use clap::Args;
 use clap::builder::PossibleValue;
 
 use crate::answer::{Answer, solve};
-use crate::args::{NumberArgs, OutputArgs, known_formats, words};
+use crate::args::{BodyArgs, NumberArgs, OutputArgs, known_formats, words};
 use crate::failure::Failure;
 use crate::file::{self, PICTURES, write_all};
 use crate::output::RunInfo;
 use crate::quantities::{NameParser, Scope};
-use crate::{source, terminal};
+use crate::terminal;
 use dalembert::Ending;
 use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
@@ -32,6 +32,8 @@ pub(crate) struct Plot {
     /// Scene files, `-`, or built-in scenes
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
+    #[command(flatten)]
+    body: BodyArgs,
     /// Pictures, quantities and groups of them, separated by commas; by default those that tell the scene
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = NameParser::new(&[Scope::OverTime], pictures()))]
@@ -95,7 +97,7 @@ impl Plot {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
         let request = Request { pictures, field: self.field, deformed: self.deformed, from, to };
-        let scenes = self.scenes.iter().map(|name| source::read(name)).collect::<Result<Vec<_>, _>>()?;
+        let scenes = self.scenes.iter().map(|name| self.body.read(name)).collect::<Result<Vec<_>, _>>()?;
         let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &request);
         let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {

@@ -16,7 +16,7 @@ use crate::output::{
     Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
 };
 use crate::quantities::{NameParser, Scope, has_material};
-use crate::source::{self, AnyScene};
+use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::number::{List, Number};
 use dalembert::problem::Parameter;
@@ -139,7 +139,7 @@ impl Reference {
 
 impl SampleArgs {
     fn run(&self, is_golden: bool) -> Result<(), Failure> {
-        let scene = match source::read_any(&self.scene.scene)? {
+        let scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) if is_golden => {
                 let name = scene.title.as_deref().unwrap_or(&self.scene.scene);

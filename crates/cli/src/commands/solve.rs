@@ -10,7 +10,7 @@ use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{Destination, Format, ROWS, write_all};
 use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
-use crate::source::{self, AnyScene};
+use crate::source::AnyScene;
 use dalembert::ChainScene;
 use dalembert::number::Number;
 use dalembert::problem::{Parameter, Run};
@@ -72,7 +72,7 @@ impl Solve {
         if self.part == Some(HistoryPart::Stress) && !self.derivatives.is_empty() {
             return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
         }
-        let mut scene = match source::read_any(&self.scene.scene)? {
+        let mut scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
         };

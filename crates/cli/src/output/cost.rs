@@ -143,7 +143,7 @@ const COMPRESSED_TICKS: [f64; 8] = [DOUBLES_END, 50.0, 100.0, 300.0, 1000.0, 300
 fn color_and_mark(family: Family) -> (&'static str, Mark) {
     match family {
         Family::ClosedForm => ("#0072b2", Mark::Dot),
-        Family::Lattice => ("#009e73", Mark::Square),
+        Family::Lattice | Family::Chain => ("#009e73", Mark::Square),
         Family::PlannedCells => ("#009e73", Mark::Square),
         Family::Cells => ("#d55e00", Mark::Diamond),
         Family::Modes => ("#cc79a7", Mark::Triangle),

@@ -11,6 +11,9 @@ pub enum Family {
     /// The lattice: undamped, from event to event.
     #[strum(serialize = "lattice")]
     Lattice,
+    /// The chain, from node to node.
+    #[strum(serialize = "chain")]
+    Chain,
     /// Characteristic cells with the settings of the plan.
     #[strum(serialize = "cells, planned")]
     PlannedCells,
@@ -63,6 +66,9 @@ pub enum OmissionReason {
     /// The plan of an undamped scene takes another route.
     #[error("the scene has no damping: the plan takes the {0}")]
     NoDamping(Family),
+    /// The route solves a single rod on the ground.
+    #[error("it solves a single rod on the ground")]
+    InChain,
     /// The plan takes enclosures.
     #[error("the plan takes enclosures")]
     PlanEncloses,

@@ -36,12 +36,18 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
         Ok(ladder) => ladders.push(ladder),
         Err(why) => left_out.push((family, why)),
     };
+    if plan.engine == Engine::Chain {
+        let others = [Family::ClosedForm, Family::Lattice, Family::Cells, Family::Modes, Family::Differences];
+        let left_out = others.map(|family| (family, OmissionReason::InChain)).into();
+        return (vec![by_plan(Family::Chain, question, plan.numbers), enclosures(plan, false)], left_out);
+    }
     let first = covered_by_first_contact(question);
     take(Family::ClosedForm, first.clone().map(|()| closed_form()));
     let family = match plan.engine {
         Engine::Lattice => Family::Lattice,
         Engine::ClosedForm => Family::ClosedForm,
         Engine::Cells => Family::PlannedCells,
+        Engine::Chain => Family::Chain,
     };
     let damped = question.problem.damping().is_some();
     if damped {
@@ -127,7 +133,8 @@ fn by_plan(family: Family, question: &RouteQuestion, system: Numbers) -> Ladder 
     }
     // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice costs
     // hardly more in long numbers.
-    let growths = if family == Family::Lattice { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
+    let growths =
+        if matches!(family, Family::Lattice | Family::Chain) { [3.0, 1.5, 2.0, 4.0] } else { [30.0, 4.0, 15.0, 30.0] };
     let others = in_digits(family, growths, 8, Route::Planned);
     ladder.extend(others.filter(|other| system != Numbers::Digits(other.digits - 8)));
     ladder

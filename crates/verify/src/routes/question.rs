@@ -74,6 +74,7 @@ impl RouteQuestion {
     fn new(scene: &Scene, quantity: Quantity, time: Option<Number>) -> Result<Self, VerifyError> {
         let problem = match (&time, quantity.needs()) {
             (Some(time), _) if !time.is_zero() => scene.problem.with_run(Run::Time(time.clone()))?,
+            _ if scene.problem.chain().is_some() => scene.problem.clone(),
             (None, Needs::FirstContact | Needs::Contact) => scene.problem.with_run(Run::Impacts(1))?,
             _ => scene.problem.clone(),
         };

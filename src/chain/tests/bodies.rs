@@ -1,0 +1,140 @@
+//! Bodies of random chains as problems of their own, against the chain itself.
+
+use super::properties::Random;
+use crate::chain::{Chain, ChainColumn};
+use crate::motion::Side;
+use crate::number::{Bounded, Number, Rational, Value};
+use crate::problem::{Parameter, Problem};
+use crate::quantity::{Quantity, Units};
+use crate::solve::Numbers;
+
+fn number(text: &str) -> Number {
+    text.parse().unwrap()
+}
+
+/// Returns a quantity of a body, in fractions and in the units of the chain.
+fn exact(problem: &Problem, quantity: Quantity, time: &Number, side: Side) -> Value {
+    problem.solve_in(Numbers::Exact).unwrap().at_time(quantity, time.clone(), side).unwrap()
+}
+
+#[test]
+fn bodies_move_as_in_the_chain() {
+    let mut random = Random(4711);
+    let quantities = ["u_end", "v_end", "u_top", "v_top", "h", "h_rate", "kinetic", "strain_energy", "E_total"];
+    let mut compared = 0;
+    for _ in 0..25 {
+        let chain = random.chain();
+        let whole = chain.solve(Numbers::Exact).unwrap();
+        let problems = chain.problems().unwrap();
+        for time in ["37/29", "5/2", "113/19"].map(number) {
+            for (k, problem) in problems.iter().enumerate() {
+                if problem.solve_in(Numbers::Exact).unwrap().end().to_f64() < time.to_f64() {
+                    continue;
+                }
+                for name in quantities {
+                    let quantity = name.parse::<Quantity>().unwrap();
+                    let column = ChainColumn::read(&format!("{name}.{}", k + 1), &chain).unwrap();
+                    for side in [Side::Left, Side::Right] {
+                        let expected = whole.value(column, &time, side).unwrap();
+                        let found = exact(problem, quantity, &time, side);
+                        assert_eq!(found.to_string(), expected.to_string(), "{name} of {k} at {time} of {chain:?}");
+                        compared += 1;
+                    }
+                }
+                let energy = exact(problem, Quantity::TranslationalEnergy, &time, Side::Right).to_f64()
+                    + exact(problem, Quantity::VibrationalEnergy, &time, Side::Right).to_f64();
+                let total = exact(problem, Quantity::Energy, &time, Side::Right).to_f64();
+                assert!((energy - total).abs() <= 1e-12 * (1.0 + total.abs()));
+            }
+        }
+    }
+    assert!(compared > 1500, "{compared}");
+}
+
+/// Returns the chain with all events of its joints seen by the bodies above them.
+#[test]
+fn contacts_of_bodies_are_those_of_the_joints_below_them() {
+    let mut random = Random(99);
+    let mut contacts = 0;
+    for _ in 0..40 {
+        let chain = random.chain();
+        let listing = |numbers| chain.solve(numbers).unwrap().listing().unwrap();
+        let listings = [listing(Numbers::Exact), listing(Numbers::Digits(30))];
+        for (k, problem) in chain.problems().unwrap().iter().enumerate() {
+            for numbers in [Numbers::Exact, Numbers::default(), Numbers::Digits(20)] {
+                let listing = &listings[usize::from(numbers != Numbers::Exact)];
+                let history = problem.solve_in(numbers).unwrap();
+                let found = history.contacts().unwrap();
+                let expected: Vec<_> = listing.contacts.iter().filter(|contact| contact.node == k).collect();
+                assert_eq!(found.len(), expected.len(), "{chain:?}");
+                for (found, expected) in found.iter().zip(expected) {
+                    let near = |found: &Value, expected: &Value| {
+                        let off = (found.to_f64() - expected.to_f64()).abs();
+                        assert!(off <= found.log2_error().exp2() + 1e-15 * expected.to_f64().abs(), "{chain:?}");
+                    };
+                    near(&found.impact, &expected.impact);
+                    assert_eq!(found.release.is_some(), expected.release.is_some());
+                    near(&found.impulse, &expected.impulse);
+                    contacts += 1;
+                }
+                // The impulse of a flight changes nothing but gravity: h′ at the events against momentum.
+                for event in history.events().unwrap() {
+                    let long = problem.solve_in(Numbers::Digits(30)).unwrap();
+                    let truth =
+                        long.at_time(Quantity::CentreVelocity, spelled(&event.t), Side::Right).unwrap().to_f64();
+                    let off = (event.h_rate.to_f64() - truth).abs();
+                    let allowed = event.h_rate.log2_error().exp2() + event.t.log2_error().exp2() * 1e3 + 1e-13;
+                    assert!(off <= allowed, "{off:e} {allowed:e} {chain:?}");
+                    assert!(event.h_rate.log2_error().exp2() < 1e-6, "{event:?} {chain:?}");
+                }
+            }
+        }
+    }
+    assert!(contacts > 100, "{contacts}");
+}
+
+/// Returns the number that a value prints.
+fn spelled(value: &Value) -> Number {
+    value.to_string().parse().unwrap()
+}
+
+#[test]
+fn derivatives_of_a_body_are_those_of_its_closed_form() {
+    // Two bars of impedance 1 and Z: the force is v Z/(1 + Z) until the wave returns from the lower one at 2L/c.
+    let bar = |impedance: &str| crate::chain::Body::new(1.into(), 1.into(), number(impedance));
+    let chain = Chain::builder(bar("1")).contact(number("0.5"), bar("3").with_velocity((-1).into())).until(3.into());
+    let problems = chain.build().unwrap().problems().unwrap();
+    let history = problems[1].solve().unwrap();
+    let by = |parameter: Parameter, quantity: Quantity| {
+        let found = history.derivatives_at(parameter, &[quantity], &[number("1.1")], &[], Side::Right).unwrap();
+        let derivative = found[0][0].clone().unwrap();
+        let [left, right] = derivative.sides().map(|side| side.unwrap().to_f64());
+        assert!((left - right).abs() < 1e-6);
+        right
+    };
+    // dF/dv for a velocity v times the profile; dF/dZ with E = Zc and ρ = Z/c through the modulus: Z ∝ √E.
+    assert!((by(Parameter::Velocity(None), Quantity::Force) - 0.75).abs() < 1e-6);
+    let by_modulus = by(Parameter::Modulus, Quantity::Force);
+    // F = Z/(1 + Z) at the speed 1, dF/dE = F′(Z) dZ/dE = 1/(1 + Z)² · Z/(2E) with Z = E = 3.
+    assert!((by_modulus - 1.0 / 32.0).abs() < 1e-6, "{by_modulus}");
+}
+
+#[test]
+fn a_changed_body_is_a_changed_chain() {
+    let bar = |velocity: i64| crate::chain::Body::new(1.into(), 1.into(), 2.into()).with_velocity(velocity.into());
+    let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(6.into()).build().unwrap();
+    let upper = &chain.problems().unwrap()[1];
+    let longer = upper.to_builder().set(Parameter::Time, 8).build().unwrap();
+    assert_eq!(longer.chain().unwrap().0.until(), &Number::from(8));
+    assert_eq!(longer.solve().unwrap().end().to_f64(), 8.0);
+    let error = upper.to_builder().damping("0.1").build().unwrap_err();
+    assert_eq!(error.path, "rod.damping");
+    assert!(upper.to_builder().impacts(3).build().is_err());
+    assert!(upper.to_builder().impact_speed(3).build().is_err());
+    assert_eq!(
+        Units::new(upper, Default::default())
+            .factor::<Rational>(crate::quantity::Measure::Force, &())
+            .map(|f| f.same(&Rational::from(-2))),
+        Some(true)
+    );
+}

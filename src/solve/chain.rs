@@ -1,0 +1,82 @@
+//! Runs of a chain, seen from one of its bodies.
+
+use std::sync::Arc;
+
+use super::plan::{LONG, Lacks, Plan, Rung};
+use super::question::{Numbers, Observer};
+use crate::chain::{BodyMotion, Chain, ChainRun};
+use crate::error::Error;
+use crate::motion::{Ending, Motion};
+use crate::number::{Bounded, bits_for_digits};
+use crate::problem::Problem;
+
+/// Bits of the enclosures that decide whether events coincide.
+const DECIDING_BITS: u32 = 256;
+/// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
+pub(crate) const EXACT_PIECES: usize = 20_000;
+/// Bits that a run in digits has beyond those of its digits.
+const SPARE_BITS: u32 = 64;
+
+/// Returns the numbers of the attempts at a chain, in order.
+pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
+    let long = |bits: u32| [Rung::Bits(bits), Rung::Enclosures(bits.max(DECIDING_BITS)), Rung::Bits(2 * bits + 256)];
+    let bits = |digits: u32| bits_for_digits(digits) + SPARE_BITS;
+    match numbers {
+        Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
+        Numbers::Double(_) => {
+            let [first, second] = [Rung::Double, Rung::Fractions];
+            vec![first, second, Rung::Bits(128), Rung::Bits(256), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
+        }
+        Numbers::Exact => vec![Rung::Fractions],
+        Numbers::Digits(digits) => long(bits(digits)).into(),
+        Numbers::ExactThenDigits(digits) => [Rung::Fractions].into_iter().chain(long(bits(digits))).collect(),
+        Numbers::Certified(digits) => [1, 2, 4].map(|times| Rung::Enclosures(times * bits(digits))).into(),
+    }
+}
+
+/// Returns the motion of the body that `problem` describes, from a run of its chain in the numbers `N`.
+///
+/// **Errors**: those of the run; [`Error::NotDecided`] if longer numbers follow and this run does not decide its events,
+/// or if its fractions end.
+pub(super) fn motion<N: Bounded>(
+    problem: &Problem,
+    plan: &Plan,
+    (rung, precision): (Rung, &N::Precision),
+    observe: &Observer,
+) -> Result<BodyMotion<N>, Error> {
+    let problem = plan.reaching(problem);
+    let undecided = |what| Error::NotDecided { what, bits: rung.bits() };
+    let (Some((chain, body)), Some(place)) = (problem.chain(), &problem.in_chain) else {
+        return Err(undecided("a chain without neighbours"));
+    };
+    let is_last = plan.next(rung, Lacks::Bits(f64::INFINITY)).is_none();
+    let limited = rung == Rung::Fractions && !is_last && chain.max_pieces() > EXACT_PIECES;
+    let run = || {
+        let limit = Chain::with_max_pieces;
+        let chain = if limited { &limit(&chain, EXACT_PIECES) } else { &chain };
+        ChainRun::<N>::new(chain, precision, &|events, pieces| observe(events, pieces))
+    };
+    let run = match place.runs.get(&chain, rung.bits(), run) {
+        Err(Error::TooManyPieces { .. }) if limited => return Err(undecided("by fractions")),
+        Err(Error::Irrational { .. }) if !is_last => return Err(undecided("by fractions")),
+        run => run?,
+    };
+    let motion = BodyMotion::new(&chain, body, run);
+    if !is_last && motion.undetermined_from().is_some() {
+        return Err(undecided("in which order the events come"));
+    }
+    if !is_last && matches!(motion.ending(), Ending::ExactnessEnds { .. } | Ending::Undecided(_)) {
+        return Err(undecided("what happens at a joint"));
+    }
+    Ok(motion)
+}
+
+/// Returns [`motion`] as a shared engine.
+pub(super) fn engine<N: Bounded>(
+    problem: &Problem,
+    plan: &Plan,
+    at: (Rung, &N::Precision),
+    observe: &Observer,
+) -> Result<Arc<dyn Motion<N>>, Error> {
+    Ok(Arc::new(motion::<N>(problem, plan, at, observe)?))
+}
