@@ -150,8 +150,8 @@ pub enum Error {
         /// The points, in words.
         found: String,
     },
-    /// The travelling waves of a damped rod.
-    #[error("found a damped rod, expected an undamped one: only there the solution is piecewise polynomial")]
+    /// The travelling waves of a damped rod, or of a body of a chain.
+    #[error("found a damped rod or a body of a chain, expected an undamped rod by itself, which two waves describe")]
     NoWaves,
     /// A contact that the history does not have.
     #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]

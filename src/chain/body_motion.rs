@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use super::definition::Chain;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::start::Bar;
+use super::wave::Piece;
 use crate::error::Error;
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece, Stretch};
 use crate::number::{Bounded, Open};
@@ -239,6 +240,16 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
 
     fn in_contact(&self, time: &N, side: Side) -> Result<N, Error> {
         Ok(time.int(self.run.is_closed(self.body, time, side)?.into()))
+    }
+
+    fn departures(&self) -> Result<[Vec<(N, N)>; 2], Error> {
+        let ray = |pair: &[Piece<N>]| {
+            let from = &pair[1].from;
+            let jump = pair[1].line.value_at(from) - pair[0].line.value_at(from);
+            (from.clone(), jump.halved())
+        };
+        let [up, down] = &self.run.waves[self.body];
+        Ok([up, down].map(|wave| wave.pieces.windows(2).map(ray).collect()))
     }
 
     /// Returns nothing: other bodies or loads may act on the body in flight.

@@ -15,13 +15,13 @@ pub struct Builder {
     base: Draft,
 }
 
-/// Groups of parameters that exclude each other: a value that is set replaces those of the problem before in each of
-/// its groups.
-const EXCLUSIVE: [&[Parameter]; 4] = [
-    &[Parameter::WaveSpeed, Parameter::Modulus, Parameter::Density, Parameter::Area],
-    &[Parameter::ImpactSpeed, Parameter::DropHeight],
-    &[Parameter::Gap, Parameter::DropHeight],
-    &[Parameter::Time, Parameter::Impacts],
+/// Pairs of sets of parameters that exclude each other: a value that is set replaces those of the problem before in the
+/// other set.
+const EXCLUSIVE: [[&[Parameter]; 2]; 4] = [
+    [&[Parameter::WaveSpeed], &[Parameter::Modulus, Parameter::Density, Parameter::Area]],
+    [&[Parameter::ImpactSpeed], &[Parameter::DropHeight]],
+    [&[Parameter::Gap], &[Parameter::DropHeight]],
+    [&[Parameter::Time], &[Parameter::Impacts]],
 ];
 
 impl Builder {
@@ -124,6 +124,16 @@ impl Builder {
 
     /// Builds the problem.
     ///
+    /// ```
+    /// use dalembert::{Parameter, Problem};
+    /// // A modulus alone leaves the density as it is, and replaces a wave speed.
+    /// let rod = Problem::builder().length(1).modulus(4).density(1).impact_speed(1).build()?;
+    /// let stiffer = rod.to_builder().modulus(9).build()?;
+    /// assert_eq!(Parameter::Density.given(&stiffer), Some(1.into()));
+    /// assert_eq!(Parameter::WaveSpeed.value(&stiffer.to_builder().wave_speed(5).build()?), Some(5.0));
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    ///
     /// **Errors**: [`ProblemError`] for the first value that is missing, is no number, or is outside of its
     /// [limits](crate::Problem#limits) alone or together with others.
     ///
@@ -135,8 +145,10 @@ impl Builder {
     /// ```
     pub fn build(self) -> Result<Problem, ProblemError> {
         let Builder { draft, mut base } = self;
-        for group in EXCLUSIVE.iter().filter(|group| group.iter().any(|parameter| draft.has(*parameter))) {
-            base.numbers.retain(|parameter, _| !group.contains(parameter));
+        for (set, other) in EXCLUSIVE.iter().flat_map(|[a, b]| [(a, b), (b, a)]) {
+            if set.iter().any(|parameter| draft.has(*parameter)) {
+                base.numbers.retain(|parameter, _| !other.contains(parameter));
+            }
         }
         if IMPACT.iter().any(|parameter| draft.has(*parameter)) {
             base.profiles.clear();

@@ -327,6 +327,11 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
     }
 
+    fn departures(&self) -> Result<[Vec<(M, M)>; 2], Error> {
+        let read = |ray: (N, N)| (M::read(ray.0), M::read(ray.1));
+        Ok(self.engine.departures()?.map(|rays| rays.into_iter().map(read).collect()))
+    }
+
     fn corners(&self) -> Vec<M> {
         self.engine.corners().into_iter().map(M::read).collect()
     }

@@ -24,6 +24,8 @@ pub(crate) struct Ray {
     pub(crate) jump: bool,
     /// Its jump, as a share of the greatest one.
     pub(crate) share: f64,
+    /// Whether it rises to the top, and whether it comes back from there.
+    pub(crate) legs: [bool; 2],
 }
 
 /// Field and rays over the span.
@@ -119,7 +121,7 @@ fn values_at(
     extent: &Extent,
     points: &[DVec2],
 ) -> Result<Vec<f64>, Error> {
-    if !extent.is_damped() {
+    if extent.has_waves {
         let waves = history.waves()?;
         return Ok(points.iter().map(|point| quantity.of_field(waves.at(&point.y, &point.x))).collect());
     }
@@ -184,6 +186,8 @@ fn slope([a, b]: [DVec2; 2], [da, db]: [f64; 2]) -> DVec2 {
 pub(crate) struct Extent {
     pub(crate) rod: Parameters<f64>,
     pub(crate) span: [f64; 2],
+    /// Whether two travelling waves describe the rod: it is undamped and by itself.
+    pub(crate) has_waves: bool,
 }
 
 impl Extent {
@@ -213,7 +217,8 @@ impl Extent {
     fn characteristics(&self, rays: &[Ray], delay: f64, width: Option<f64>) -> Vec<f64> {
         let ([from, to], half) = (self.span, 0.5 * self.trip());
         let (least, greatest) = if delay == 0.0 { (from - half, to) } else { (from, to + half) };
-        let inner = rays.iter().map(|ray| ray.departure + delay).filter(|value| *value > least && *value < greatest);
+        let inner = rays.iter().filter(|ray| ray.legs[usize::from(delay > 0.0)]);
+        let inner = inner.map(|ray| ray.departure + delay).filter(|value| *value > least && *value < greatest);
         let mut values: Vec<f64> = [least].into_iter().chain(inner).chain([greatest]).collect();
         values.dedup_by(|b, a| *b - *a < 1e-9 * self.trip());
         let Some(width) = width else { return values };

@@ -377,7 +377,8 @@ fn add_rays(panel: &mut Panel, field: &FieldMap, scene: &SceneData) {
         let from = ray.departure;
         let height = |time: f64| length * (1.0 - ((time - from) / (0.5 * trip) - 1.0).abs());
         let times = [from, from + 0.5 * trip, from + trip].map(|time| time.min(end));
-        times.map(|time| DVec2::new(time, height(time))).to_vec()
+        let legs = usize::from(!ray.legs[0])..2 + usize::from(ray.legs[1]);
+        times[legs].iter().map(|time| DVec2::new(*time, height(*time))).collect()
     };
     let paths = |wanted: &dyn Fn(&Ray) -> bool| -> Vec<Curve> {
         field.rays.iter().filter(|ray| wanted(ray)).map(path).collect()

@@ -120,7 +120,8 @@ impl Request {
         let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
         let contacts = history.contacts().iter().map(|contact| [contact.impact, contact.release.unwrap_or(end)]);
-        let extent = Extent { rod: rod.clone(), span };
+        let has_waves = rod.damping == 0.0 && history.problem().chain().is_none();
+        let extent = Extent { rod: rod.clone(), span, has_waves };
         let rays = rays(history, &extent)?;
         let mut data = SceneData {
             name,
@@ -222,12 +223,15 @@ fn settled_until(history: &TypedHistory<f64>) -> f64 {
 /// Returns every ray that is in the rod during the span, in the order in which they leave the ground.
 fn rays(history: &TypedHistory<f64>, extent: &Extent) -> Result<Vec<Ray>, Error> {
     let ([from, to], trip, damping) = (extent.span, extent.trip(), extent.rod.damping);
+    if history.problem().chain().is_some() {
+        return rays_in_chain(history, extent);
+    }
     if damping == 0.0 {
         let waves = history.waves()?;
         let greatest = waves.pieces.iter().map(|piece| piece.rate.abs()).fold(f64::MIN_POSITIVE, f64::max);
         let ray = |pair: &[WavePiece<f64>]| {
             let jump = (pair[1].rate - pair[0].at(&pair[1].from).1).abs();
-            Ray { departure: pair[1].from, jump: jump > 1e-9 * greatest, share: jump / greatest }
+            Ray { departure: pair[1].from, jump: jump > 1e-9 * greatest, share: jump / greatest, legs: [true; 2] }
         };
         let rays = waves.pieces.windows(2).map(ray);
         return Ok(rays.filter(|ray| ray.departure >= from - 1.001 * trip && ray.departure <= to).collect());
@@ -247,7 +251,8 @@ fn rays(history: &TypedHistory<f64>, extent: &Extent) -> Result<Vec<Ray>, Error>
             let measured = ray.jump && few && time.to_f64() > 0.0 && time.to_f64() < end.to_f64();
             let strain = |side| motion.field(&middle, &time, side).map(|field| field.strain.to_f64());
             let jump = if measured { Some((strain(Side::Right)? - strain(Side::Left)?).abs()) } else { None };
-            found.push((Ray { departure: ray.time.to_f64(), jump: ray.jump, share: 1.0 }, jump));
+            let ray = Ray { departure: ray.time.to_f64(), jump: ray.jump, share: 1.0, legs: [true; 2] };
+            found.push((ray, jump));
         }
         Ok(found)
     };
@@ -260,6 +265,26 @@ fn rays(history: &TypedHistory<f64>, extent: &Extent) -> Result<Vec<Ray>, Error>
         Ray { share, ..ray }
     };
     Ok(rays.into_iter().map(with_share).collect())
+}
+
+/// Returns the rays of a body of a chain, each of which is in the body once: upward or downward.
+fn rays_in_chain(history: &TypedHistory<f64>, extent: &Extent) -> Result<Vec<Ray>, Error> {
+    let ([from, to], trip) = (extent.span, extent.trip());
+    let departures = history.ask(|motion| motion.departures(), |_| Vec::new())?;
+    let jumps = departures.iter().flatten().map(|(_, jump)| jump.to_f64().abs());
+    let greatest = jumps.fold(f64::MIN_POSITIVE, f64::max);
+    let mut rays = Vec::new();
+    for (leaving, legs) in departures.iter().zip([[true, false], [false, true]]) {
+        for (time, jump) in leaving {
+            // A ray from the top would have left the lower end half a round trip before.
+            let departure = time.to_f64() - if legs[0] { 0.0 } else { 0.5 * trip };
+            let share = jump.to_f64().abs() / greatest;
+            rays.push(Ray { departure, jump: share > 1e-9, share, legs });
+        }
+    }
+    rays.retain(|ray| ray.departure >= from - 1.001 * trip && ray.departure <= to);
+    rays.sort_by(|a, b| a.departure.total_cmp(&b.departure));
+    Ok(rays)
 }
 
 /// Returns the times at which curves have points: evenly spaced, at events, and where rays are at the ends of the rod.
@@ -275,6 +300,11 @@ fn times(motion: &dyn Motion<Double>, extent: &Extent, rays: &[Ray]) -> Result<V
             Ok(waves) => {
                 let half_trip = scales.time / end.int(2);
                 exact.extend(waves.pieces.into_iter().flat_map(|piece| [piece.from.clone(), piece.from + &half_trip]));
+            }
+            Err(Error::NoWaves) if motion.departures().is_ok() => {
+                let half_trip = scales.time / end.int(2);
+                let times = motion.departures()?.into_iter().flatten().map(|(time, _)| time);
+                exact.extend(times.flat_map(|time| [time.clone(), time + &half_trip]));
             }
             Err(Error::NoWaves) => {
                 let register = RayRegister::of(motion);

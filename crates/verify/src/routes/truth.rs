@@ -35,8 +35,12 @@ impl Truth {
     /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine.
     pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
         let run = |route: Route| route.run(question, f64::INFINITY);
+        let exact = match question.problem.chain() {
+            Some(_) => Route::Planned(Numbers::Exact),
+            None => Route::Lattice(Numbers::Exact),
+        };
         if question.problem.damping().is_none()
-            && let Ok(value) = run(Route::Lattice(Numbers::Exact))
+            && let Ok(value) = run(exact)
         {
             return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });
         }
