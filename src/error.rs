@@ -150,6 +150,9 @@ pub enum Error {
         /// The points, in words.
         found: String,
     },
+    /// A body of a chain, in a build without the feature `chain`.
+    #[error("found a body of a chain, expected a single rod: this build solves no chains")]
+    NoChains,
     /// The travelling waves of a damped rod, or of a body of a chain.
     #[error("found a damped rod or a body of a chain, expected an undamped rod by itself, which two waves describe")]
     NoWaves,

@@ -179,6 +179,32 @@ class Problem(Frozen):
         """
         return scene if isinstance(scene, Problem) else _problem(_text(scene))
 
+    @classmethod
+    def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem, ...]:
+        """Read the bodies of a chain, each as a problem: its ground is the body or the stop below it.
+
+        Parameters
+        ----------
+        scene : str or path
+            The name of a built-in scene, a scene file, or a scene as TOML text.
+
+        Returns
+        -------
+        tuple of Problem
+            The bodies from the bottom up; of a single rod the rod.
+
+        Examples
+        --------
+        >>> striker, target = Problem.bodies("openfoam-7-1-2")
+        >>> target.solve(exact=True).contacts["release"][0]
+        Fraction(27, 70)
+        >>> striker.solve().columns(0.2, "force")["force"]
+        array([0.])
+        """
+        text = _text(scene)
+        count = _core.body_count(text)
+        return tuple(_problem((text, body)) for body in range(count)) if count > 1 else (_problem(text),)
+
     def replace(self, **values: Any) -> Problem:
         """Return a problem with other values in place of some.
 
@@ -205,7 +231,8 @@ class Problem(Frozen):
         Returns
         -------
         str
-            TOML text: that of the scene that it was read from, if no value has been replaced.
+            TOML text: that of the scene that it was read from, if no value has been replaced; for a body of a chain,
+            that of the chain.
 
         Examples
         --------
@@ -221,15 +248,22 @@ class Problem(Frozen):
         impacts = 1
         <BLANKLINE>
         """
-        if len(self._made) == 1 and isinstance(self._made[0], str):
-            return self._made[0]
+        if len(self._made) == 1 and isinstance(self._made[0], (str, tuple)):
+            return self._made[0] if isinstance(self._made[0], str) else self._made[0][0]
         return self._compiled.to_toml()
+
+    @property
+    def _chain(self) -> tuple[str, int] | None:
+        """The text of the chain that the problem is a body of, and the index of the body."""
+        return self._made[0] if isinstance(self._made[0], tuple) else None
 
     def __repr__(self) -> str:
         return f"Problem({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
 
     def __eq__(self, other: object) -> bool:
-        return self._values == other._values if isinstance(other, Problem) else NotImplemented
+        if not isinstance(other, Problem):
+            return NotImplemented
+        return self._values == other._values and self._chain == other._chain
 
     def __hash__(self) -> int:
         return hash(tuple(self._values.items()))

@@ -182,8 +182,11 @@ def write_reference(
         for name, value in options.items() if value is not None
     }  # fmt: skip
     flags = [flag for flag, is_set in (("--exact", exact), ("--certified", certified)) if is_set]
+    problem = Problem.from_scene(scene)
+    if problem._chain is not None:
+        listed["--body"] = str(problem._chain[1] + 1)
     with tempfile.TemporaryDirectory() as folder:
-        files = {"scene": Problem.from_scene(scene).to_toml()}
+        files = {"scene": problem.to_toml()}
         if t is not None:
             files["t"] = "".join(f"{time}\n" for time in objects(t).ravel().tolist())
             listed["--times-from"] = os.path.join(folder, "t")

@@ -53,7 +53,7 @@ fn run<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
 
 #[pymodule]
 mod _core {
-    use dalembert::builtin::ALL;
+    use dalembert::builtin::{ALL, CHAINS};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -62,6 +62,8 @@ mod _core {
     use super::history::History;
     #[pymodule_export]
     use super::problem::Problem;
+    #[pymodule_export]
+    use super::problem::body_count;
     #[pymodule_export]
     use super::problem::unknown_parameter;
     #[pymodule_export]
@@ -84,6 +86,6 @@ mod _core {
     /// Returns names, summaries and texts of the built-in scenes.
     #[pyfunction]
     fn scenes() -> Vec<[&'static str; 3]> {
-        ALL.iter().map(|builtin| [builtin.name, builtin.summary, builtin.source]).collect()
+        ALL.iter().chain(CHAINS).map(|builtin| [builtin.name, builtin.summary, builtin.source]).collect()
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use dalembert::problem::{Builder, Written};
 use dalembert::quantity::UnitSystem;
 use dalembert::solve::{CERTIFIED_DIGITS, MAX_DIGITS};
-use dalembert::{Numbers, Parameter, Parameters, Plan, Question, Scene, Top, UnknownName};
+use dalembert::{ChainScene, Numbers, Parameter, Parameters, Plan, Question, Scene, Top, UnknownName};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,6 +40,28 @@ fn points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<(Written, Writte
     pairs.iter().map(|[x, v]| Ok((written("x", x)?, written(name, v)?))).collect()
 }
 
+/// Reads a scene of a single rod, or that of a body of a chain.
+fn scene(text: &str, body: Option<usize>) -> PyResult<Scene> {
+    if !ChainScene::is_chain(text) {
+        return Scene::parse(text).map_err(refuse);
+    }
+    let mut bodies = ChainScene::parse(text).map_err(refuse)?.bodies().map_err(refuse)?;
+    match (body, bodies.len()) {
+        (Some(body), count) if body < count => Ok(bodies.swap_remove(body)),
+        (None, 1) => Ok(bodies.swap_remove(0)),
+        (_, count) => Err(refuse(format!("found a chain of {count} bodies, expected one of Problem.bodies(scene)"))),
+    }
+}
+
+/// Returns the number of bodies of a scene; 1 for a single rod.
+#[pyfunction]
+pub(crate) fn body_count(text: &str) -> PyResult<usize> {
+    match ChainScene::is_chain(text) {
+        true => Ok(ChainScene::parse(text).map_err(refuse)?.chain.bodies().len()),
+        false => Ok(1),
+    }
+}
+
 /// A problem, with the accuracy, the title and the units of its scene.
 #[pyclass(frozen, module = "dalembert._core")]
 pub(crate) struct Problem {
@@ -51,7 +73,8 @@ pub(crate) struct Problem {
 
 #[pymethods]
 impl Problem {
-    /// Builds a problem from its values by name or from a scene in TOML, and then replaces some values, in order.
+    /// Builds a problem from its values by name, from a scene in TOML, or from a chain in TOML and the index of a body,
+    /// and then replaces some values, in order.
     #[new]
     #[pyo3(signature = (first, *replaced))]
     fn new(first: &Bound<'_, PyAny>, replaced: Vec<Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -61,7 +84,11 @@ impl Problem {
                 Problem { problem, accuracy: None, title: None, units: UnitSystem::default() }
             }
             Err(_) => {
-                let Scene { problem, accuracy, title, units, .. } = Scene::parse(first.extract()?).map_err(refuse)?;
+                let (text, body) = match first.extract::<(String, usize)>() {
+                    Ok((text, body)) => (text, Some(body)),
+                    Err(_) => (first.extract()?, None),
+                };
+                let Scene { problem, accuracy, title, units, .. } = scene(&text, body)?;
                 Problem { problem, accuracy, title, units }
             }
         };
@@ -97,10 +124,13 @@ impl Problem {
     }
 
     /// Returns the problem as a scene file.
-    fn to_toml(&self) -> String {
+    fn to_toml(&self) -> PyResult<String> {
+        if self.problem.chain().is_some() {
+            return Err(refuse("found a body of a chain with other values, which no scene file of a rod holds"));
+        }
         let mut scene = Scene::from(self.problem.clone());
         (scene.title, scene.units, scene.accuracy) = (self.title.clone(), self.units, self.accuracy);
-        scene.to_toml()
+        Ok(scene.to_toml())
     }
 
     /// Solves the problem in the numbers that are asked for, through the first contact alone or the whole run.

@@ -535,3 +535,31 @@ def test_derivatives_are_difference_quotients():
     assert exact.left["release"].tolist() == [2] and exact.right_error["release"].tolist() == [0]
     with pytest.raises(ValueError, match="found the parameter `mass`, expected one of length"):
         rod().solve().derivatives("mass")
+
+
+def test_bodies_of_a_chain_are_problems():
+    striker, target = dalembert.Problem.bodies("openfoam-7-1-2")
+    exact = target.solve(exact=True)
+    assert exact.contacts["release"].tolist() == [Fraction(27, 70)]
+    energies = [body.solve(exact=True).columns("1/2", "E_total", side="right")["E_total"] for body in (striker, target)]
+    assert [energy[0] for energy in energies] == [Fraction(17553, 167042000), Fraction(4123, 10440125)]
+    assert striker != target and target == pickle.loads(pickle.dumps(target)) == dalembert.Problem.bodies("openfoam-7-1-2")[1]
+    # Equal bars: Zv/2 with Z = 0.7 and v = 0.1.
+    softer = target.replace(modulus=49)
+    assert softer.solve().contacts["peak_force"].tolist() == pytest.approx([0.035])
+    assert softer != target
+    with pytest.raises(ValueError, match="no scene file of a rod"):
+        softer.to_toml()
+    with pytest.raises(ValueError, match=r"chain of 2 bodies, expected one of Problem.bodies"):
+        dalembert.solve("openfoam-7-1-2")
+    with pytest.raises(ValueError, match="damping of a body of a chain"):
+        target.replace(damping=0.1)
+    (pile,) = dalembert.Problem.bodies("mpm-py-pile")
+    assert pile.solve().columns(0.2, "force", side="right")["force"][0] == pytest.approx(2e4)
+    assert "openfoam-7-1-2" in dalembert.scenes()
+
+
+def test_golden_files_of_a_body(tmp_path):
+    target = dalembert.Problem.bodies("openfoam-7-1-2")[1]
+    dalembert.write_reference(tmp_path / "golden.csv", target, ["1/5"], ["t", "force"], "right", exact=True)
+    assert (tmp_path / "golden.csv").read_text().splitlines()[-1] == "1/5,7/170"

@@ -12,6 +12,7 @@ use crate::chain::{Body, Chain, End, Joint, MAX_PIECES, Points};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
 use crate::number::{Number, Rational};
+use crate::problem::Problem;
 use crate::problem::written::short;
 use crate::quantity::UnitSystem;
 
@@ -122,24 +123,23 @@ impl ChainScene {
         Reader { source, document: document.get_ref() }.chain()
     }
 
-    /// Returns the scene of one body, from 0 at the bottom, whose problem is that of [`Chain::problems`].
+    /// Returns a scene for each body, from the bottom up, with the problem of [`Chain::problems`].
     ///
-    /// **Errors**: those of [`Chain::problems`]; a body that the chain does not have.
-    pub fn body(&self, body: usize) -> Result<Scene, ProblemError> {
-        let count = self.chain.bodies().len();
-        let problem = self.chain.problems()?.into_iter().nth(body).ok_or_else(|| {
-            let found = format!("body {} of a chain of {count}", body + 1);
-            ProblemError::new(Kind::OutOfRange, "body", found, format!("a body from 1 to {count}"))
-        })?;
+    /// **Errors**: those of [`Chain::problems`].
+    pub fn bodies(&self) -> Result<Vec<Scene>, ProblemError> {
+        Ok(self.chain.problems()?.into_iter().enumerate().map(|(body, problem)| self.body(body, problem)).collect())
+    }
+
+    fn body(&self, body: usize, problem: Problem) -> Scene {
         let own = format!("body[{body}].");
         let line = |(key, line): &(String, usize)| match key.strip_prefix(&own) {
             Some(key @ ("velocity" | "displacement")) => (format!("start.{key}"), *line),
             Some(key) => (format!("rod.{key}"), *line),
             None => (key.clone(), *line),
         };
-        Ok(Scene {
+        Scene {
             title: self.title.as_ref().map(|title| match self.chain.bodies()[body].name() {
-                _ if count == 1 => title.clone(),
+                _ if self.chain.bodies().len() == 1 => title.clone(),
                 Some(name) => format!("{title}: {name}"),
                 None => format!("{title}: body {}", body + 1),
             }),
@@ -149,7 +149,7 @@ impl ChainScene {
             targets: Vec::new(),
             source: self.source.clone(),
             lines: self.lines.iter().map(line).collect(),
-        })
+        }
     }
 
     /// Returns the line, from 1, of a key such as `body[1].gap` or `ends.top`.

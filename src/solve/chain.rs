@@ -10,6 +10,8 @@ use crate::motion::{Ending, Motion};
 use crate::number::{Bounded, bits_for_digits};
 use crate::problem::Problem;
 
+/// Whether motions of bodies of chains are built in.
+const CHAINS: bool = cfg!(feature = "chain");
 /// Bits of the enclosures that decide whether events coincide.
 const DECIDING_BITS: u32 = 256;
 /// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
@@ -44,6 +46,9 @@ pub(super) fn motion<N: Bounded>(
     (rung, precision): (Rung, &N::Precision),
     observe: &Observer,
 ) -> Result<BodyMotion<N>, Error> {
+    if !CHAINS {
+        return Err(Error::NoChains);
+    }
     let problem = plan.reaching(problem);
     let undecided = |what| Error::NotDecided { what, bits: rung.bits() };
     let (Some((chain, body)), Some(place)) = (problem.chain(), &problem.in_chain) else {

@@ -30,8 +30,7 @@ pub(crate) fn read(name: &str, body: Option<usize>) -> Result<Scene, Failure> {
             (Some(body), count) if body == 0 || body > count => {
                 Err(failure!("found --body {body} of `{name}`, expected a body from 1, the lowest, to {count}"))
             }
-            (Some(body), _) => Ok(scene.body(body - 1)?),
-            (None, 1) => Ok(scene.body(0)?),
+            (Some(_), _) | (None, 1) => Ok(scene.bodies()?.swap_remove(body.unwrap_or(1) - 1)),
             (None, count) => {
                 let failure = failure!("found {count} bodies in `{name}`, expected one of them to be chosen");
                 Err(failure.help(format!("--body N, from 1, the lowest, to {count}, takes a body as a rod")))

@@ -54,11 +54,18 @@ impl Request {
         let mut panels = Vec::new();
         for picture in &self.pictures {
             match picture {
+                Picture::SpaceTime if !self.heights.is_empty() => panels.push(self.stack(scenes)),
                 Picture::SpaceTime if self.deformed => add_for_each(&mut panels, scenes, world_lines),
                 Picture::SpaceTime => add_for_each(&mut panels, scenes, |scene, scenes| self.field(scene, scenes)),
                 Picture::Energy => add_for_each(&mut panels, scenes, energy),
                 Picture::Restitution => panels.push(restitution(scenes)),
-                Picture::Stress | Picture::Motion | Picture::Quantity(_) => panels.push(curves(*picture, scenes)?),
+                Picture::Stress | Picture::Motion | Picture::Quantity(_) => {
+                    let mut panel = curves(*picture, scenes, !self.heights.is_empty())?;
+                    if !self.heights.is_empty() && *picture == Picture::Quantity(Quantity::Force) {
+                        panel.title = "force at the lower end of each body".into();
+                    }
+                    panels.push(panel);
+                }
             }
         }
         let mut sheet = Sheet { title, panels };
@@ -67,30 +74,87 @@ impl Request {
         Ok(sheet)
     }
 
-    /// Returns the panel of a field with its rays.
-    fn field(&self, scene: &SceneData, scenes: &[SceneData]) -> Panel {
-        let (length, units) = (scene.rod.length, &scene.units);
-        let measure = self.field.measure(units);
+    /// Returns measure, symbol and name of the field.
+    fn field_name(&self, scene: &SceneData) -> (Measure, &'static str, &'static str) {
+        let measure = self.field.measure(&scene.units);
         let (symbol, name) = match measure {
             Measure::Stress => ("E v_x", "stress"),
             Measure::Strain => ("v_x", "strain"),
             _ => ("v_t", "velocity"),
         };
+        (measure, symbol, name)
+    }
+
+    /// Returns the panel of a field with its rays.
+    fn field(&self, scene: &SceneData, scenes: &[SceneData]) -> Panel {
+        let (length, units) = (scene.rod.length, &scene.units);
+        let (_, _, name) = self.field_name(scene);
         let coarse = if scene.coarse_columns().is_some() { ", too coarse for its waves" } else { "" };
         let y = Axis::new("x", units.name(Measure::Length), [-FLOOR * length, length]);
         let mut panel = Panel::new(format!("{name} along the rod{coarse}"), time_axis(scenes), y);
-        if let Some(field) = &scene.field {
-            // All scenes have one scale of colours.
-            let limits = scenes.iter().filter_map(|scene| scene.field.as_ref()).map(|field| field.color_limit);
-            let limit = limits.fold(0.0, f64::max);
-            panel.add("cells", field_shape(field, scene, limit));
-            let axis = Axis::new(symbol, units.name(measure), [-limit, limit]);
-            let text = axis.short(limit);
-            panel.legend.push(Key::colors(axis.label, [format!("−{text}"), "0".into(), text]));
-            add_rays(&mut panel, field, scene);
-        }
+        self.add_field(&mut panel, (scene, scenes), 0.0);
         add_contacts(&mut panel, scene, 0.0);
         panel
+    }
+
+    /// Adds the field of a scene, in the scale of colours of all scenes, and its rays, both raised by `height`.
+    fn add_field(&self, panel: &mut Panel, (scene, scenes): (&SceneData, &[SceneData]), height: f64) {
+        let Some(field) = &scene.field else { return };
+        let limits = scenes.iter().filter_map(|scene| scene.field.as_ref()).map(|field| field.color_limit);
+        let limit = limits.fold(0.0, f64::max);
+        panel.add("cells", raised(field_shape(field, scene, limit), height));
+        let (measure, symbol, _) = self.field_name(scene);
+        let axis = Axis::new(symbol, scene.units.name(measure), [-limit, limit]);
+        let text = axis.short(limit);
+        let key = Key::colors(axis.label, [format!("−{text}"), "0".into(), text]);
+        if panel.legend.is_empty() {
+            panel.legend.push(key);
+        }
+        add_rays(panel, field, scene, height);
+    }
+
+    /// Returns the panel of the fields of all bodies of a chain, each at its height.
+    fn stack(&self, scenes: &[SceneData]) -> Panel {
+        let top = scenes.iter().zip(&self.heights).map(|(scene, height)| height + scene.rod.length).fold(0.0, f64::max);
+        let name = scenes.first().map_or("field", |scene| self.field_name(scene).2);
+        let unit = scenes.first().map_or("", |scene| scene.units.name(Measure::Length));
+        let y = Axis::new("x", unit, [-FLOOR * top, (1.0 + FLOOR) * top]);
+        let mut panel = Panel::new(format!("{name} along the bodies, gaps enlarged"), time_axis(scenes), y);
+        let mut below = -FLOOR * top;
+        for (scene, height) in scenes.iter().zip(&self.heights) {
+            self.add_field(&mut panel, (scene, scenes), *height);
+            let closed = scene.contacts.iter().map(|[from, to]| rectangle([*from, below], [*to, *height])).collect();
+            panel.areas("contacts", closed, CONTACT);
+            below = height + scene.rod.length;
+            [*height, below].into_iter().for_each(|y| panel.level("end", y, ZERO));
+        }
+        if scenes.iter().any(|scene| !scene.contacts.is_empty()) {
+            panel.legend.push(Key::area("contact", CONTACT));
+        }
+        panel
+    }
+}
+
+/// Returns a shape raised by `height`.
+fn raised(shape: Shape, height: f64) -> Shape {
+    let up = DVec2::new(0.0, height);
+    match shape {
+        Shape::Field(pieces) => Shape::Field(
+            pieces
+                .into_iter()
+                .map(|piece| FieldPiece {
+                    corners: piece.corners.into_iter().map(|corner| corner + up).collect(),
+                    at: piece.at + up,
+                    ..piece
+                })
+                .collect(),
+        ),
+        Shape::Rectangles(all) => Shape::Rectangles(
+            all.into_iter()
+                .map(|(color, corners)| (color, corners.into_iter().map(|pair| pair.map(|at| at + up)).collect()))
+                .collect(),
+        ),
+        shape => shape,
     }
 }
 
@@ -136,8 +200,8 @@ fn rectangle([left, low]: [f64; 2], [right, high]: [f64; 2]) -> Vec<DVec2> {
     [(left, low), (right, low), (right, high), (left, high)].map(DVec2::from).to_vec()
 }
 
-/// Returns the panel of curves over time of all scenes.
-fn curves(picture: Picture, scenes: &[SceneData]) -> Result<Panel, UnitsDiffer> {
+/// Returns the panel of curves over time of all scenes, which are `dashed` if those of several often coincide.
+fn curves(picture: Picture, scenes: &[SceneData], dashed: bool) -> Result<Panel, UnitsDiffer> {
     let quantities = if picture == Picture::Stress { vec![Quantity::Stress] } else { picture.quantities() };
     let unit = |scene: &SceneData| match picture {
         Picture::Stress if !scene.units.has_material() => "",
@@ -175,7 +239,8 @@ fn curves(picture: Picture, scenes: &[SceneData]) -> Result<Panel, UnitsDiffer> 
         let (s, q) = (k / quantities.len(), k % quantities.len());
         // Quantities of one scene differ in colour, several scenes too. Dashes show a curve below one that coincides.
         let color = LINES[if single_scene { q } else { s } % LINES.len()];
-        let stroke = Stroke::new(color, CURVE_WIDTH).dashed(DASHES[q % DASHES.len()]);
+        let dash = if dashed { s } else { q };
+        let stroke = Stroke::new(color, CURVE_WIDTH).dashed(DASHES[dash % DASHES.len()]);
         let jumps = curves.windows(2).filter_map(|pair| Some(vec![*pair[0].last()?, *pair[1].first()?]));
         let jumps: Vec<Curve> = jumps.collect();
         if !jumps.is_empty() && jumps.len() <= MAX_JUMPS {
@@ -367,8 +432,8 @@ fn field_shape(field: &FieldMap, scene: &SceneData, limit: f64) -> Shape {
     }
 }
 
-/// Adds the rays, from the ground to the top and back.
-fn add_rays(panel: &mut Panel, field: &FieldMap, scene: &SceneData) {
+/// Adds the rays, from the ground to the top and back, raised by `lift`.
+fn add_rays(panel: &mut Panel, field: &FieldMap, scene: &SceneData, lift: f64) {
     if field.rays.len() > MAX_RAYS {
         return;
     }
@@ -378,7 +443,7 @@ fn add_rays(panel: &mut Panel, field: &FieldMap, scene: &SceneData) {
         let height = |time: f64| length * (1.0 - ((time - from) / (0.5 * trip) - 1.0).abs());
         let times = [from, from + 0.5 * trip, from + trip].map(|time| time.min(end));
         let legs = usize::from(!ray.legs[0])..2 + usize::from(ray.legs[1]);
-        times[legs].iter().map(|time| DVec2::new(*time, height(*time))).collect()
+        times[legs].iter().map(|time| DVec2::new(*time, lift + height(*time))).collect()
     };
     let paths = |wanted: &dyn Fn(&Ray) -> bool| -> Vec<Curve> {
         field.rays.iter().filter(|ray| wanted(ray)).map(path).collect()
@@ -386,7 +451,10 @@ fn add_rays(panel: &mut Panel, field: &FieldMap, scene: &SceneData) {
     let kinks = paths(&|ray| !ray.jump);
     if !kinks.is_empty() {
         panel.lines("kinks", kinks, KINK);
-        panel.legend.push(Key::line("kink", KINK));
+        let key = Key::line("kink", KINK);
+        if panel.legend.iter().all(|known| known.text != key.text) {
+            panel.legend.push(key);
+        }
     }
     let mut above = f64::INFINITY;
     for (least, stroke) in RAYS {

@@ -43,6 +43,14 @@ impl Picture {
         Picture::Quantity(Quantity::VibrationalEnergy),
     ];
 
+    /// Pictures of a chain, unless others are asked for.
+    pub const CHAIN: [Picture; 4] = [
+        Picture::SpaceTime,
+        Picture::Quantity(Quantity::Force),
+        Picture::Quantity(Quantity::Centre),
+        Picture::Quantity(Quantity::Energy),
+    ];
+
     /// Returns the words from which a picture is parsed.
     pub fn names() -> impl Iterator<Item = &'static str> {
         let quantities = Needs::Time.quantities().map(Quantity::name);

@@ -26,6 +26,8 @@ pub struct Request {
     pub from: Option<f64>,
     /// Last time; by default a time that shows the first contacts.
     pub to: Option<f64>,
+    /// Heights at which [`Picture::SpaceTime`] shows the bodies of a chain, in one panel; empty for scenes by themselves.
+    pub heights: Vec<f64>,
 }
 
 /// Points of a line in the coordinates of a panel.

@@ -11,9 +11,11 @@ use crate::failure::Failure;
 use crate::file::{self, PICTURES, write_all};
 use crate::output::RunInfo;
 use crate::quantities::{NameParser, Scope};
+use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::Ending;
 use dalembert::Scene;
+use dalembert::chain::{Chain, Joint};
 use dalembert::number::{Number, Scalar};
 use dalembert::solve::{History, Numbers, Question};
 use dalembert_plot::draw::{Size, without_subscripts};
@@ -83,8 +85,10 @@ impl Plot {
             let from = from.unwrap_or(0.0);
             return Err(failure!("found --to {to}, expected a time after {from}, where the picture begins"));
         }
-        let pictures = match (self.quantity.is_empty(), self.scenes.len()) {
+        let (scenes, heights, chain_title) = self.read()?;
+        let pictures = match (self.quantity.is_empty(), scenes.len()) {
             (false, _) => self.pictures()?,
+            (true, _) if !heights.is_empty() => Picture::CHAIN.to_vec(),
             (true, 1) => Picture::SHEET.to_vec(),
             (true, _) => Picture::COMPARED.to_vec(),
         };
@@ -96,15 +100,21 @@ impl Plot {
         if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
-        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to };
-        let scenes = self.scenes.iter().map(|name| self.body.read(name)).collect::<Result<Vec<_>, _>>()?;
-        let gather = |(name, scene): (&String, &Scene)| self.gather(name, scene, &request);
-        let mut gathered = self.scenes.iter().zip(&scenes).map(gather).collect::<Result<Vec<_>, _>>()?;
+        if self.deformed && !heights.is_empty() {
+            return Err(failure!("found --deformed of a chain, expected it with --body N"));
+        }
+        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to, heights };
+        let gather = |(name, scene): &(String, Scene)| self.gather(name, scene, &request);
+        let mut gathered = scenes.iter().map(gather).collect::<Result<Vec<_>, _>>()?;
         let title = match scenes.as_slice() {
-            [scene] => {
+            [(_, scene)] => {
                 // What comes from standard input has no name.
                 let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
                 gathered[0].heading(scene.title.as_deref().or(name), &scene.problem, &request)
+            }
+            _ if !request.heights.is_empty() => {
+                let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
+                chain_title.as_deref().or(name).map(without_subscripts).into_iter().collect()
             }
             _ => {
                 name_by_differences(&mut gathered);
@@ -117,6 +127,20 @@ impl Plot {
         let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
         let svg = sheet.svg(self.size);
         write_all(&destinations, |format| file::picture(format, svg.clone(), self.size))
+    }
+
+    /// Returns the scenes, each with its name, and the heights of the bodies if they are those of one chain.
+    fn read(&self) -> Result<(Vec<(String, Scene)>, Vec<f64>, Option<String>), Failure> {
+        if let [name] = self.scenes.as_slice()
+            && let AnyScene::Chain(scene) = self.body.read_any(name)?
+            && scene.chain.bodies().len() > 1
+        {
+            let bodies = scene.chain.bodies().iter().zip(1..);
+            let names = bodies.map(|(body, k)| body.name().map_or_else(|| format!("body {k}"), str::to_string));
+            return Ok((names.zip(scene.bodies()?).collect(), heights(&scene.chain), scene.title));
+        }
+        let read = |name: &String| Ok((name.clone(), self.body.read(name)?));
+        Ok((self.scenes.iter().map(read).collect::<Result<_, Failure>>()?, Vec::new(), None))
     }
 
     /// Returns the requested pictures.
@@ -153,6 +177,23 @@ impl Plot {
         note_span(file, request, &found, &history);
         Ok(found)
     }
+}
+
+/// Share of the height of a chain by which a contact joint is drawn open.
+const DRAWN_GAP: f64 = 0.05;
+
+/// Returns the height of each body in a picture.
+fn heights(chain: &Chain) -> Vec<f64> {
+    let lengths = || chain.bodies().iter().map(|body| body.length().to_f64());
+    let gap = DRAWN_GAP * lengths().sum::<f64>();
+    let gaps = chain.joints().iter().map(|joint| if *joint == Joint::Bonded { 0.0 } else { gap });
+    let rises = [0.0].into_iter().chain(lengths().zip(gaps).map(|(length, gap)| length + gap));
+    rises
+        .scan(0.0, |height, rise| {
+            *height += rise;
+            Some(*height)
+        })
+        .collect()
 }
 
 /// Prints notes on the part of a history that is drawn.

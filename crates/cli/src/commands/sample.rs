@@ -141,9 +141,14 @@ impl SampleArgs {
     fn run(&self, is_golden: bool) -> Result<(), Failure> {
         let scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
+            // One body is a rod, unless its two ends are told apart.
+            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.are_of_rod(is_golden) => {
+                scene.bodies()?.swap_remove(0)
+            }
             AnyScene::Chain(scene) if is_golden => {
                 let name = scene.title.as_deref().unwrap_or(&self.scene.scene);
-                return Err(failure!("found a chain of bodies, {name}, expected a single rod; `sample` takes chains"));
+                let failure = failure!("found a chain of bodies, {name}, expected one of them");
+                return Err(failure.help("--body N takes a body as a rod; `sample` takes the whole chain"));
             }
             AnyScene::Chain(scene) => return self.chain(&scene),
         };
@@ -181,6 +186,12 @@ impl SampleArgs {
         };
         let rows = Rows { args: self, scene: &scene, times, points, quantities, side };
         rows.write(solve(&scene, &question)?, &destinations)
+    }
+
+    /// Returns whether the quantities are those of a rod, and not of the joints and bodies of a chain.
+    fn are_of_rod(&self, is_golden: bool) -> bool {
+        let has_place = self.quantity.iter().any(|name| name.contains('.'));
+        !has_place && (is_golden || !self.quantity.is_empty())
     }
 
     /// Writes values of a scene with several bodies.

@@ -3,6 +3,7 @@
 //! `cargo test -p dalembert-cli --test suite compare` runs the tests whose path holds that word.
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
+mod chain_bodies;
 mod check_catalogue;
 mod command;
 mod command_data;

@@ -86,7 +86,7 @@ pub enum Mark {
 /// Entry of a legend.
 #[derive(Clone, Debug)]
 pub struct Key {
-    pub(super) text: String,
+    pub(crate) text: String,
     symbol: Symbol,
 }
 

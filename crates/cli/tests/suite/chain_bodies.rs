@@ -1,0 +1,81 @@
+//! Bodies of chains, which every subcommand takes as rods.
+
+use std::path::Path;
+
+use crate::command::{Run, refused, run as run_all};
+
+/// Returns code and standard output of the command.
+fn run_coded(arguments: &str) -> (Option<i32>, String) {
+    let Run { code, out, .. } = run_all(&arguments.split_whitespace().collect::<Vec<_>>());
+    (code, out)
+}
+
+fn run(arguments: &str) -> String {
+    let (code, out) = run_coded(arguments);
+    assert_eq!(code, Some(0), "{arguments}");
+    out
+}
+
+#[test]
+fn a_body_is_a_rod() {
+    let events = run("solve openfoam-7-1-2 --body 2 --exact --format csv --part contacts");
+    assert!(events.contains("27/70"), "{events}");
+    // The striker and the target have the same force and together the energy of the chain.
+    let energy = |body: u32| {
+        let text = run(&format!(
+            "sample openfoam-7-1-2 --body {body} --quantity E_total --times 1/2 --exact --format csv --bare"
+        ));
+        text.lines().last().unwrap().rsplit(',').next().unwrap().to_string()
+    };
+    assert_eq!([energy(1), energy(2)], ["17553/167042000", "4123/10440125"]);
+    // A chain of one body needs no choice: the fixed base of the pile feels the load after L/c, doubled after that.
+    let force = run("sample mpm-py-pile --quantity force --times 0.07,0.08,0.2 --format csv --bare");
+    let whole = run("sample mpm-py-pile --quantity force.bottom --times 0.07,0.08,0.2 --format csv");
+    let column = |text: &str| -> Vec<f64> {
+        text.lines().skip(1).filter_map(|line| line.split(',').nth(2)?.parse().ok()).collect()
+    };
+    assert_eq!(column(&force), column(&whole));
+    assert_eq!(column(&force).len(), 3);
+}
+
+#[test]
+fn data_of_a_body_are_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.csv");
+    let times = "--quantity t,u_end,v_end,force,h --times 0..0.5:101 --format csv --bare";
+    std::fs::write(&file, run(&format!("sample openfoam-7-1-2 --body 2 {times}"))).unwrap();
+    let compared =
+        |body: u32, more: &str| run_coded(&format!("compare openfoam-7-1-2 {} --body {body} {more}", file.display())).0;
+    assert_eq!(compared(2, "--fail-above u.linf=1e-12,force.linf=1e-12,missed=0"), Some(0));
+    assert_eq!(compared(1, "--fail-above u.linf=1e-3"), Some(1));
+}
+
+#[test]
+fn a_body_is_swept_and_drawn() {
+    let swept = run("sweep openfoam-7-1-2 --body 2 --vary rod.modulus=49,100 --quantity peak_force --format csv");
+    // Equal bars: Zv/2 = 0.035; the chain itself: 7/170.
+    let force = |row: usize| swept.lines().nth(row + 1).unwrap().split(',').nth(2).unwrap().parse::<f64>().unwrap();
+    assert!((force(0) - 0.035).abs() < 1e-15 && (force(1) - 7.0 / 170.0).abs() < 1e-15, "{swept}");
+    let folder = tempfile::tempdir().unwrap();
+    for (options, panels) in [("", 4), ("--body 2", 4), ("--quantity xt,force", 2)] {
+        let picture = folder.path().join("picture.svg");
+        run(&format!("plot schwarz-three-bars {options} -o {}", picture.display()));
+        let svg = std::fs::read_to_string(Path::new(&picture)).unwrap();
+        assert_eq!(svg.matches("class=\"panel\"").count(), panels, "{options}");
+    }
+}
+
+#[test]
+fn bodies_that_are_not_there_are_refused() {
+    for (arguments, part) in [
+        ("sweep openfoam-7-1-2 --vary gravity.acceleration=1 --quantity peak_force", "expected one of them"),
+        ("solve openfoam-7-1-2 --body 3", "expected a body from 1, the lowest, to 2"),
+        ("solve openfoam-7-1-2 --body 0", "expected a body from 1, the lowest, to 2"),
+        ("solve paper-weak --body 2", "expected 1"),
+        ("reference openfoam-7-1-2 --times 1", "--body N"),
+        ("reference openfoam-7-1-2 --body 1 --as python", "expected an undamped rod by itself"),
+        ("solve openfoam-7-1-2 --body 1 --impacts 2", "expected the last time of the run"),
+    ] {
+        refused(&arguments.split_whitespace().collect::<Vec<_>>(), &[part]);
+    }
+}
