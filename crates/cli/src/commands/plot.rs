@@ -61,6 +61,16 @@ pub(crate) struct Plot {
     output: OutputArgs,
 }
 
+/// Scenes to be drawn.
+struct Drawn {
+    /// Scenes with their names.
+    scenes: Vec<(String, Scene)>,
+    /// Heights of the bodies if the scenes are those of one chain.
+    heights: Vec<f64>,
+    /// Title of the chain.
+    title: Option<String>,
+}
+
 /// Accuracy of a picture without --accuracy: finer than any line.
 const ACCURACY: f64 = 1e-6;
 
@@ -85,7 +95,7 @@ impl Plot {
             let from = from.unwrap_or(0.0);
             return Err(failure!("found --to {to}, expected a time after {from}, where the picture begins"));
         }
-        let (scenes, heights, chain_title) = self.read()?;
+        let Drawn { scenes, heights, title: chain_title } = self.read()?;
         let pictures = match (self.quantity.is_empty(), scenes.len()) {
             (false, _) => self.pictures()?,
             (true, _) if !heights.is_empty() => Picture::CHAIN.to_vec(),
@@ -129,18 +139,20 @@ impl Plot {
         write_all(&destinations, |format| file::picture(format, svg.clone(), self.size))
     }
 
-    /// Returns the scenes, each with its name, and the heights of the bodies if they are those of one chain.
-    fn read(&self) -> Result<(Vec<(String, Scene)>, Vec<f64>, Option<String>), Failure> {
+    /// Reads the scenes: those that are named, or the bodies of one chain.
+    fn read(&self) -> Result<Drawn, Failure> {
         if let [name] = self.scenes.as_slice()
             && let AnyScene::Chain(scene) = self.body.read_any(name)?
             && scene.chain.bodies().len() > 1
         {
             let bodies = scene.chain.bodies().iter().zip(1..);
             let names = bodies.map(|(body, k)| body.name().map_or_else(|| format!("body {k}"), str::to_string));
-            return Ok((names.zip(scene.bodies()?).collect(), heights(&scene.chain), scene.title));
+            let scenes = names.zip(scene.bodies()?).collect();
+            return Ok(Drawn { scenes, heights: heights(&scene.chain), title: scene.title });
         }
         let read = |name: &String| Ok((name.clone(), self.body.read(name)?));
-        Ok((self.scenes.iter().map(read).collect::<Result<_, Failure>>()?, Vec::new(), None))
+        let scenes = self.scenes.iter().map(read).collect::<Result<_, Failure>>()?;
+        Ok(Drawn { scenes, heights: Vec::new(), title: None })
     }
 
     /// Returns the requested pictures.
