@@ -2,7 +2,7 @@
 
 use super::run::ChainRun;
 use super::start::Bar;
-use super::wave::{Piece, Wave};
+use super::wave::{Piece, Wave, is_exact_zero, order};
 use crate::error::Error;
 use crate::motion::{Field, Side, Stretch};
 use crate::number::{Bounded, Open};
@@ -89,20 +89,20 @@ impl<N: Bounded> ChainRun<N> {
         let fall = self.gravity.clone() * time;
         let mut stretches = Vec::new();
         while let (Some((rise_end, p)), Some((q, fall_end))) = (rising.peek(), falling.peek()) {
-            let is_last_rise = !rise_end.below(length)?;
-            let order = match fall_end {
+            let is_last_rise = order(rise_end, length)?.is_ge();
+            let first = match fall_end {
                 None if is_last_rise => std::cmp::Ordering::Equal,
                 None => std::cmp::Ordering::Less,
                 Some(_) if is_last_rise => std::cmp::Ordering::Greater,
-                Some(end) => rise_end.compare(end)?,
+                Some(end) => order(rise_end, end)?,
             };
-            let to = match (order, fall_end) {
+            let to = match (first, fall_end) {
                 (std::cmp::Ordering::Equal, None) => length.clone(),
                 (std::cmp::Ordering::Greater, Some(end)) => end.clone(),
                 _ => rise_end.clone(),
             };
             let width = to.clone() - &from;
-            if !width.vanishes()? {
+            if !is_exact_zero(&width) {
                 let above = length.clone() - &from;
                 let (a, b) = (
                     p.value_at(&(time.clone() - from.clone() / wave_speed)),
@@ -118,10 +118,10 @@ impl<N: Bounded> ChainRun<N> {
                 stretches.push(stretch);
             }
             from = to;
-            if order.is_le() {
+            if first.is_le() {
                 rising.next();
             }
-            if order.is_ge() {
+            if first.is_ge() {
                 falling.next();
             }
         }

@@ -1,5 +1,7 @@
 //! Signals that are linear between breaks, and waves with their integral.
 
+use std::cmp::Ordering;
+
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open};
@@ -98,7 +100,7 @@ impl<N: Bounded> Wave<N> {
     /// Returns the value of the wave at a time, as the limit from `side`. Breaks that agree with the time within their
     /// bounds are at the time.
     pub(super) fn value_beside(&self, time: &N, side: Side) -> N {
-        let begun = self.pieces.partition_point(|piece| match place_to(time, &piece.from) {
+        let begun = self.pieces.partition_point(|piece| match order(time, &piece.from) {
             Ok(order) if side == Side::Left => order.is_gt(),
             Ok(order) => order.is_ge(),
             Err(_) => side == Side::Right,
@@ -115,6 +117,23 @@ impl<N: Bounded> Wave<N> {
     }
 }
 
+/// Roundoff, as `log₂`, above which numbers are doubles: spelled times are not much longer than their roundings.
+const DOUBLE_ROUNDOFF: f64 = -60.0;
+
+/// Compares a time with that of a break, or a point with that of a ray. In longer numbers a time within some roundings of
+/// a break is at the break, since times of more digits are asked of still longer numbers.
+///
+/// **Errors**: [`Open`] if the error of the break leaves the order undecided, or in doubles that of either.
+pub(super) fn order<N: Bounded>(time: &N, from: &N) -> Result<Ordering, Open> {
+    if time.log2_roundoff() < DOUBLE_ROUNDOFF {
+        return place_to(time, from);
+    }
+    match time.compare(from)? {
+        Ordering::Equal if time.roundoffs() + from.roundoffs() > 0.0 => Err(Open),
+        order => Ok(order),
+    }
+}
+
 /// Returns the number of `items` that have begun at a time, as the limit from `side`.
 ///
 /// **Errors**: [`Open`] if the error of a beginning leaves it undecided.
@@ -125,7 +144,7 @@ pub(super) fn index_at<T, N: Bounded>(
     side: Side,
 ) -> Result<usize, Open> {
     let mut undecided = Ok(());
-    let begun = items.partition_point(|item| match place_to(time, from(item)) {
+    let begun = items.partition_point(|item| match order(time, from(item)) {
         Ok(order) => {
             if side == Side::Left {
                 order.is_gt()

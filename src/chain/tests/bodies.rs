@@ -3,7 +3,7 @@
 use super::properties::Random;
 use crate::chain::{Chain, ChainColumn};
 use crate::motion::Side;
-use crate::number::{Bounded, Number, Rational, Value};
+use crate::number::{Bounded, Number, Rational, Scalar, Value};
 use crate::problem::{Parameter, Problem};
 use crate::quantity::{Quantity, Units};
 use crate::solve::Numbers;
@@ -91,6 +91,58 @@ fn contacts_of_bodies_are_those_of_the_joints_below_them() {
         }
     }
     assert!(contacts > 100, "{contacts}");
+}
+
+/// Values in doubles at the times of events, beside them and elsewhere are within their bounds of the fractions.
+#[test]
+fn doubles_are_within_their_bounds() {
+    let mut random = Random(31_337);
+    let (mut compared, mut at_events) = (0, 0);
+    let names = ["u_end", "v_end", "u_top", "v_top", "h", "h_rate", "force", "E_total", "E_z", "impulse"];
+    let quantities = names.map(|name| name.parse::<Quantity>().unwrap());
+    for _ in 0..30 {
+        let chain = random.chain();
+        let events = chain.solve(Numbers::Exact).unwrap().listing().unwrap().events;
+        let beside = |text: &str, by: &str| {
+            let shifted = number(text).to_rational() + number(by).to_rational();
+            Number::of_rational(&shifted)
+        };
+        let mut times: Vec<Number> = ["37/29", "2.7182818284590452353602", "4.1"].map(number).into();
+        for event in events.iter().take(6) {
+            let text = event.t.to_string();
+            times.extend(["0", "1e-15", "-1e-15", "1e-30"].iter().filter_map(|by| beside(&text, by)));
+        }
+        for problem in chain.problems().unwrap() {
+            let exact = problem.solve_in(Numbers::Exact).unwrap();
+            let doubles = problem.solve().unwrap();
+            for time in &times {
+                if time.to_rational().is_negative() || exact.end().to_f64() <= time.to_f64() {
+                    continue;
+                }
+                for quantity in quantities {
+                    for side in [Side::Left, Side::Right] {
+                        let (Ok(expected), Ok(found)) = (
+                            exact.at_time(quantity, time.clone(), side),
+                            doubles.at_time(quantity, time.clone(), side),
+                        ) else {
+                            panic!(
+                                "{quantity} at {time} of {chain:?}: {:?}",
+                                doubles.at_time(quantity, time.clone(), side)
+                            );
+                        };
+                        let truth = number(&expected.to_string()).to_rational();
+                        let value = Rational::try_from(found.to_f64()).unwrap();
+                        let off = Scalar::to_f64(&Scalar::magnitude(&(value - truth)));
+                        let bound = found.log2_error().exp2();
+                        assert!(off <= bound, "{quantity} {side} at {time}: {off:e} > {bound:e} of {chain:?}");
+                        compared += 1;
+                    }
+                }
+                at_events += 1;
+            }
+        }
+    }
+    assert!(compared > 10_000 && at_events > 500, "{compared} {at_events}");
 }
 
 /// Returns the number that a value prints.
