@@ -27,10 +27,15 @@ fn breaks(c: &mut Criterion) {
     let contact = || Joint::Contact { gap: "0.1".parse().unwrap() };
     let cases = [
         ("bonded, 7:5", "5/7", Joint::Bonded, 20),
+        ("bonded, 7:5", "5/7", Joint::Bonded, 40),
         ("in contact, 3:2", "2/3", contact(), 20),
         ("in contact, 3:2", "2/3", contact(), 40),
+        // Out of the cache: 72 000 and 220 000 breaks.
+        ("in contact, 3:2", "2/3", contact(), 80),
+        ("bonded, 7:5", "5/7", Joint::Bonded, 80),
     ];
     let mut group = c.benchmark_group("chain, a break");
+    group.sample_size(30);
     for (name, length, joint, until) in cases {
         let chain = two_bars(length, joint, until);
         let run = |chain: &Chain| ChainRun::<Estimate<f64>>::new(chain, &(), &|_, _| ControlFlow::Continue(()));
