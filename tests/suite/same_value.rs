@@ -202,7 +202,7 @@ fn in_any_order(problem: &Problem, times: &[Number]) -> Result<usize, TestCaseEr
 /// Doubles, digits, fractions and enclosures, and any order. Fractions end at the first irrational root.
 #[test]
 fn undamped() {
-    compares(900, [900, 900, 900, 900, 900], scene(false, 0.3), |problem| {
+    compares(400, [400, 400, 400, 400, 400], scene(false, 0.3), |problem| {
         let times = times(&problem);
         let Some(truth) = run::<Float>(&problem, &Question::run(Numbers::Digits(40))) else { return Ok([0; 5]) };
         Ok([
@@ -217,7 +217,7 @@ fn undamped() {
 
 #[test]
 fn damped() {
-    compares(100, [100, 100, 40, 100], scene(true, 0.0), every_number_system_but_fractions);
+    compares(40, [40, 40, 16, 40], scene(true, 0.0), every_number_system_but_fractions);
 }
 
 #[test]

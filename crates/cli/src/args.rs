@@ -102,13 +102,13 @@ pub(crate) struct BodyArgs {
 impl BodyArgs {
     /// Reads the scene called `name`: that of a rod, or of the chosen body of a chain.
     pub(crate) fn read(self, name: &str) -> Result<Scene, Failure> {
-        source::read(name, self.body)
+        source::read(name)?.into_rod(name, self.body)
     }
 
     /// Reads the scene called `name`: a rod or the chosen body of a chain, or a chain of which no body is chosen.
     pub(crate) fn read_any(self, name: &str) -> Result<AnyScene, Failure> {
         match self.body {
-            None => source::read_any(name),
+            None => source::read(name),
             Some(_) => self.read(name).map(|scene| AnyScene::Rod(Box::new(scene))),
         }
     }

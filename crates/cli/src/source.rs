@@ -19,28 +19,30 @@ pub(crate) enum AnyScene {
     Chain(Box<ChainScene>),
 }
 
-/// Returns the scene of a single rod called `name`, or that of a body of a chain, counted from 1 at the bottom.
-///
-/// **Errors**: also for a chain of several bodies of which none is chosen, and for a body that is not there.
-pub(crate) fn read(name: &str, body: Option<usize>) -> Result<Scene, Failure> {
-    match (read_any(name)?, body) {
-        (AnyScene::Rod(scene), None | Some(1)) => Ok(*scene),
-        (AnyScene::Rod(_), Some(body)) => Err(failure!("found --body {body} of `{name}`, expected 1: it has one rod")),
-        (AnyScene::Chain(scene), body) => match (body, scene.chain.bodies().len()) {
-            (Some(body), count) if body == 0 || body > count => {
-                Err(failure!("found --body {body} of `{name}`, expected a body from 1, the lowest, to {count}"))
-            }
-            (Some(_), _) | (None, 1) => Ok(scene.bodies()?.swap_remove(body.unwrap_or(1) - 1)),
-            (None, count) => {
-                let failure = failure!("found {count} bodies in `{name}`, expected one of them to be chosen");
-                Err(failure.help(format!("--body N, from 1, the lowest, to {count}, takes a body as a rod")))
-            }
-        },
+impl AnyScene {
+    /// Returns the single rod, or the body of the chain counted from 1 at the bottom; `name` is that of the scene.
+    ///
+    /// **Errors**: also for a chain of several bodies of which none is chosen, and for a body that is not there.
+    pub(crate) fn into_rod(self, name: &str, body: Option<usize>) -> Result<Scene, Failure> {
+        match (self, body) {
+            (Self::Rod(scene), None | Some(1)) => Ok(*scene),
+            (Self::Rod(_), Some(body)) => Err(failure!("found --body {body} of `{name}`, expected 1: it has one rod")),
+            (Self::Chain(scene), body) => match (body, scene.chain.bodies().len()) {
+                (Some(body), count) if body == 0 || body > count => {
+                    Err(failure!("found --body {body} of `{name}`, expected a body from 1, the lowest, to {count}"))
+                }
+                (Some(_), _) | (None, 1) => Ok(scene.bodies()?.swap_remove(body.unwrap_or(1) - 1)),
+                (None, count) => {
+                    let failure = failure!("found {count} bodies in `{name}`, expected one of them to be chosen");
+                    Err(failure.help(format!("--body N, from 1, the lowest, to {count}, takes a body as a rod")))
+                }
+            },
+        }
     }
 }
 
 /// Returns the scene called `name`: `-` for standard input, a file, or a built-in scene.
-pub(crate) fn read_any(name: &str) -> Result<AnyScene, Failure> {
+pub(crate) fn read(name: &str) -> Result<AnyScene, Failure> {
     let path = Path::new(name);
     let builtin = builtin::get(name).filter(|_| !path.is_file());
     let (shown, text) = if name == "-" {

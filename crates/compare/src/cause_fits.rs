@@ -60,6 +60,9 @@ const MOST_DAMPED: f64 = 1.0;
 const SOFT: f64 = 0.1;
 /// Change of a number up to which the derivatives of the signals are taken for the same.
 const SAME_SLOPE: f64 = 0.01;
+/// Limit of the ratio of a fitted value to that of the scene. A fit to other data runs away, and a rod of a much faster
+/// wave takes as much longer to solve.
+const MAX_RATIO: f64 = 1000.0;
 /// Standard error below which a gravity of nearly zero is none.
 pub(super) const NO_GRAVITY: f64 = 0.009;
 /// Factor of the ‖e‖₂² that the best cause leaves, up to which another cause explains the data about as well.
@@ -96,7 +99,11 @@ impl CauseFits<'_> {
     fn problem_with(&self, cause: Cause, p: f64) -> Option<Problem> {
         let problem = self.model.problem;
         let (parameter, value) = match cause {
-            Cause::Value(parameter) => (parameter, parameter.value(problem)? * (1.0 + p)),
+            // A rod that is short is crossed as quickly as by a fast wave.
+            Cause::Value(Parameter::Length) if (1.0 + p) * MAX_RATIO < 1.0 => return None,
+            Cause::Value(parameter) if (1.0 + p).abs() <= MAX_RATIO => {
+                (parameter, parameter.value(problem)? * (1.0 + p))
+            }
             Cause::Damping if p <= MOST_DAMPED => (Parameter::Damping, self.damping() + p / self.trip),
             _ => return None,
         };

@@ -151,7 +151,7 @@ fn check(cases: u32) {
 /// Checks that every number of the displaced run is off by at most both bounds.
 #[test]
 fn a_displaced_run_stays_within_its_bounds() {
-    check(150);
+    check(60);
 }
 
 /// Checks that the bound of a displaced run grows by at most a factor of 30 from event to event.

@@ -183,8 +183,8 @@ fn momentum_and_energy_balance() {
     assert!(gaps > BALANCED, "{gaps} open gaps");
 }
 
-/// Number of random chains that are balanced.
-const BALANCED: usize = 2000;
+/// Number of random chains that are balanced; fewer in the slower fractions of a build without GMP.
+const BALANCED: usize = if cfg!(feature = "mp") { 800 } else { 200 };
 /// Number of random chains of the symmetries, times three.
 const COUNT: usize = 300;
 

@@ -8,7 +8,7 @@ use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{Format, write_all};
 use crate::output::{json_bytes, wrapped};
-use crate::source::{self, AnyScene};
+use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::solve::{Numbers, Plan, Question, Sensitivity};
 use dalembert::{Effect, EffectUse, Scene};
@@ -28,7 +28,7 @@ const FORMATS: &[Format] = &[Format::Table, Format::Json];
 
 impl Explain {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = match source::read_any(&self.scene.scene)? {
+        let scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             AnyScene::Chain(scene) => {
                 let numbers = self.scene.numbers.numbers_to(scene.accuracy);

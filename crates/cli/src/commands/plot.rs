@@ -71,6 +71,12 @@ struct Drawn {
     title: Option<String>,
 }
 
+impl Drawn {
+    fn rods(scenes: Vec<(String, Scene)>) -> Self {
+        Self { scenes, heights: Vec::new(), title: None }
+    }
+}
+
 /// Accuracy of a picture without --accuracy: finer than any line.
 const ACCURACY: f64 = 1e-6;
 
@@ -141,18 +147,19 @@ impl Plot {
 
     /// Reads the scenes: those that are named, or the bodies of one chain.
     fn read(&self) -> Result<Drawn, Failure> {
-        if let [name] = self.scenes.as_slice()
-            && let AnyScene::Chain(scene) = self.body.read_any(name)?
-            && scene.chain.bodies().len() > 1
-        {
-            let bodies = scene.chain.bodies().iter().zip(1..);
-            let names = bodies.map(|(body, k)| body.name().map_or_else(|| format!("body {k}"), str::to_string));
-            let scenes = names.zip(scene.bodies()?).collect();
-            return Ok(Drawn { scenes, heights: heights(&scene.chain), title: scene.title });
+        if let [name] = self.scenes.as_slice() {
+            return match self.body.read_any(name)? {
+                AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => {
+                    let bodies = scene.chain.bodies().iter().zip(1..);
+                    let names = bodies.map(|(body, k)| body.name().map_or_else(|| format!("body {k}"), str::to_string));
+                    let scenes = names.zip(scene.bodies()?).collect();
+                    Ok(Drawn { scenes, heights: heights(&scene.chain), title: scene.title })
+                }
+                scene => Ok(Drawn::rods(vec![(name.clone(), scene.into_rod(name, None)?)])),
+            };
         }
         let read = |name: &String| Ok((name.clone(), self.body.read(name)?));
-        let scenes = self.scenes.iter().map(read).collect::<Result<_, Failure>>()?;
-        Ok(Drawn { scenes, heights: Vec::new(), title: None })
+        Ok(Drawn::rods(self.scenes.iter().map(read).collect::<Result<_, Failure>>()?))
     }
 
     /// Returns the requested pictures.

@@ -73,7 +73,7 @@ impl Scenes {
             Some(name) => scene_files(name)?
                 .into_iter()
                 .map(|name| {
-                    let found = PublishedScene::new(&name, &source::read(&name, None)?);
+                    let found = PublishedScene::new(&name, &source::read(&name)?.into_rod(&name, None)?);
                     found.map_err(|error| failure!("{name}: {error}"))
                 })
                 .collect::<Result<Vec<_>, _>>()?,

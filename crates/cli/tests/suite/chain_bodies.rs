@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::command::{Run, refused, run as run_all};
+use crate::command::{Run, refused, run as run_all, run_with};
 
 /// Returns code and standard output of the command.
 fn run_coded(arguments: &str) -> (Option<i32>, String) {
@@ -36,6 +36,27 @@ fn a_body_is_a_rod() {
     };
     assert_eq!(column(&force), column(&whole));
     assert_eq!(column(&force).len(), 3);
+}
+
+/// Reads a scene from standard input, which can be read once only.
+#[test]
+fn scenes_come_from_standard_input() {
+    let scene = |name: &str| run(&format!("scenes {name}"));
+    for (name, options, panels) in
+        [("doyen-ern-piperno", "", 4), ("openfoam-7-1-2", "", 4), ("openfoam-7-1-2", "--body 1", 4)]
+    {
+        let arguments = format!("plot - -o - {options}");
+        let Run { code, out, .. } = run_with(&arguments.split_whitespace().collect::<Vec<_>>(), &scene(name));
+        assert_eq!(
+            (code, out.matches("class=\"panel\"").count() == panels),
+            (Some(0), true),
+            "{name} {options}: {out}"
+        );
+    }
+    for command in ["solve - --body 2", "explain - --body 2", "explain -", "sample - --times 1/10"] {
+        let Run { code, err, .. } = run_with(&command.split_whitespace().collect::<Vec<_>>(), &scene("openfoam-7-1-2"));
+        assert_eq!(code, Some(0), "{command}: {err}");
+    }
 }
 
 #[test]
