@@ -45,6 +45,7 @@ explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --lib -- --ignored displaced
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --release --test suite -- --ignored near_thresholds near_coincidences derivatives asked_times certified_damped any_scene
 	$(CARGO) test --release --package dalembert --features mp --lib -- --ignored number::wide number::pure
+	$(CARGO) test --package dalembert --lib
 
 WASM = wasm32-unknown-unknown
 PACKED = --package dalembert-web --profile page --target $(WASM) --target-dir target/web

@@ -72,7 +72,7 @@ impl UnitSystem {
 
     /// Returns the name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none or none
     /// is known.
-    fn name(self, measure: Measure, per_area: bool) -> &'static str {
+    pub(crate) fn name(self, measure: Measure, per_area: bool) -> &'static str {
         let [length, velocity, stress] = match self {
             UnitSystem::Si => ["m", "m/s", "Pa"],
             UnitSystem::Inch => ["in", "in/s", "psi"],

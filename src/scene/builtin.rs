@@ -44,6 +44,7 @@ pub const ALL: &[Builtin] = &[
     scene!("figure-5", "the translational part of the energy that is left at the bounce, r = 0.2"),
     scene!("figure-6", "the part of the energy that damping leaves at the bounce, r = 0.1"),
     scene!("figure-7", "the same over e^(−2 r t₁), r = 0.3"),
+    scene!("solfec-bar-drop", "a fast drop: contact for one round trip, then a long flight"),
     scene!("steel-bar", "a damped steel bar hits at 1 m/s: a contact of 0.4 ms"),
 ];
 
@@ -61,6 +62,10 @@ pub const CHAINS: &[Builtin] = &[
     scene!("hopkinson-striker", "a striker on a half-infinite bar: a force in steps"),
     scene!("mpm-py-pile", "a pile on a fixed base under a sudden load"),
     scene!("kratos-drained-column", "a soil column, sides held, under a ramped load"),
+    scene!("norma-two-bars", "two short bars that touch at the start"),
+    scene!("norma-three-bars", "a bar at rest between two moving ones: 50, 100, 50 N"),
+    scene!("carpenter-taylor-katona", "two bars in inches and pounds, in rigid contact"),
+    scene!("hopkinson-bar", "striker, input bar, specimen and output bar"),
     scene!("rose-column", "a column on a fixed base under a sudden load"),
 ];
 

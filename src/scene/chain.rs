@@ -1,4 +1,5 @@
-//! The reader of scenes with several bodies: `[[body]]`, `[ends]`, `[ground]`.
+//! The reader of scenes with several bodies, `[[body]]` and `[ends]`, and of a `[rod]` with other ends than a rod on
+//! rigid ground has.
 
 use std::ops::Range;
 
@@ -8,15 +9,17 @@ use toml::de::DeTable;
 use super::error::{SceneError, position};
 use super::read::Scene;
 use super::reader::{Reader, Value};
-use crate::chain::{Body, Chain, End, Joint, MAX_PIECES, Points};
+use super::target::Target;
+use crate::chain::{Body, BodyMaterial, Chain, End, Joint, MAX_PIECES, Points};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
 use crate::number::{Number, Rational};
 use crate::problem::Problem;
 use crate::problem::written::short;
-use crate::quantity::UnitSystem;
+use crate::quantity::{Measure, UnitSystem};
 
-const TOP_KEYS: &[&str] = &["title", "units", "body", "ends", "ground", "gravity", "run"];
+const TOP_KEYS: &[&str] = &["title", "units", "body", "ends", "ground", "gravity", "run", "target"];
+const ROD_TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "start", "ground", "gravity", "run", "target"];
 const BODY_KEYS: &[&str] = &[
     "name",
     "length",
@@ -32,8 +35,12 @@ const BODY_KEYS: &[&str] = &[
     "joint",
     "gap",
 ];
-const TABLES: [(&str, &[&str]); 4] = [
+const ROD_KEYS: &[&str] =
+    &["length", "wave_speed", "impedance", "modulus", "density", "area", "poisson", "state", "bottom", "top"];
+const TABLES: [(&str, &[&str]); 6] = [
     ("ends", &["bottom", "top"]),
+    ("impact", &["speed", "gap"]),
+    ("start", &["displacement", "velocity"]),
     ("ground", &["velocity"]),
     ("gravity", &["acceleration"]),
     ("run", &["time", "accuracy", "pieces"]),
@@ -69,6 +76,23 @@ const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];
 /// time = 1
 /// ```
 ///
+/// A single body may stand in `[rod]`, which has `bottom` and `top` of its own; it starts with `[impact] speed` and `gap`
+/// or with the points of `[start]`. Without `bottom` it is above rigid ground.
+///
+/// ```toml
+/// [rod]
+/// length = 15
+/// modulus = 1e8
+/// density = 2500
+/// bottom = "fixed"
+/// top = { force = -10e3 }
+/// [run]
+/// time = 0.6
+/// ```
+///
+/// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among several
+/// bodies each has the number of its `body`, from 1.
+///
 /// A body under uniaxial strain has `poisson = 0.3` and `state = "uniaxial strain"`: the modulus of its waves is
 /// `E(1 − ν)/((1 + ν)(1 − 2ν))`. A force pulls where it is positive.
 ///
@@ -92,6 +116,8 @@ pub struct ChainScene {
     pub chain: Chain,
     /// `run.accuracy`: the requested relative accuracy.
     pub accuracy: Option<f64>,
+    /// `[[target]]`: published values, each with its body, from 0.
+    pub targets: Vec<(usize, Target)>,
     source: String,
     lines: Vec<(String, usize)>,
 }
@@ -110,9 +136,16 @@ pub struct ChainEffect {
 }
 
 impl ChainScene {
-    /// Returns whether `source` is a scene with bodies: a TOML document with `[[body]]`.
+    /// Returns whether `source` is a scene of this kind: a TOML document with `[[body]]`, or with a `[rod]` that has a
+    /// `bottom`, or a `top` that is neither free nor fixed.
     pub fn is_chain(source: &str) -> bool {
-        DeTable::parse(source).is_ok_and(|document| document.get_ref().contains_key("body"))
+        let Ok(document) = DeTable::parse(source) else { return false };
+        let reader = Reader { source, document: document.get_ref() };
+        let is_other_top = || {
+            let (_, top) = reader.get("rod.top")?;
+            Some(top.get_ref().as_table().is_some() || matches!(top.get_ref().as_str(), Some("ground" | "absorbing")))
+        };
+        ["body", "ends", "rod.bottom"].iter().any(|key| reader.get(key).is_some()) || is_other_top() == Some(true)
     }
 
     /// Reads a scene.
@@ -146,15 +179,23 @@ impl ChainScene {
             units: self.units,
             problem,
             accuracy: self.accuracy,
-            targets: Vec::new(),
+            targets: self.targets.iter().filter(|(of, _)| *of == body).map(|(_, target)| target.clone()).collect(),
             source: self.source.clone(),
             lines: self.lines.iter().map(line).collect(),
         }
     }
 
-    /// Returns the line, from 1, of a key such as `body[1].gap` or `ends.top`.
+    /// Returns the line, from 1, of a key such as `body[1].gap` or `ends.top`; in a `[rod]` that of `rod.top`.
     pub fn line_of(&self, key: &str) -> Option<usize> {
-        self.lines.iter().find(|(name, _)| name == key).map(|(_, line)| *line)
+        let in_rod = key.replace("body[0]", "rod").replace("ends.", "rod.");
+        let line = |key: &str| self.lines.iter().find(|(name, _)| name == key).map(|(_, line)| *line);
+        line(key).or_else(|| line(&in_rod))
+    }
+
+    /// Returns the name of the unit of `measure`: `N`; empty if no body has a material or the unit is not known.
+    pub fn unit(&self, measure: Measure) -> &'static str {
+        let is_elastic = |body: &Body| matches!(body.material(), BodyMaterial::Elastic { .. });
+        if self.chain.bodies().iter().any(is_elastic) { self.units.name(measure, false) } else { "" }
     }
 
     /// Returns the text that the scene was read from.
@@ -245,16 +286,20 @@ impl ChainScene {
 impl<'a> Reader<'a> {
     fn chain(&self) -> Result<ChainScene, SceneError> {
         let near = |key: &str, known: &[&'static str]| nearest(key, known.iter().copied()).map(String::from);
-        if let Some((key, _)) = ["rod", "impact", "start"].iter().find_map(|key| self.get(key)) {
-            let expected = "either [rod] or [[body]]: velocity and displacement of the start belong to each [[body]]";
-            return Err(self.error(
-                key.span(),
-                Kind::Contradiction,
-                format!("[{}] beside [[body]]", key.get_ref()),
-                expected,
-            ));
+        let is_rod = self.get("body").is_none();
+        let (others, expected) = match is_rod {
+            true => (vec!["ends"], "bottom and top in [rod]: [ends] belongs to bodies, [[body]]"),
+            false => (
+                vec!["rod", "impact", "start"],
+                "either [rod] or [[body]]: velocity and displacement of the start belong to each [[body]]",
+            ),
+        };
+        if let Some((key, _)) = others.iter().find_map(|key| self.get(key)) {
+            let found = format!("[{}] beside {}", key.get_ref(), if is_rod { "[rod]" } else { "[[body]]" });
+            return Err(self.error(key.span(), Kind::Contradiction, found, expected));
         }
-        self.check_known((self.document, "the scene"), TOP_KEYS, |key| near(key, TOP_KEYS))?;
+        let known = if is_rod { ROD_TOP_KEYS } else { TOP_KEYS };
+        self.check_known((self.document, "the scene"), known, |key| near(key, known))?;
         for (name, known) in TABLES {
             let Some((_, value)) = self.get(name) else { continue };
             let Some(table) = value.get_ref().as_table() else {
@@ -267,17 +312,23 @@ impl<'a> Reader<'a> {
         let mut joined = Vec::new();
         for (k, (table, span)) in tables.iter().enumerate() {
             let reader = Reader { document: table, ..*self };
-            joined.push(reader.body(k, span.clone())?);
+            joined.push(match is_rod {
+                true => (Joint::Bonded, reader.material_body(("[rod]", ROD_KEYS), span.clone())?),
+                false => reader.body(k, span.clone())?,
+            });
             lines.push((format!("body[{k}]"), position(self.source, span.start).0));
             let keys = table.keys().map(|key| (format!("body[{k}].{}", key.get_ref()), key.span().start));
             lines.extend(keys.map(|(name, start)| (name, position(self.source, start).0)));
         }
         let mut joined = joined.into_iter();
-        let Some((_, lowest)) = joined.next() else {
+        let Some((_, mut lowest)) = joined.next() else {
             return Err(self.error(0..0, Kind::Missing, "no body", "one [[body]] or more"));
         };
+        if is_rod {
+            lowest = self.started(lowest)?;
+        }
         let mut builder = joined.fold(Chain::builder(lowest), |builder, (joint, body)| builder.joined(joint, body));
-        let [bottom, top] = self.ends()?;
+        let [bottom, top] = self.ends(is_rod)?;
         let run = self.table("run");
         let time = run.plain_number("time")?;
         let time =
@@ -295,10 +346,13 @@ impl<'a> Reader<'a> {
             builder = builder.gravity(gravity);
         }
         let chain = builder.build().map_err(|error| self.placed(error))?;
+        let is_elastic = |body: &Body| matches!(body.material(), BodyMaterial::Elastic { .. });
+        let materials: Vec<bool> = chain.bodies().iter().map(is_elastic).collect();
         Ok(ChainScene {
             title: self.text("title")?.map(|(text, _)| text.to_string()),
             units: self.units()?,
             chain,
+            targets: self.targets(&materials)?,
             accuracy: self.accuracy()?,
             source: self.source.to_string(),
             lines,
@@ -314,7 +368,10 @@ impl<'a> Reader<'a> {
 
     /// Returns the tables of the bodies, each with its place.
     fn bodies(&self) -> Result<Vec<(&'a DeTable<'a>, Range<usize>)>, SceneError> {
-        let Some((_, value)) = self.get("body") else { return Ok(Vec::new()) };
+        let Some((_, value)) = self.get("body") else {
+            let rod = self.get("rod").and_then(|(key, value)| Some((value.get_ref().as_table()?, key.span())));
+            return Ok(rod.into_iter().collect());
+        };
         let refused = |value: &Value<'a>| self.wrong_type(value, "body", "tables, [[body]]");
         let array = value.get_ref().as_array().ok_or_else(|| refused(value))?;
         let table = |value: &'a Value<'a>| value.get_ref().as_table().map(|table| (table, value.span()));
@@ -323,22 +380,48 @@ impl<'a> Reader<'a> {
 
     /// Reads the body in this table, and its joint with the body below.
     fn body(&self, index: usize, span: Range<usize>) -> Result<(Joint, Body), SceneError> {
-        if let Some((key, _)) = self.get("damping") {
-            let expected = "undamped bodies: damping is solved for a single rod without loads, in a scene with [rod]";
-            return Err(self.error(key.span(), Kind::Contradiction, "damping of a [[body]]", expected));
+        let shown = format!("[[body]] {}", index + 1);
+        let body = self.material_body((&shown, BODY_KEYS), span)?;
+        let mut body = self.moving(body)?;
+        if let Some((name, _)) = self.text("name")? {
+            body = body.named(name);
         }
-        let near = |key: &str| nearest(key, BODY_KEYS.iter().copied()).map(String::from);
-        self.check_known((self.document, "[[body]]"), BODY_KEYS, near)?;
+        let contradiction = |key: &str, expected: &str| self.contradiction((key, &shown), expected);
+        let joint = match self.choice("joint", &["contact", "bonded"])? {
+            _ if index == 0 => {
+                for key in ["joint", "gap"] {
+                    if self.get(key).is_some() {
+                        return Err(contradiction(key, "a body below it: the bottom of the chain is in [ends]"));
+                    }
+                }
+                Joint::Bonded
+            }
+            Some(1) if self.get("gap").is_some() => return Err(contradiction("gap", "no gap of a bonded joint")),
+            Some(1) => Joint::Bonded,
+            _ => Joint::Contact { gap: self.plain_number("gap")?.unwrap_or_else(|| 0.into()) },
+        };
+        Ok((joint, body))
+    }
+
+    fn contradiction(&self, (key, shown): (&str, &str), expected: &str) -> SceneError {
+        let span = self.get(key).map_or(0..0, |(key, _)| key.span());
+        self.error(span, Kind::Contradiction, format!("{key} of {shown}"), expected)
+    }
+
+    /// Reads the body in this table, at rest and undeformed; the table is called `shown` and has these keys.
+    fn material_body(&self, (shown, known): (&str, &[&'static str]), span: Range<usize>) -> Result<Body, SceneError> {
+        if let Some((key, _)) = self.get("damping") {
+            let expected = "no damping: it is solved for a single rod on rigid ground, in a [rod] without other ends";
+            return Err(self.error(key.span(), Kind::Contradiction, format!("damping of {shown}"), expected));
+        }
+        self.check_known((self.document, shown), known, |key| nearest(key, known.iter().copied()).map(String::from))?;
         let missing = |key: &str, expected: &str| {
-            self.error(span.clone(), Kind::Missing, format!("no {key} in [[body]] {}", index + 1), expected)
+            self.error(span.clone(), Kind::Missing, format!("no {key} in {shown}"), expected)
         };
-        let contradiction = |key: &str, expected: &str| {
-            let span = self.get(key).map_or(span.clone(), |(key, _)| key.span());
-            self.error(span, Kind::Contradiction, format!("{key} of [[body]] {}", index + 1), expected)
-        };
+        let contradiction = |key: &str, expected: &str| self.contradiction((key, shown), expected);
         let length = self.plain_number("length")?.ok_or_else(|| missing("length", "the length of the body"))?;
         let [modulus, density, area, speed, impedance] = ["modulus", "density", "area", "wave_speed", "impedance"];
-        let body = match (self.plain_number(speed)?, self.plain_number(modulus)?) {
+        Ok(match (self.plain_number(speed)?, self.plain_number(modulus)?) {
             (Some(wave_speed), None) => {
                 for key in [density, area, "poisson", "state"] {
                     if self.get(key).is_some() {
@@ -359,8 +442,12 @@ impl<'a> Reader<'a> {
             }
             (Some(_), Some(_)) => return Err(contradiction(speed, "wave_speed or modulus, not both")),
             (None, None) => return Err(missing("wave_speed", "wave_speed and impedance, or modulus and density")),
-        };
-        let mut body = match self.get("velocity") {
+        })
+    }
+
+    /// Returns `body` with the velocity and the displacement of this table.
+    fn moving(&self, body: Body) -> Result<Body, SceneError> {
+        let body = match self.get("velocity") {
             Some((_, value)) if value.get_ref().as_array().is_some() => {
                 body.with_start(self.list("velocity")?, Vec::new())
             }
@@ -369,24 +456,22 @@ impl<'a> Reader<'a> {
                 None => body,
             },
         };
-        body = body.with_displacement(self.list("displacement")?);
-        if let Some((name, _)) = self.text("name")? {
-            body = body.named(name);
+        Ok(body.with_displacement(self.list("displacement")?))
+    }
+
+    /// Returns the body of a `[rod]` with the start of `[impact]` or `[start]`.
+    fn started(&self, body: Body) -> Result<Body, SceneError> {
+        let Some(speed) = self.table("impact").plain_number("speed")? else { return self.table("start").moving(body) };
+        if let Some((key, _)) = self.get("start") {
+            return Err(self.error(
+                key.span(),
+                Kind::Contradiction,
+                "[start] beside the speed of [impact]",
+                "one of them",
+            ));
         }
-        let joint = match self.choice("joint", &["contact", "bonded"])? {
-            _ if index == 0 => {
-                for key in ["joint", "gap"] {
-                    if self.get(key).is_some() {
-                        return Err(contradiction(key, "a body below it: the bottom of the chain is in [ends]"));
-                    }
-                }
-                Joint::Bonded
-            }
-            Some(1) if self.get("gap").is_some() => return Err(contradiction("gap", "no gap of a bonded joint")),
-            Some(1) => Joint::Bonded,
-            _ => Joint::Contact { gap: self.plain_number("gap")?.unwrap_or_else(|| 0.into()) },
-        };
-        Ok((joint, body))
+        let upward = Number::of_rational(&-speed.to_rational());
+        Ok(upward.map_or(body.clone(), |velocity| body.with_velocity(velocity)))
     }
 
     /// Returns the modulus of waves: `modulus` itself, or the constrained one under uniaxial strain.
@@ -447,12 +532,25 @@ impl<'a> Reader<'a> {
         Ok(points)
     }
 
-    /// Reads `[ends]` and `[ground]`.
-    fn ends(&self) -> Result<[End; 2], SceneError> {
-        let table = self.table("ends");
+    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`. A `[rod]` without a bottom is above the ground, by the
+    /// gap of `[impact]`.
+    fn ends(&self, is_rod: bool) -> Result<[End; 2], SceneError> {
+        let place = if is_rod { "rod" } else { "ends" };
+        let table = self.table(place);
         let ground = self.table("ground").list("velocity")?;
-        let [bottom, top] = ["bottom", "top"].map(|name| table.end(name));
-        let (bottom, top) = (bottom?, top?);
+        let [bottom, top] = ["bottom", "top"].map(|name| table.end(name, place));
+        let (mut bottom, top) = (bottom?, top?);
+        let gap = self.table("impact").plain_number("gap")?;
+        match &mut bottom {
+            None if is_rod => bottom = Some(End::Ground { gap: gap.unwrap_or_else(|| 0.into()), velocity: Vec::new() }),
+            Some(End::Ground { gap: own, .. }) if own.to_f64() == 0.0 => *own = gap.unwrap_or_else(|| own.clone()),
+            _ if gap.is_some() => {
+                let span = self.get("impact.gap").map_or(0..0, |(key, _)| key.span());
+                let expected = "bottom = \"ground\", or no bottom: other ends have no gap above the ground";
+                return Err(self.error(span, Kind::Contradiction, "gap of [impact] above another bottom", expected));
+            }
+            _ => {}
+        }
         let Some((key, _)) = self.get("ground") else {
             return Ok([bottom.unwrap_or(End::Free), top.unwrap_or(End::Free)]);
         };
@@ -467,8 +565,8 @@ impl<'a> Reader<'a> {
         Ok([bottom, top.unwrap_or(End::Free)])
     }
 
-    /// Reads the end at `name`.
-    fn end(&self, name: &str) -> Result<Option<End>, SceneError> {
+    /// Reads the end at `name` of the table called `place`.
+    fn end(&self, name: &str, place: &str) -> Result<Option<End>, SceneError> {
         let Some((key, value)) = self.get(name) else { return Ok(None) };
         let Some(table) = value.get_ref().as_table() else {
             return Ok(self.choice(name, &END_WORDS)?.map(|word| match END_WORDS[word] {
@@ -480,7 +578,7 @@ impl<'a> Reader<'a> {
         };
         let near = |key: &str| nearest(key, END_KEYS.iter().copied()).map(String::from);
         let reader = Reader { document: table, ..*self };
-        self.check_known((table, &format!("{name} of [ends]")), END_KEYS, near)?;
+        self.check_known((table, &format!("{name} of [{place}]")), END_KEYS, near)?;
         let gap = reader.plain_number("gap")?;
         let has = |key: &str| table.contains_key(key);
         Ok(Some(match [has("force"), has("velocity"), has("infinite"), has("gap")] {
@@ -495,7 +593,7 @@ impl<'a> Reader<'a> {
                 let expected = "one of a force, a velocity, a gap of a rigid stop (which may have a velocity), or \
                      infinite = Z with a gap or without";
                 let found = format!(
-                    "{name} of [ends] with {}",
+                    "{name} of [{place}] with {}",
                     table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(" and ")
                 );
                 return Err(self.error(key.span(), Kind::Contradiction, found, expected));
@@ -515,8 +613,16 @@ impl<'a> Reader<'a> {
                     Reader { document: table, ..*self }.get(key).map_or(span, |(_, value)| value.span())
                 })
             }
-            None => self.get(path.split('[').next().unwrap_or(&path)).map(|(_, value)| value.span()),
+            None => {
+                let path = path.split('[').next().unwrap_or(&path);
+                let found = self.get(path).or_else(|| self.get(&path.replace("ends.", "rod.")));
+                found.map(|(_, value)| value.span())
+            }
         };
         self.error(span.unwrap_or(0..0), kind, found, expected)
     }
 }
+
+#[cfg(test)]
+#[path = "tests/chain.rs"]
+mod tests;

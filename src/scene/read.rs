@@ -189,7 +189,8 @@ impl<'a> Reader<'a> {
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        let targets = self.targets(matches!(problem.material(), Material::Elastic { .. }))?;
+        let targets = self.targets(&[matches!(problem.material(), Material::Elastic { .. })])?;
+        let targets = targets.into_iter().map(|(_, target)| target).collect();
         Ok(Scene {
             title,
             units: self.units()?,

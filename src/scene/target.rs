@@ -73,26 +73,43 @@ impl Target {
     }
 }
 
-const KEYS: &[&str] = &["quantity", "time", "side", "contact", "origin", "published", "within", "source"];
+const KEYS: &[&str] = &["quantity", "time", "side", "contact", "origin", "published", "within", "source", "body"];
 
 impl<'a> Reader<'a> {
-    /// The published values of the scene; `has_material` says whether stress and force have a value.
-    pub(super) fn targets(&self, has_material: bool) -> Result<Vec<Target>, SceneError> {
+    /// Returns the published values of the scene, each with its body, from 0; `materials` says of which bodies stress and
+    /// force have a value.
+    pub(super) fn targets(&self, materials: &[bool]) -> Result<Vec<(usize, Target)>, SceneError> {
         let Some((_, value)) = self.get("target") else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
             return Err(self.wrong_type(value, "target", "tables, [[target]]"));
         };
         let table = |value: &'a Value<'a>| match value.get_ref().as_table() {
-            Some(document) => Reader { document, ..*self }.target(value.span(), has_material),
+            Some(document) => Reader { document, ..*self }.target(value.span(), materials),
             None => Err(self.wrong_type(value, "target", "a table, [[target]]")),
         };
         array.into_iter().map(table).collect()
     }
 
-    /// The published value of this table, which stands at `span`.
-    fn target(&self, span: Range<usize>, has_material: bool) -> Result<Target, SceneError> {
-        let near = |key: &str| nearest(key, KEYS.iter().copied()).map(String::from);
-        self.check_known((self.document, "[[target]]"), KEYS, near)?;
+    /// Returns the body of this target, from 0.
+    fn body_of_target(&self, bodies: usize, span: Range<usize>) -> Result<usize, SceneError> {
+        let expected = format!("the number of a body, from 1, the lowest, to {bodies}");
+        let value = match self.get("body") {
+            None if bodies == 1 => return Ok(0),
+            None => return Err(self.error(span, Kind::Missing, "no body in [[target]]", expected)),
+            Some((_, value)) => value,
+        };
+        let whole = value.get_ref().as_integer().and_then(|whole| whole.as_str().parse::<usize>().ok());
+        let place = whole.filter(|body| (1..=bodies).contains(body));
+        place.map(|body| body - 1).ok_or_else(|| self.wrong_type(value, "body", &expected))
+    }
+
+    /// Returns the published value of this table, which stands at `span`.
+    fn target(&self, span: Range<usize>, materials: &[bool]) -> Result<(usize, Target), SceneError> {
+        let known = &KEYS[..KEYS.len() - usize::from(materials.len() == 1)];
+        let near = |key: &str| nearest(key, known.iter().copied()).map(String::from);
+        self.check_known((self.document, "[[target]]"), known, near)?;
+        let body = self.body_of_target(materials.len(), span.clone())?;
+        let has_material = materials[body];
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::Missing, format!("no {key} in [[target]]"), expected)
         };
@@ -138,7 +155,7 @@ impl<'a> Reader<'a> {
             let expected = "modulus and density in [rod], or strain";
             return Err(self.error(span, Kind::Missing, found, expected));
         }
-        Ok(Target {
+        let target = Target {
             quantity,
             time,
             side: if side == Some(0) { Side::Left } else { Side::Right },
@@ -147,6 +164,7 @@ impl<'a> Reader<'a> {
             published: self.plain_number("published")?.ok_or_else(|| missing("published", "the published value"))?,
             within: self.plain_number("within")?,
             source: self.text("source")?.ok_or_else(|| missing("source", "where it was published"))?.0.to_string(),
-        })
+        };
+        Ok((body, target))
     }
 }

@@ -5,7 +5,7 @@ use dalembert::number::{Estimate, Scalar};
 use dalembert::quantity::{Units, columns, contact_value};
 use dalembert::reason::Warning;
 use dalembert::solve::{Numbers, Question, TypedHistory};
-use dalembert::{Error, Scene, Target, builtin};
+use dalembert::{ChainScene, Error, Scene, Target, builtin};
 
 type Double = Estimate<f64>;
 
@@ -47,10 +47,25 @@ impl PublishedScene {
         Ok(PublishedScene { name, title, units, values, warnings: history.warnings() })
     }
 
+    /// Compares the values that `scene` lists of each of its bodies; those of a body are called `NAME --body N`.
+    pub fn of_bodies(name: &str, scene: &ChainScene) -> Result<Vec<Self>, Error> {
+        let bodies = scene.bodies()?;
+        let count = bodies.len();
+        let listed = bodies.iter().zip(1..).filter(|(scene, _)| !scene.targets.is_empty());
+        let named = |body: i32| if count == 1 { name.to_string() } else { format!("{name} --body {body}") };
+        listed.map(|(scene, body)| Self::new(&named(body), scene)).collect()
+    }
+
     /// Compares every built-in scene that has published values.
     pub fn builtin() -> Result<Vec<Self>, Error> {
-        let scenes = builtin::ALL.iter().filter_map(|builtin| Some((builtin.name, Scene::parse(builtin.source).ok()?)));
-        scenes.filter(|(_, scene)| !scene.targets.is_empty()).map(|(name, scene)| Self::new(name, &scene)).collect()
+        let rods = builtin::ALL.iter().filter_map(|builtin| Some((builtin.name, Scene::parse(builtin.source).ok()?)));
+        let rods = rods.filter(|(_, scene)| !scene.targets.is_empty()).map(|(name, scene)| Self::new(name, &scene));
+        let mut all: Vec<Self> = rods.collect::<Result<_, _>>()?;
+        let chains = builtin::CHAINS.iter();
+        for (name, scene) in chains.filter_map(|it| Some((it.name, ChainScene::parse(it.source).ok()?))) {
+            all.extend(Self::of_bodies(name, &scene)?);
+        }
+        Ok(all)
     }
 
     /// Returns the number of values of `scenes`, and the number of those that agree.

@@ -1,6 +1,6 @@
 //! Scenes with several bodies: `solve`, `sample` and `explain`.
 
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json, json};
 
 use crate::failure::Failure;
 use crate::file::{Destination, Format, write_all};
@@ -8,6 +8,7 @@ use crate::output::{Cell, Column, Dataset, json_bytes, rows_bytes};
 use crate::terminal;
 use dalembert::chain::{ChainColumn, ChainHistory, ChainListing};
 use dalembert::number::{List, Value};
+use dalembert::quantity::Measure;
 use dalembert::solve::Numbers;
 use dalembert::{ChainScene, Side};
 
@@ -21,6 +22,22 @@ fn note(history: &ChainHistory) -> Result<(), Failure> {
         terminal::note(ending);
     }
     Ok(())
+}
+
+/// Returns the units of forces, impulses and energies in a line, or nothing if none is known.
+fn unit_line(scene: &ChainScene, measures: &[Measure]) -> String {
+    let named = [(Measure::Force, "force"), (Measure::Impulse, "impulse"), (Measure::Energy, "energies")];
+    let asked = named.iter().filter(|(measure, _)| measures.contains(measure) && !scene.unit(*measure).is_empty());
+    let texts: Vec<String> = asked.map(|(measure, word)| format!("{word} in {}", scene.unit(*measure))).collect();
+    if texts.is_empty() { String::new() } else { format!("\n{}\n", texts.join(", ")) }
+}
+
+/// Returns the name of the unit of each measure, null if it is not known.
+fn units_json(scene: &ChainScene) -> Json {
+    use Measure::{Energy, Force, Impulse, Length, Time, Velocity};
+    let name = |measure: Measure| Some(scene.unit(measure)).filter(|name| !name.is_empty());
+    let measures = [Time, Length, Velocity, Force, Impulse, Energy];
+    measures.iter().map(|measure| (measure.name().to_string(), json!(name(*measure)))).collect::<Map<_, _>>().into()
 }
 
 fn digits(numbers: Numbers) -> u32 {
@@ -106,6 +123,7 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
             "title": scene.title,
             "bodies": bodies(scene),
             "number": numbers.to_string(),
+            "units": units_json(scene),
             "events": events.json(),
             "touches": touches.json(),
             "contacts": contacts.json(),
@@ -124,7 +142,8 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
             }
-            Ok(format!("{text}{ending}\n").into_bytes())
+            let units = unit_line(scene, &[Measure::Force, Measure::Impulse]);
+            Ok(format!("{text}{ending}\n{units}").into_bytes())
         }
     })
 }
@@ -175,9 +194,11 @@ pub(crate) fn sample(
     note(&history)?;
     let mut data = Dataset::from_rows(rows.into_iter());
     (data.digits, data.keys, data.list) = (digits(numbers), Some(2), "rows");
-    data.header = json!({"schema": 1, "title": scene.title, "number": numbers.to_string()});
+    let header = json!({"schema": 1, "title": scene.title, "number": numbers.to_string(), "units": units_json(scene)});
+    data.header = header;
+    let measures: Vec<Measure> = columns.iter().map(|column| column.quantity.measure()).collect();
     write_all(destinations, |format| match format {
-        Format::Table => Ok(data.table().into_bytes()),
+        Format::Table => Ok(format!("{}\n{}", data.table().trim_end(), unit_line(scene, &measures)).into_bytes()),
         Format::Json => Ok(json_bytes(&data.json())),
         format => rows_bytes(&data, format),
     })

@@ -9,7 +9,8 @@ use crate::args::{OutputArgs, known_formats};
 use crate::failure::{Failure, cannot};
 use crate::file::{Format, ROWS, write_all};
 use crate::output::{rows_bytes, targets_data};
-use crate::{source, terminal};
+use crate::source::{self, AnyScene};
+use crate::terminal;
 use dalembert::builtin;
 use dalembert_compare::aligned::table;
 use dalembert_verify::published::PublishedScene;
@@ -70,13 +71,17 @@ impl Scenes {
     fn published(&self) -> Result<ExitCode, Failure> {
         let all = match &self.name {
             None => PublishedScene::builtin()?,
-            Some(name) => scene_files(name)?
-                .into_iter()
-                .map(|name| {
-                    let found = PublishedScene::new(&name, &source::read(&name)?.into_rod(&name, None)?);
-                    found.map_err(|error| failure!("{name}: {error}"))
-                })
-                .collect::<Result<Vec<_>, _>>()?,
+            Some(name) => {
+                let mut all = Vec::new();
+                for name in scene_files(name)? {
+                    let found = match source::read(&name)? {
+                        AnyScene::Rod(scene) => PublishedScene::new(&name, &scene).map(|scene| vec![scene]),
+                        AnyScene::Chain(scene) => PublishedScene::of_bodies(&name, &scene),
+                    };
+                    all.extend(found.map_err(|error| failure!("{name}: {error}"))?);
+                }
+                all
+            }
         };
         for published in &all {
             for warning in &published.warnings {

@@ -29,6 +29,8 @@ pub(crate) struct Header<'a> {
     info: RunInfo,
     /// The text of the scene.
     scene: &'a str,
+    /// The body of the chain and their number.
+    body: Option<[usize; 2]>,
     numbers: Numbers,
     /// The things that have a bound: `each column`.
     subject: &'a str,
@@ -49,6 +51,9 @@ pub(super) struct HeaderJson<'a> {
     title: Option<&'a str>,
     /// The text of the scene, without comments.
     scene: String,
+    /// The body of the scene, from 1 at the bottom; absent for a single rod.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    body: Option<usize>,
     effects: &'a [&'static str],
     /// The last time of the history.
     until: f64,
@@ -86,7 +91,9 @@ impl<'a> Header<'a> {
         // A double is stated with all its digits.
         let end = history.end().as_double().map_or_else(|| history.end(), |end| Estimate::exact(*end.value()).into());
         let ends = states_end.then(|| note_end(history, &end));
-        Header { info, scene, numbers: history.plan().numbers, subject, until: end.to_f64(), ends }
+        let body = history.problem().chain().map(|(chain, body)| [body + 1, chain.bodies().len()]);
+        let body = body.filter(|[_, count]| *count > 1);
+        Header { info, scene, body, numbers: history.plan().numbers, subject, until: end.to_f64(), ends }
     }
 }
 
@@ -135,6 +142,7 @@ impl Header<'_> {
             dalembert: env!("CARGO_PKG_VERSION"),
             title: self.info.title.as_deref(),
             scene: self.scene_lines().collect::<Vec<_>>().join("\n"),
+            body: self.body.map(|[body, _]| body),
             effects: &self.info.effects,
             until: self.until,
             numbers: &self.info.number,
@@ -157,6 +165,10 @@ impl Header<'_> {
         let mut lines = vec![format!("dalembert {}: reference", env!("CARGO_PKG_VERSION"))];
         lines.extend(self.info.title.iter().map(|title| line("title", title)));
         lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
+        let body = self.body.map(|[body, count]| {
+            format!("{body} of {count}, from the bottom: x, displacements and contacts are its own")
+        });
+        lines.extend(body.iter().map(|body| line("body", body)));
         lines.push(line("until", &format!("the history is followed to t = {}", self.until)));
         lines.push(line("numbers", &format!("{}: {}{proved}", self.info.number, self.promise(false))));
         lines.push(line("signs", SIGNS));

@@ -60,6 +60,26 @@ fn scenes_come_from_standard_input() {
 }
 
 #[test]
+fn a_golden_file_names_its_body() {
+    let csv = run("reference openfoam-7-1-2 --body 2 --times 1/5");
+    assert!(csv.contains("# body: 2 of 2, from the bottom"), "{csv}");
+    let json: serde_json::Value =
+        serde_json::from_str(&run("reference openfoam-7-1-2 --body 1 --times 1/5 --format json")).unwrap();
+    assert_eq!(json["body"], 1);
+    assert!(!run("reference mpm-py-pile --times 1/5").contains("# body:"));
+}
+
+/// Units of forces, impulses and energies of whole chains.
+#[test]
+fn chains_have_units() {
+    assert!(run("solve schwarz-two-bars").ends_with("\nforce in N, impulse in N s\n"));
+    assert!(run("sample schwarz-two-bars --times 2e-4").ends_with("\nforce in N, energies in J\n"));
+    let json: serde_json::Value = serde_json::from_str(&run("solve carpenter-taylor-katona --format json")).unwrap();
+    assert_eq!((&json["units"]["force"], &json["units"]["length"]), (&"lbf".into(), &"in".into()));
+    assert!(!run("solve hopkinson-striker").contains(" in N"));
+}
+
+#[test]
 fn data_of_a_body_are_compared() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("run.csv");

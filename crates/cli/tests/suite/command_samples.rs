@@ -139,6 +139,11 @@ fn published_values_beside_ours() {
         code == Some(1) && out.contains("NO (1)") && out.ends_with("2 published values: 1 agree, 1 differ\n"),
         "{out}"
     );
+    // Those of the bodies of a chain.
+    let rows = json(&["scenes", "openfoam-7-1-1", "--targets", "--format", "json"]);
+    close(&rows[0]["ours"], 0.1);
+    close(&rows[1]["ours"], 0.3);
+    assert_eq!(quiet(&["scenes", "norma-two-bars", "--targets"]).matches("-100000000").count(), 1);
     let all = json(&["scenes", "--targets", "--format", "json"]);
     let all = all.as_array().unwrap();
     assert!(all.len() >= 30 && all.iter().all(|row| row["agrees"] == Value::Bool(true)));

@@ -33,12 +33,13 @@ fn output(line: &str, work: &Path) -> String {
     lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
-/// The chapter with what its commands print now. Its scenes are written into `work` first, where its pictures are then.
+/// The chapter with what its commands print now. Its scenes and scripts are written into `work` first, where its pictures
+/// are then.
 fn rebuilt(text: &str, work: &Path) -> String {
     let mut out = String::new();
     for (k, block) in text.split("```").enumerate() {
         let fence = if k > 0 { "```" } else { "" };
-        if let Some(scene) = block.strip_prefix("toml\n# ") {
+        if let Some(scene) = block.strip_prefix("toml\n# ").or_else(|| block.strip_prefix("awk\n# ")) {
             let (name, lines) = scene.split_once('\n').unwrap();
             std::fs::write(work.join(name), lines).unwrap();
         }
@@ -121,6 +122,29 @@ fn two_bars() {
     holds("10-two-bars.md");
     let ratio = |n: u32| (0..n).fold(Rational::from((9, 13)), |force, _| force * Rational::from((5, 13))).to_string();
     answers("10-two-bars.md", &[ratio(0), ratio(1), ratio(2)]);
+}
+
+#[test]
+fn the_hopkinson_bar() {
+    holds("11-hopkinson.md");
+    let speed = |modulus: f64| (modulus / 7800.0).sqrt();
+    let [bar, specimen] = [speed(201e9), speed(160.8e9)];
+    let impedances = [bar * 30.0 * 30.0, specimen * 25.0 * 25.0];
+    let ratio = (impedances[0] - impedances[1]) / (impedances[0] + impedances[1]);
+    let trips = (1..).find(|n| ratio.powi(2 * n) < 0.01).unwrap();
+    let half_pulse = 0.6 / bar;
+    let longest = half_pulse * specimen / (2.0 * f64::from(trips));
+    let parts = [format!("n = {trips}"), format!("{:.3} ms", 1e3 * half_pulse), format!("below {longest:.3} m")];
+    answers("11-hopkinson.md", &parts);
+    assert!(chapter("11-hopkinson.md").contains(&format!("ρ = {ratio:.3}")));
+}
+
+#[test]
+fn a_load_and_its_series() {
+    holds("12-end-loads.md");
+    let rest = 4.0 * 10e3 * 15.0 / (std::f64::consts::PI.powi(2) * 1e8 * 250.0);
+    let share = 100.0 * rest / 3e-3;
+    answers("12-end-loads.md", &[format!("{rest:.1e}"), format!("{share:.2} %")]);
 }
 
 #[test]
