@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "a part of what the files share is used")]
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
+mod chains;
 #[path = "../suite/common.rs"]
 mod common;
 #[path = "../suite/conformance.rs"]
