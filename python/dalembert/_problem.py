@@ -177,7 +177,11 @@ class Problem(Frozen):
         Problem
             The problem of the scene.
         """
-        return scene if isinstance(scene, Problem) else _problem(_text(scene))
+        if isinstance(scene, Problem):
+            return scene
+        text = _text(scene)
+        # A chain of one body is that body.
+        return _problem((text, 0)) if _core.body_count(text) == 1 else _problem(text)
 
     @classmethod
     def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem, ...]:
@@ -202,8 +206,7 @@ class Problem(Frozen):
         array([0.])
         """
         text = _text(scene)
-        count = _core.body_count(text)
-        return tuple(_problem((text, body)) for body in range(count)) if count > 1 else (_problem(text),)
+        return tuple(_problem((text, body)) for body in range(_core.body_count(text))) or (_problem(text),)
 
     def replace(self, **values: Any) -> Problem:
         """Return a problem with other values in place of some.
@@ -258,7 +261,9 @@ class Problem(Frozen):
         return self._made[0] if isinstance(self._made[0], tuple) else None
 
     def __repr__(self) -> str:
-        return f"Problem({', '.join(f'{name}={value!r}' for name, value in self._values.items())})"
+        values = ", ".join(f"{name}={value!r}" for name, value in self._values.items())
+        # The neighbours of a body are no arguments of `Problem`.
+        return f"Problem({values})" if self._chain is None else f"<body of a chain: {values}>"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Problem):

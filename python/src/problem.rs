@@ -53,12 +53,12 @@ fn scene(text: &str, body: Option<usize>) -> PyResult<Scene> {
     }
 }
 
-/// Returns the number of bodies of a scene; 1 for a single rod.
+/// Returns the number of bodies of a chain; 0 for a rod on rigid ground.
 #[pyfunction]
 pub(crate) fn body_count(text: &str) -> PyResult<usize> {
     match ChainScene::is_chain(text) {
         true => Ok(ChainScene::parse(text).map_err(refuse)?.chain.bodies().len()),
-        false => Ok(1),
+        false => Ok(0),
     }
 }
 
