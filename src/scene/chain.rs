@@ -470,8 +470,9 @@ impl<'a> Reader<'a> {
                 "one of them",
             ));
         }
-        let upward = Number::of_rational(&-speed.to_rational());
-        Ok(upward.map_or(body.clone(), |velocity| body.with_velocity(velocity)))
+        let span = self.get("impact.speed").map_or(0..0, |(_, value)| value.span());
+        let refused = || self.error(span, Kind::NotANumber, format!("speed = {speed}"), "a number of fewer digits");
+        Ok(body.with_velocity(Number::of_rational(&-speed.to_rational()).ok_or_else(refused)?))
     }
 
     /// Returns the modulus of waves: `modulus` itself, or the constrained one under uniaxial strain.

@@ -105,6 +105,7 @@ impl<'a> Reader<'a> {
 
     /// Returns the published value of this table, which stands at `span`.
     fn target(&self, span: Range<usize>, materials: &[bool]) -> Result<(usize, Target), SceneError> {
+        // The last key, `body`, belongs to chains of several bodies.
         let known = &KEYS[..KEYS.len() - usize::from(materials.len() == 1)];
         let near = |key: &str| nearest(key, known.iter().copied()).map(String::from);
         self.check_known((self.document, "[[target]]"), known, near)?;

@@ -47,12 +47,12 @@ impl PublishedScene {
         Ok(PublishedScene { name, title, units, values, warnings: history.warnings() })
     }
 
-    /// Compares the values that `scene` lists of each of its bodies; those of a body are called `NAME --body N`.
+    /// Compares the values that `scene` lists of each of its bodies; those of a body are called `NAME body N`.
     pub fn of_bodies(name: &str, scene: &ChainScene) -> Result<Vec<Self>, Error> {
         let bodies = scene.bodies()?;
         let count = bodies.len();
         let listed = bodies.iter().zip(1..).filter(|(scene, _)| !scene.targets.is_empty());
-        let named = |body: i32| if count == 1 { name.to_string() } else { format!("{name} --body {body}") };
+        let named = |body: i32| if count == 1 { name.to_string() } else { format!("{name} body {body}") };
         listed.map(|(scene, body)| Self::new(&named(body), scene)).collect()
     }
 

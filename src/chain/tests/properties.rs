@@ -184,7 +184,7 @@ fn momentum_and_energy_balance() {
 }
 
 /// Number of random chains that are balanced; fewer in the slower fractions of a build without GMP.
-const BALANCED: usize = if cfg!(feature = "mp") { 800 } else { 200 };
+const BALANCED: usize = if cfg!(feature = "mp") { 2000 } else { 200 };
 /// Number of random chains of the symmetries, times three.
 const COUNT: usize = 300;
 

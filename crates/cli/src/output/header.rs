@@ -29,7 +29,7 @@ pub(crate) struct Header<'a> {
     info: RunInfo,
     /// The text of the scene.
     scene: &'a str,
-    /// The body of the chain and their number.
+    /// The number of the body, from 1, and the number of bodies of its chain.
     body: Option<[usize; 2]>,
     numbers: Numbers,
     /// The things that have a bound: `each column`.
