@@ -57,6 +57,9 @@
 //! is a quarter as large. Without the default feature `chain` the bodies of a chain are not solved as rods, and
 //! [`Error::NoChains`] says so.
 
+#[cfg(test)]
+extern crate self as dalembert;
+
 mod cells;
 pub mod chain;
 pub mod engine;

@@ -361,7 +361,7 @@ def test_pickles():
 
 def test_histories_are_pickled():
     rng, compared = np.random.default_rng(7), 0
-    for k in range(1000):
+    for k in range(300):
         length, speed, gravity, damping = (Fraction(int(value), 12) for value in rng.integers(1, 60, 4))
         rod = dalembert.Problem(length=length, wave_speed=1, gravity=gravity, impact_speed=speed)
         numbers = [{}, {"exact": True}, {"digits": 20}][k % 3]
@@ -373,7 +373,7 @@ def test_histories_are_pickled():
         for ours, theirs in zip(history.events.tolist(), again.events.tolist(), strict=True):
             assert ours == theirs
             compared += 1
-    assert compared > 1500
+    assert compared > 450
     assert history != rod.solve(digits=21)
 
 

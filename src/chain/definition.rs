@@ -272,6 +272,11 @@ impl Chain {
         }
     }
 
+    /// Returns whether a node is a unilateral contact: 0 is the bottom of the chain, `n` lies above the n-th body.
+    pub fn is_contact(&self, node: usize) -> bool {
+        self.start_gap(node).is_some()
+    }
+
     /// Returns the gap of a node at the start if it is a unilateral contact.
     pub(super) fn start_gap(&self, node: usize) -> Option<Rational> {
         let top = self.bodies.len();

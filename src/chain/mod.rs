@@ -40,9 +40,9 @@ pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 #[path = "tests"]
 #[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 mod tests {
-    mod bodies;
     mod conformance;
     mod properties;
-    mod published;
+    #[path = "../../../tests/suite/random_chain.rs"]
+    mod random_chain;
     mod reference;
 }

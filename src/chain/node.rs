@@ -268,6 +268,7 @@ impl<N: Bounded> Node<N> {
         let alone = other.zip(alone).map(|(below, alone)| [alone, self.sides[1].line.clone().minus(&below)]);
         let mut touched = false;
         if self.law == Law::Contact && self.closed {
+            self.check_sliver([&before, &drive], alone.as_ref(), &t);
             self.closed = !self.opens(&drive, alone.as_ref(), root.is_some() && !crossed, &t)?;
             if !self.closed {
                 (self.gap, self.resting) = (t.zero(), false);
@@ -369,6 +370,17 @@ impl<N: Bounded> Node<N> {
             }
         }
         Ok(false)
+    }
+
+    /// Notes a doubt if the force of a closed contact is greater between two breaks, which coincide within their bounds,
+    /// than before and after them: whether they coincide sets the peak. `alone` has the drives after one of them each.
+    fn check_sliver(&mut self, drives: [&Line<N>; 2], alone: Option<&[Line<N>; 2]>, t: &N) {
+        let drives = drives.map(|line| line.value_at(t));
+        // The force rises as the drive falls.
+        let exceeds = |y: &N| drives.iter().all(|other| (y.clone() - other).negative() == Ok(true));
+        if alone.into_iter().flatten().any(|line| exceeds(&line.value_at(t))) {
+            self.doubts(t, t);
+        }
     }
 
     /// Returns whether a contact whose gap is zero closes.

@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-use serde::Serialize;
 use toml::de::DeTable;
 
 use super::error::{SceneError, position};
@@ -122,19 +121,6 @@ pub struct ChainScene {
     lines: Vec<(String, usize)>,
 }
 
-/// The use that a chain makes of one effect.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct ChainEffect {
-    /// The effect.
-    pub effect: &'static str,
-    /// Whether the chain calls for it.
-    pub called: bool,
-    /// The line of the scene that calls for it, from 1.
-    pub line: Option<usize>,
-    /// The reason, or the computation that is left out.
-    pub because: String,
-}
-
 impl ChainScene {
     /// Returns whether `source` is a scene of this kind: a TOML document with `[[body]]`, or with a `[rod]` that has a
     /// `bottom`, or a `top` that is neither free nor fixed.
@@ -201,85 +187,6 @@ impl ChainScene {
     /// Returns the text that the scene was read from.
     pub fn source(&self) -> &str {
         &self.source
-    }
-
-    /// Returns every effect of a chain, with the line that calls for it.
-    pub fn effects(&self) -> Vec<ChainEffect> {
-        let chain = &self.chain;
-        let bodies = chain.bodies().len();
-        let first = |is: &dyn Fn(&Joint) -> bool| chain.joints().iter().position(is).map(|k| k + 1);
-        let bonded = first(&|joint| *joint == Joint::Bonded);
-        let contact = first(&|joint| *joint != Joint::Bonded);
-        let end = |is: &dyn Fn(&End) -> bool| {
-            chain.ends().iter().zip(["bottom", "top"]).find(|(end, _)| is(end)).map(|(_, name)| name)
-        };
-        let mut effects = Vec::new();
-        let mut add = |effect, key: Option<String>, because: String, otherwise: &str| {
-            let called = key.is_some();
-            let line = key.and_then(|key| self.line_of(&key).or_else(|| self.line_of(key.split('.').next()?)));
-            effects.push(ChainEffect {
-                effect,
-                called,
-                line,
-                because: if called { because } else { otherwise.into() },
-            });
-        };
-        add("bodies", Some("body[0]".into()), format!("{bodies} bodies, from the bottom up"), "");
-        add(
-            "contact_joints",
-            contact.map(|k| format!("body[{k}].joint")),
-            format!(
-                "{} of {} joints push and never pull",
-                chain.joints().iter().filter(|j| **j != Joint::Bonded).count(),
-                bodies - 1
-            ),
-            "no joint opens or closes",
-        );
-        add(
-            "bonded_joints",
-            bonded.map(|k| format!("body[{k}].joint")),
-            "waves are reflected and pass where impedances differ".into(),
-            "no joint is bonded",
-        );
-        let named = |is: &dyn Fn(&End) -> bool| end(is).map(|name| format!("ends.{name}"));
-        add(
-            "ground",
-            named(&|end| matches!(end, End::Ground { .. })),
-            "a rigid stop that pushes and never pulls".into(),
-            "no rigid stop is checked for contact",
-        );
-        add(
-            "moving_ground",
-            end(&|end| matches!(end, End::Ground { velocity, .. } if !velocity.is_empty()))
-                .map(|name| if name == "bottom" { "ground.velocity".into() } else { "ends.top".into() }),
-            "the stop moves by a velocity over time".into(),
-            "the ground rests",
-        );
-        add(
-            "end_loads",
-            named(&|end| matches!(end, End::Force(_))),
-            "a force over time pulls or pushes an end".into(),
-            "no end is loaded",
-        );
-        add(
-            "moved_ends",
-            named(&|end| matches!(end, End::Velocity(_))),
-            "an end is held or moved by a velocity over time".into(),
-            "no end is held",
-        );
-        add(
-            "infinite_ends",
-            named(&|end| matches!(end, End::Infinite { .. })),
-            "a half-infinite bar takes up waves for ever".into(),
-            "no wave leaves the chain",
-        );
-        add(
-            "gravity",
-            (!chain.gravity().is_zero()).then(|| "gravity.acceleration".into()),
-            format!("acceleration = {}", chain.gravity()),
-            "no acceleration: no weight",
-        );
-        effects
     }
 }
 

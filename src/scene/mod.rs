@@ -2,6 +2,7 @@
 
 pub mod builtin;
 mod chain;
+mod chain_effects;
 mod effects;
 mod error;
 mod read;
@@ -10,7 +11,8 @@ mod serde;
 mod suggest;
 mod target;
 
-pub use chain::{ChainEffect, ChainScene};
+pub use chain::ChainScene;
+pub use chain_effects::ChainEffect;
 pub use effects::{Effect, EffectUse};
 pub use error::SceneError;
 pub use read::Scene;

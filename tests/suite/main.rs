@@ -8,6 +8,9 @@ mod asked_times;
 mod certified_damped;
 mod certified_first_contact;
 mod certified_undamped;
+mod chain_bodies;
+mod chain_coincidences;
+mod chain_published;
 // Tests run in the order of their names: the longest one is among the first.
 mod chaotic;
 mod columns;
@@ -36,6 +39,7 @@ mod number_interval;
 mod paper_claims;
 mod piece_ends;
 mod problem_builder;
+mod random_chain;
 mod rates;
 mod referee;
 mod refused_values;

@@ -28,6 +28,14 @@ function answers() {
         throw error;
       }
     },
+    /** Solves a chain and returns all that is shown of it: a picture for the screen, or for a page without a size. */
+    chain(text, ...size) {
+      const stack = new wasm_bindgen.Stack(text);
+      const svg = size.length ? stack.screen(...size) : stack.page();
+      const found = { svg, contacts: stack.contacts(), end: stack.end() };
+      stack.free();
+      return found;
+    },
     at: (number, time, ...look) => ifShown(number, () => ({ values: run.at(time), rod: run.rod(time, ...look) })),
     screen: (number, ...rest) => ifShown(number, () => drawn(run.screen(...rest))),
     page: (number, ...span) => ifShown(number, () => drawn(run.page(...span))),

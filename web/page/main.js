@@ -1,6 +1,6 @@
 // The page: connects the engine, the pictures, the sliders and the link.
-import { PRESETS } from "./presets.js";
-import { command, fragment, read, scene, toml, value } from "./scene.js";
+import { CHAINS, PRESETS } from "./presets.js";
+import { chainFragment, command, fragment, read, readChain, scene, toml, value } from "./scene.js";
 import { Engine } from "./engine.js";
 import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
@@ -8,6 +8,7 @@ import { Sliders } from "./sliders.js";
 /** Time limit of a scene in milliseconds. */
 const MOST = 1000;
 const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
+const JOINT_COLUMNS = ["joint", "contact from", "to", "duration", "impulse", "greatest force"];
 
 const $ = (id) => document.getElementById(id);
 const engine = new Engine();
@@ -16,6 +17,8 @@ const diagram = new Diagram($("diagram"), engine);
 let [shot, now, view, playing, last, frame] = [null, 0, null, false, 0, 0];
 /** Scene to be solved next, number of the last one, whether the cursor has moved, and the running tasks. */
 let [wanted, number, moved, solving, posing, doing] = [null, 0, false, null, null, 0];
+/** Index of the chain that is shown, or −1. */
+let chain = -1;
 
 /**
  * Solves the scene and shows it; `another` scene is shown from its start. While a scene is being solved, only the
@@ -281,16 +284,20 @@ function showContact() {
   fill($("bounce"), { t_b, e_P, "e_E²": e_E });
 }
 
+/** Returns a row of a table. */
+function row(cells, tag) {
+  const made = document.createElement("tr");
+  made.append(...cells.map((cell) => {
+    const place = document.createElement(tag);
+    place.append(...(typeof cell === "string" ? withSubscripts(cell) : [cell]));
+    return place;
+  }));
+  return made;
+}
+
+const signed = (text) => text.replace("-", "−");
+
 function fillContacts() {
-  const row = (cells, tag) => {
-    const made = document.createElement("tr");
-    made.append(...cells.map((cell) => {
-      const place = document.createElement(tag);
-      place.append(...(typeof cell === "string" ? withSubscripts(cell) : [cell]));
-      return place;
-    }));
-    return made;
-  };
   const go = (k) => {
     const button = Object.assign(document.createElement("button"), { type: "button", textContent: k + 1 });
     button.setAttribute("aria-label", `Go to contact ${k + 1}`);
@@ -303,7 +310,7 @@ function fillContacts() {
   const count = shot.contacts.length / COLUMNS.length;
   body.replaceChildren(...Array.from({ length: count }, (_, k) => {
     const cells = shot.contacts.slice(k * COLUMNS.length, (k + 1) * COLUMNS.length);
-    return row([go(k), ...cells.map((text) => text.replace("-", "−"))], "td");
+    return row([go(k), ...cells.map(signed)], "td");
   }));
 }
 
@@ -317,7 +324,44 @@ function zoom(factor, around = now) {
   draw();
 }
 
+/** Shows the rod, or with an index a chain of bars in its place. */
+function turnTo(k) {
+  chain = k;
+  document.querySelector("main").hidden = k >= 0;
+  $("chain").hidden = k < 0;
+  if (k >= 0) play(false);
+}
+
+/** Solves the chain and shows it. */
+const showChain = () => busily(async () => {
+  const { text, story } = CHAINS[chain];
+  $("story").replaceChildren(...withSubscripts(story));
+  $("scene").textContent = text;
+  say("", []);
+  mark();
+  const asked = chain;
+  const found = await engine.ask("chain", text, ...sized($("stack"), 760));
+  if (asked !== chain) return;
+  $("stack").innerHTML = found.svg;
+  const count = found.contacts.length / JOINT_COLUMNS.length;
+  $("status").textContent = `${count} ${count === 1 ? "contact" : "contacts"} up to t = ${found.end}`;
+  const table = $("joints");
+  table.createTHead().replaceChildren(row(JOINT_COLUMNS, "th"));
+  (table.tBodies[0] ?? table.createTBody()).replaceChildren(...Array.from({ length: count }, (_, k) => (
+    row(found.contacts.slice(k * JOINT_COLUMNS.length, (k + 1) * JOINT_COLUMNS.length).map(signed), "td"))));
+  performance.mark("drawn");
+});
+
+/** Shows a chain, and notes it in the link. */
+function chooseChain(k) {
+  turnTo(k);
+  history.replaceState(null, "", chainFragment(k));
+  return showChain();
+}
+
 async function choose(k) {
+  if (k >= PRESETS.length) return chooseChain(k - PRESETS.length);
+  turnTo(-1);
   Object.assign(scene, PRESETS[k].scene);
   $("story").replaceChildren(...withSubscripts(PRESETS[k].story));
   sliders.refit();
@@ -329,16 +373,17 @@ async function choose(k) {
 
 /** Marks the story whose scene is shown, if there is one. */
 function mark() {
-  const same = (story) => Object.entries(story.scene).every(([name, text]) => String(scene[name]) === String(text));
+  const same = (story) => chain < 0 && Object.entries(story.scene).every(([name, text]) => String(scene[name]) === String(text));
   const found = PRESETS.findIndex(same);
-  [...$("presets").children].forEach((button, k) => button.setAttribute("aria-pressed", String(k === found)));
-  $("story").replaceChildren(...(found >= 0 ? withSubscripts(PRESETS[found].story) : []));
+  const pressed = chain < 0 ? found : PRESETS.length + chain;
+  buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(k === pressed)));
+  if (chain < 0) $("story").replaceChildren(...(found >= 0 ? withSubscripts(PRESETS[found].story) : []));
 }
 
 function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   $("theme").textContent = dark ? "Light" : "Dark";
-  if (shot) draw();
+  if (chain < 0 && shot) draw();
 }
 
 async function copy(text, what) {
@@ -365,6 +410,7 @@ function keep(blob, name) {
 
 /** Returns the pictures of the span as the SVG that `dalembert plot` writes. */
 async function sheet() {
+  if (chain >= 0) return new Blob([(await engine.ask("chain", CHAINS[chain].text)).svg], { type: "image/svg+xml" });
   const span = $("span").value === "contacts" ? [] : [view.from, view.to];
   const found = await engine.ask("page", shot.number, ...span);
   return found && new Blob([found.svg], { type: "image/svg+xml" });
@@ -401,11 +447,12 @@ const step = (wide) => ((view.to - view.from) / 200) * (wide ? 10 : 1);
 function listen() {
   document.addEventListener("keydown", (event) => {
     const { target, key } = event;
-    if (event.ctrlKey || event.altKey || event.metaKey || !shot) return;
+    if (event.ctrlKey || event.altKey || event.metaKey || !(shot || chain >= 0)) return;
     if (target.matches("input[type=text], select")) return;
     if (target.matches("input[type=range]:not(#time)") && /^(Arrow|Home|End)/.test(key)) return;
     if (target.matches("button, summary") && key === " ") return;
-    const act = KEYS[key] ?? (PRESETS[key - 1] && (() => choose(key - 1)));
+    const story = buttons[key - 1] && (() => choose(key - 1));
+    const act = chain >= 0 && key !== "d" ? story : KEYS[key] ?? story;
     if (!act) return;
     event.preventDefault();
     act(event.shiftKey);
@@ -433,17 +480,26 @@ function listen() {
   }, { passive: false });
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "light"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches));
-  $("copy-scene").addEventListener("click", () => copy(toml(), "scene"));
+  $("copy-scene").addEventListener("click", () => copy($("scene").textContent, "scene"));
   $("copy-command").addEventListener("click", () => copy(command(), "command"));
-  $("copy-link").addEventListener("click", () => copy(location.href.split("#")[0] + fragment($("now").value), "link"));
+  $("copy-link").addEventListener("click", () => copy(
+    location.href.split("#")[0] + (chain < 0 ? fragment($("now").value) : chainFragment(chain)), "link"));
   $("save").addEventListener("click", () => busily(saveSvg));
   $("save-png").addEventListener("click", () => busily(savePng));
   addEventListener("hashchange", open);
-  new ResizeObserver(() => shot && draw()).observe($("pictures"));
+  new ResizeObserver(() => chain < 0 && shot && draw()).observe($("pictures"));
+  new ResizeObserver(() => chain >= 0 && showChain()).observe($("stack"));
 }
 
 /** Shows the scene and the time of the link. */
 async function open() {
+  const asked = readChain(location.hash);
+  turnTo(asked);
+  if (asked >= 0) {
+    await showChain();
+    performance.mark("shown");
+    return;
+  }
   const time = read(location.hash);
   sliders.refit();
   mark();
@@ -469,19 +525,35 @@ async function open() {
   performance.mark("shown");
 }
 
+/** Decodes five characters to four bytes; `pack` writes them. The last group may be shorter. */
+function unpacked(text) {
+  const bytes = new Uint8Array(Math.floor((text.length * 4) / 5));
+  for (let k = 0; k * 5 < text.length; k += 1) {
+    let group = 0;
+    for (let j = 0; j < 5; j += 1) {
+      // The code after the backslash and the less-than sign, which are left out.
+      const code = text.charCodeAt(5 * k + j);
+      group = group * 85 + (Number.isNaN(code) ? 84 : code - 35 - (code > 60) - (code > 92));
+    }
+    for (let j = 0; j < 4; j += 1) bytes[4 * k + j] = Math.floor(group / 2 ** (24 - 8 * j)) % 256;
+  }
+  return bytes;
+}
+
+const buttons = [...PRESETS, ...CHAINS].map(({ name }, k) => {
+  const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
+  button.addEventListener("click", () => choose(k));
+  $(k < PRESETS.length ? "presets" : "chains").append(button);
+  return button;
+});
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
 const sliders = new Sliders($("sliders"), async () => {
   mark();
   await solve();
   if (shot && !playing) settle();
 });
-PRESETS.forEach(({ name }, k) => {
-  const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
-  button.addEventListener("click", () => choose(k));
-  $("presets").append(button);
-});
 try {
-  await engine.load(Uint8Array.from(atob($("engine").textContent), (c) => c.charCodeAt(0)), $("glue").textContent);
+  await engine.load(unpacked($("engine").textContent), $("glue").textContent);
   await open();
   listen();
 } catch (error) {

@@ -38,3 +38,42 @@ export const PRESETS = [
       + "flies without any vibration, and at t = 36 the whole motion begins anew.",
   },
 ];
+
+const bar = (name, values) => `[[body]]\nname = "${name}"\n${Object.entries(values).map(([key, x]) => `${key} = ${x}\n`).join("")}\n`;
+// The wave speed is 5076 m/s.
+const steel = (length, area) => ({ length, modulus: "200973052800", density: 7800, area });
+const unit = { length: 1, wave_speed: 1, impedance: 1 };
+
+// Chains of bars, each as a scene.
+export const CHAINS = [
+  {
+    name: "Two bars",
+    text: 'title = "Two dissimilar bars"\nunits = "other"\n\n'
+      + bar("striker", { length: 10, modulus: 49, density: 0.01, velocity: 0.1 })
+      + bar("target", { length: 10, modulus: 100, density: 0.01, gap: 0.01 }) + "[run]\ntime = 0.5\n",
+    story: "The lower bar is the softer one, and its wave needs longer. It comes back as tension when the wave of the "
+      + "upper bar has long returned, and is split at the joint: the force falls from 7/170 to 21/2890, and the bars part "
+      + "at t = 27/70 only. Equal bars would exchange their velocities within one round trip. This is test 7.1.2 of "
+      + "OpenFOAM's contact paper.",
+  },
+  {
+    name: "Rod cradle",
+    text: 'title = "Newton\'s cradle of rods"\nunits = "other"\n\n'
+      + bar("first", { ...unit, velocity: 1 }) + bar("second", { ...unit, gap: 0.5 })
+      + bar("third", { ...unit, gap: 0.25 }) + "[run]\ntime = 6\n",
+    story: "Three equal rods: each hands its whole velocity on to the next. A contact lasts 2L/c, while the wave runs to "
+      + "the far end of the rod that was hit and back. Rods in a row do what the balls of the cradle do, without any "
+      + "vibration left behind. The impulse of every contact is that of the first rod.",
+  },
+  {
+    name: "Hopkinson bar",
+    text: 'title = "A split Hopkinson bar"\n\n' + bar("output bar", steel(3.1, "7.0685835e-4"))
+      + bar("specimen", { ...steel(0.05, "4.9087385e-4"), modulus: "160770480000" })
+      + bar("input bar", steel(3, "7.0685835e-4"))
+      + bar("striker", { ...steel(0.6, "6.1575216e-4"), velocity: -5 }) + "[run]\ntime = 1.2e-3\n",
+    story: "A steel striker from above sends a pulse of twice its travel time down the input bar. At the short specimen "
+      + "a part of it turns back, and the rest climbs over in steps, one for each round trip in the specimen, until both "
+      + "faces carry nearly the same force. From the reflected and the transmitted pulse one reads strain and stress of "
+      + "the specimen.",
+  },
+];

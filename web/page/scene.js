@@ -1,5 +1,5 @@
 // The values of the page, and the same as a scene, as a command and as a link.
-import { PRESETS } from "./presets.js";
+import { CHAINS, PRESETS } from "./presets.js";
 
 /** Values of the scene; numbers are texts, as they were typed. */
 export const scene = { ...PRESETS[0].scene };
@@ -24,6 +24,13 @@ export const command = () => `dalembert solve - <<'END'\n${toml()}END\n`;
 
 /** Returns the fragment of a link that holds the scene and a time. */
 export const fragment = (time) => `#${new URLSearchParams({ ...scene, t: time })}`;
+
+/** Returns the fragment of a link that holds a chain, and the index of the chain that a fragment holds, or −1. */
+export const chainFragment = (k) => `#chain=${k + 1}`;
+export function readChain(hash) {
+  const k = Number(new URLSearchParams(hash.slice(1)).get("chain")) - 1;
+  return CHAINS[k] ? k : -1;
+}
 
 /** Reads the scene from the fragment of a link. Returns the time, or null if there is none. */
 export function read(hash) {

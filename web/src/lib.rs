@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use dalembert::number::{Answer, Scalar, bound_of_log2, show};
-use dalembert::quantity::restitution;
+use dalembert::quantity::{Measure, restitution};
 use dalembert::{
-    Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side, TypedHistory, Units,
-    Warning,
+    ChainScene, Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side,
+    TypedHistory, Units, Warning,
 };
 use dalembert_plot::{Canvas, Drawing, DrawnSvg, RodPicture, RunExtremes};
 use wasm_bindgen::prelude::*;
@@ -218,6 +218,74 @@ impl Run {
         let units = Units::new(&self.scene.problem, self.scene.units);
         let DrawnSvg { svg, color_limit } = drawing.draw(&self.history, units).map_err(failed)?;
         Ok(Picture { svg, color_limit })
+    }
+}
+
+/// A chain of bars, solved in doubles.
+#[wasm_bindgen]
+pub struct Stack {
+    scene: ChainScene,
+    bodies: Vec<(String, Units, TypedHistory<f64>)>,
+}
+
+#[wasm_bindgen]
+impl Stack {
+    /// Solves the chain of `toml`.
+    #[wasm_bindgen(constructor)]
+    pub fn new(toml: &str) -> Result<Stack, JsError> {
+        let scene = ChainScene::parse(toml).map_err(refuse)?;
+        let name = |k: usize| scene.chain.bodies()[k].name().map_or_else(|| format!("body {}", k + 1), str::to_string);
+        let solve = |(k, body): (usize, Scene)| {
+            let plan = Plan::of(&body.problem, &Question::run(Numbers::Double(Some(ACCURACY)))).map_err(refuse)?;
+            let observe = Arc::new(|_, _| ControlFlow::Continue(()));
+            let history = TypedHistory::solve(&body.problem, &plan, observe).map_err(failed)?;
+            Ok((name(k), Units::new(&body.problem, body.units), history))
+        };
+        let bodies = scene.bodies().map_err(refuse)?.into_iter().enumerate().map(solve);
+        let bodies = bodies.collect::<Result<_, JsError>>()?;
+        Ok(Stack { scene, bodies })
+    }
+
+    /// Returns for each contact below a body its joint, beginning, end, duration, impulse and greatest force.
+    pub fn contacts(&self) -> Vec<String> {
+        let mut rows = Vec::new();
+        for (node, (_, units, history)) in self.bodies.iter().enumerate() {
+            let factor = |measure| units.factor::<f64>(measure, &()).unwrap_or(1.0);
+            for contact in history.contacts() {
+                let duration = contact.release.map(|to| to - contact.impact);
+                let impulse = contact.impulse * factor(Measure::Impulse);
+                let peak = contact.peak_strain * factor(Measure::Force);
+                rows.extend([self.scene.chain.node_name(node), text(&contact.impact)]);
+                rows.extend([
+                    optional(contact.release.as_ref()),
+                    optional(duration.as_ref()),
+                    text(&impulse),
+                    text(&peak),
+                ]);
+            }
+        }
+        rows
+    }
+
+    /// Returns the last time.
+    pub fn end(&self) -> f64 {
+        self.scene.chain.until().to_f64()
+    }
+
+    /// Returns the fields of all bodies and the forces at the joints, for a part of the screen; lengths are in mm.
+    pub fn screen(&self, width: f64, height: f64, letters: f64) -> Result<String, JsError> {
+        self.picture(Canvas::Screen { width, height, letters })
+    }
+
+    /// Returns the pictures of a page.
+    pub fn page(&self) -> Result<String, JsError> {
+        self.picture(Canvas::Page)
+    }
+
+    /// Returns the picture of a chain as `dalembert plot` draws it.
+    fn picture(&self, canvas: Canvas) -> Result<String, JsError> {
+        let drawing = Drawing { title: self.scene.title.clone(), span: None, canvas };
+        Ok(drawing.draw_chain(&self.scene.chain, &self.bodies).map_err(failed)?.svg)
     }
 }
 

@@ -165,7 +165,44 @@ for (let k = 1; k <= 5; k += 1) {
   if (k === 4) assert.deepEqual([rows[0][2], rows.length], ["2.5", 20]);
   if (k === 5) assert.deepEqual([rows[7][1], rows[7][2]], ["31", "34"]);
 }
-assert.equal(new Set(stories).size, 5);
+
+
+// Chains of bars: the contacts are those of the command, and results derived by hand.
+for (let k = 6; k <= 8; k += 1) {
+  await press(String(k));
+  assert.equal(await page.getAttribute(`#chains button:nth-child(${k - 5})`, "aria-pressed"), "true");
+  stories.push(await text("story"));
+  assert.ok(await page.isVisible("#chain") && await page.isHidden("main"));
+  const rows = await page.$$eval("#joints tbody tr", (rows) => rows.map(
+    (row) => [...row.cells].map((cell) => cell.textContent)));
+  const given = JSON.parse(command(["solve", "-", "--format", "json"], await text("scene"))).contacts;
+  const inOrder = [...rows].sort((a, b) => Number(a[1]) - Number(b[1]));
+  assert.equal(rows.length, given.length, `story ${k}`);
+  given.forEach((contact, j) => {
+    assert.equal(inOrder[j][0], contact.node);
+    [contact.impact, contact.release ?? "", null, contact.impulse, contact.peak_force].forEach((x, c) => {
+      if (x !== null) agrees(inOrder[j][c + 1], x === "" ? "" : String(x), Math.abs(x) || 1, `story ${k}, contact ${j + 1}`);
+    });
+  });
+  if (k === 6) assert.deepEqual(rows.map((row) => row.slice(1, 4)), [["0.1", "0.385714285714", "0.285714285714"]]);
+  if (k === 7) assert.deepEqual(rows.map((row) => row.slice(1)), [["0.5", "2.5", "2", "1", "0.5"],
+    ["1.75", "3.75", "2", "1", "0.5"]]);
+  if (k === 8) assert.equal(rows[0][2] === "–" || Number(rows[0][2]) > 0, true);
+  assert.ok((await page.$$("#stack .cells polygon")).length > 5 && (await page.$$("#stack .panel")).length === 2);
+  await page.screenshot({ path: join(ROOT, `target/page/chain-${k}.png`) });
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+  const path = join(ROOT, "target/page", download.suggestedFilename());
+  await download.saveAs(path);
+  const drawn = command(["plot", "-", "-o", "-"], await text("scene"));
+  assert.ok(readFileSync(path, "utf8") === drawn, `story ${k}: the picture of the command`);
+  const link = page.url();
+  await open(`#${link.split("#")[1]}`);
+  await idle();
+  assert.ok(await page.isVisible("#stack svg"), link);
+}
+await press("1");
+assert.ok(await page.isHidden("#chain") && await page.isVisible("#rod"));
+assert.equal(new Set(stories).size, 8);
 
 // The story disappears when its scene is changed.
 await press("1");

@@ -119,13 +119,18 @@ impl Agreement {
     }
 
     /// Finds the contacts and audits the columns. The first `start` samples are at `t = 0`, where the ground does not
-    /// act yet.
+    /// act yet. A body of a chain has contacts where its lower end is one, and no balances of its own: its neighbours
+    /// act on it, and it may move below its place at the start.
     fn audit_contacts(&mut self, reference: &Reference<'_>, until: Option<f64>, start: usize) {
         let times = &self.grid.times;
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
         let theirs = |what: Quantity| self.column(what).map(|compared| compared.theirs.as_slice());
         let force = self.force(reference);
-        let (force, flags, end) = (force.as_deref(), theirs(Quantity::Contact), theirs(Quantity::EndDisplacement));
+        let chain = reference.history.problem().chain();
+        let (is_alone, lands) = (chain.is_none(), chain.is_none_or(|(chain, body)| chain.is_contact(body)));
+        let force = force.as_deref().filter(|_| lands);
+        let flags = theirs(Quantity::Contact).filter(|_| lands);
+        let end = theirs(Quantity::EndDisplacement).filter(|_| is_alone);
         let exact = reference.contacts();
         let most = exact.iter().filter_map(|contact| contact.peak_force).fold(0.0, f64::max);
         let height = self.column(Quantity::EndDisplacement).into_iter().flat_map(|end| &end.ours);
@@ -150,7 +155,7 @@ impl Agreement {
             let is_later = |contact: &ContactRecord| contact.impact > last - 2.0 * self.step;
             contacts.retain(|pair| pair.theirs.is_some() || !pair.ours.as_ref().is_some_and(is_later));
         }
-        let momentum = (reference.history.problem().top() == Top::Free).then(|| {
+        let momentum = (is_alone && reference.history.problem().top() == Top::Free).then(|| {
             let rod = reference.rod();
             MomentumTerms { mass: reference.mass(), gravity: rod.gravity, damping: rod.damping }
         });
@@ -159,11 +164,18 @@ impl Agreement {
             start,
             displacement: end,
             force,
-            energy: self.column(Quantity::Energy).map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
+            energy: self
+                .column(Quantity::Energy)
+                .filter(|_| is_alone)
+                .map(|energy| [energy.ours.as_slice(), energy.theirs.as_slice()]),
             centre_velocity: theirs(Quantity::CentreVelocity),
             momentum,
         };
-        let mut audit = Audit { not_covered: input.not_covered(self.step, until.unwrap_or(last)), ..input.audit() };
+        let mut audit = Audit {
+            not_covered: input.not_covered(self.step, until.unwrap_or(last)),
+            of_body: !is_alone,
+            ..input.audit()
+        };
         for pair in &contacts {
             let (contact, count) = match pair {
                 ContactPair { ours: Some(contact), theirs: None } => (contact, &mut audit.missed),

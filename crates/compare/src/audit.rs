@@ -46,6 +46,9 @@ pub(crate) struct Audit {
     pub below_step: usize,
     /// Times of the run without samples: before the first, after the last, and holes of ten median steps.
     pub not_covered: Vec<[f64; 2]>,
+    /// Whether the rod is a body of a chain.
+    #[serde(skip)]
+    pub of_body: bool,
 }
 
 /// The values of the rod that enter the balance of momentum.

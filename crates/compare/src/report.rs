@@ -276,7 +276,9 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         ("contacts", format!("{} missed, {} invented{below}", audit.missed, audit.invented)),
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];
-    lines.map(|(name, text)| format!("{name:<20}{text}\n")).concat()
+    // A body of a chain has no balances.
+    let lines = lines.into_iter().filter(|(_, text)| !(audit.of_body && text.starts_with('–')));
+    lines.map(|(name, text)| format!("{name:<20}{text}\n")).collect()
 }
 
 /// Returns the table of the orders of convergence, one row for each pair of neighbouring files.

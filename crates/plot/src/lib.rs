@@ -32,7 +32,7 @@ mod rod;
 mod scene_data;
 
 pub use draw::Canvas;
-pub use drawing::{Drawing, DrawnSvg};
+pub use drawing::{Drawing, DrawnSvg, heights};
 pub use panels::UnitsDiffer;
 pub use picture::{FieldQuantity, Picture, UnknownPicture};
 pub use rod::{RodPicture, RunExtremes};

@@ -287,7 +287,8 @@ impl Bounded for Interval {
         let other = other();
         match self.meet(&other) {
             Some(both) => Interval { inside: if lost { other.inside } else { self.inside }, ..both },
-            None => self,
+            // No number is in both: nothing is known.
+            None => Interval::everything(self.lo.prec()),
         }
     }
 

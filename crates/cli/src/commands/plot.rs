@@ -15,11 +15,10 @@ use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::Ending;
 use dalembert::Scene;
-use dalembert::chain::{Chain, Joint};
 use dalembert::number::{Number, Scalar};
 use dalembert::solve::{History, Numbers, Question};
 use dalembert_plot::draw::{Size, without_subscripts};
-use dalembert_plot::{FieldQuantity, Picture, Request, SceneData};
+use dalembert_plot::{FieldQuantity, Picture, Request, SceneData, heights};
 
 #[derive(Args, Debug)]
 #[command(mut_arg("format", known_formats(PICTURES)))]
@@ -196,23 +195,6 @@ impl Plot {
         note_span(file, request, &found, &history);
         Ok(found)
     }
-}
-
-/// Share of the height of a chain by which a contact joint is drawn open.
-const DRAWN_GAP: f64 = 0.05;
-
-/// Returns the height of each body in a picture.
-fn heights(chain: &Chain) -> Vec<f64> {
-    let lengths = || chain.bodies().iter().map(|body| body.length().to_f64());
-    let gap = DRAWN_GAP * lengths().sum::<f64>();
-    let gaps = chain.joints().iter().map(|joint| if *joint == Joint::Bonded { 0.0 } else { gap });
-    let rises = [0.0].into_iter().chain(lengths().zip(gaps).map(|(length, gap)| length + gap));
-    rises
-        .scan(0.0, |height, rise| {
-            *height += rise;
-            Some(*height)
-        })
-        .collect()
 }
 
 /// Prints notes on the part of a history that is drawn.

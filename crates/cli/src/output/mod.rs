@@ -15,6 +15,7 @@ mod regimes;
 mod rows;
 mod run_info;
 mod schema;
+mod schema_chain;
 mod schema_types;
 mod solve;
 mod sweep;

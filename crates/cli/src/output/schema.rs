@@ -4,6 +4,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
 use super::rows::Document;
+use super::schema_chain::{ChainSamplesSchema, ChainSchema};
 use super::solve::HistoryJson;
 use super::sweep::SweepJson;
 use dalembert_compare::{FileReport, SeriesReport};
@@ -23,6 +24,8 @@ enum Output<'a> {
     Comparison(FileReport<'a>),
     Comparisons(SeriesReport<'a>),
     Sweep(SweepJson<'a>),
+    Chain(ChainSchema),
+    ChainSamples(ChainSamplesSchema),
 }
 
 /// Returns the JSON Schema of the outputs of `solve`, `sample`, `reference`, `compare` and `sweep`.

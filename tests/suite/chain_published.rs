@@ -1,10 +1,10 @@
 //! The built-in chains against what others have published of them, and against their closed forms.
 
-use crate::chain::{Body, Chain, ChainColumn, ChainHistory, ChainListing, End};
-use crate::motion::Side;
-use crate::number::{Number, Rational, Scalar};
-use crate::scene::{ChainScene, builtin};
-use crate::solve::Numbers;
+use dalembert::Numbers;
+use dalembert::Side;
+use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainListing, End};
+use dalembert::number::{Number, Rational, Scalar};
+use dalembert::{ChainScene, builtin};
 
 fn solved(name: &str, numbers: Numbers) -> (ChainHistory, ChainListing) {
     let scene = ChainScene::parse(builtin::get(name).unwrap().source).unwrap();
@@ -46,7 +46,7 @@ fn every_chain_is_read_solved_and_explained() {
 fn contacts_are_those_published() {
     let exact = |name| solved(name, Numbers::Exact).1;
     let texts = |listing: &ChainListing| -> Vec<String> {
-        let contact = |c: &crate::chain::ChainContact<_>| {
+        let contact = |c: &dalembert::chain::ChainContact<_>| {
             let release = c.release.as_ref().map_or("–".into(), ToString::to_string);
             format!("{} {} {} {}", c.node, c.impact, release, c.peak)
         };

@@ -1,12 +1,12 @@
 //! Bodies of random chains as problems of their own, against the chain itself.
 
-use super::properties::Random;
-use crate::chain::{Chain, ChainColumn};
-use crate::motion::Side;
-use crate::number::{Bounded, Number, Rational, Scalar, Value};
-use crate::problem::{Parameter, Problem};
-use crate::quantity::{Quantity, Units};
-use crate::solve::Numbers;
+use crate::random_chain::Random;
+use dalembert::Numbers;
+use dalembert::Side;
+use dalembert::chain::{Chain, ChainColumn};
+use dalembert::number::{Bounded, Number, Rational, Scalar, Value};
+use dalembert::problem::{Parameter, Problem};
+use dalembert::quantity::{Quantity, Units};
 
 fn number(text: &str) -> Number {
     text.parse().unwrap()
@@ -106,7 +106,7 @@ fn doubles_are_within_their_bounds() {
         let events = chain.solve(Numbers::Exact).unwrap().listing().unwrap().events;
         let beside = |text: &str, by: &str| {
             let shifted = number(text).to_rational() + number(by).to_rational();
-            Number::of_rational(&shifted)
+            shifted.to_string().parse::<Number>().ok()
         };
         let mut times: Vec<Number> = ["37/29", "2.7182818284590452353602", "4.1"].map(number).into();
         for event in events.iter().take(6) {
@@ -154,7 +154,7 @@ fn spelled(value: &Value) -> Number {
 #[test]
 fn derivatives_of_a_body_are_those_of_its_closed_form() {
     // Two bars of impedance 1 and Z: the force is v Z/(1 + Z) until the wave returns from the lower one at 2L/c.
-    let bar = |impedance: &str| crate::chain::Body::new(1.into(), 1.into(), number(impedance));
+    let bar = |impedance: &str| dalembert::chain::Body::new(1.into(), 1.into(), number(impedance));
     let chain = Chain::builder(bar("1")).contact(number("0.5"), bar("3").with_velocity((-1).into())).until(3.into());
     let problems = chain.build().unwrap().problems().unwrap();
     let history = problems[1].solve().unwrap();
@@ -174,7 +174,7 @@ fn derivatives_of_a_body_are_those_of_its_closed_form() {
 
 #[test]
 fn a_changed_body_is_a_changed_chain() {
-    let bar = |velocity: i64| crate::chain::Body::new(1.into(), 1.into(), 2.into()).with_velocity(velocity.into());
+    let bar = |velocity: i64| dalembert::chain::Body::new(1.into(), 1.into(), 2.into()).with_velocity(velocity.into());
     let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(6.into()).build().unwrap();
     let upper = &chain.problems().unwrap()[1];
     let longer = upper.to_builder().set(Parameter::Time, 8).build().unwrap();
@@ -186,7 +186,7 @@ fn a_changed_body_is_a_changed_chain() {
     assert!(upper.to_builder().impact_speed(3).build().is_err());
     assert_eq!(
         Units::new(upper, Default::default())
-            .factor::<Rational>(crate::quantity::Measure::Force, &())
+            .factor::<Rational>(dalembert::quantity::Measure::Force, &())
             .map(|f| f.same(&Rational::from(-2))),
         Some(true)
     );

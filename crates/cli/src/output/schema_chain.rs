@@ -1,0 +1,139 @@
+//! The JSON Schema of the outputs for a whole chain.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+
+use super::schema_types::{NumberSchema, UncertaintySchema};
+use dalembert_compare::SchemaVersion;
+
+/// Output of solve for a whole chain
+#[derive(JsonSchema)]
+#[schemars(rename = "chain")]
+#[expect(dead_code, reason = "describes an output")]
+pub(super) struct ChainSchema {
+    schema: SchemaVersion,
+    title: Option<String>,
+    /// The bodies, from the bottom up.
+    bodies: Vec<BodySchema>,
+    /// The numbers of the run: double, exact, or digits.
+    number: String,
+    /// The unit of each measure; null if it is not known.
+    units: BTreeMap<String, Option<String>>,
+    events: Vec<EventSchema>,
+    touches: Vec<TouchSchema>,
+    contacts: Vec<ContactSchema>,
+    forces: Vec<ForceSchema>,
+    /// The last time of the run.
+    end: NumberSchema,
+    /// The reason of the end.
+    ending: String,
+    warnings: Vec<String>,
+}
+
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_body")]
+#[expect(dead_code, reason = "describes an output")]
+struct BodySchema {
+    /// The number of the body, from 1 at the bottom.
+    body: usize,
+    name: Option<String>,
+    length: String,
+}
+
+/// An impact or a release
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_event")]
+#[expect(dead_code, reason = "describes an output")]
+struct EventSchema {
+    /// The node: bottom, joint 1 above the first body, top.
+    node: String,
+    event: EventKindSchema,
+    t: NumberSchema,
+    /// The rate of the gap that free ends would have just before.
+    gap_rate_before: NumberSchema,
+    /// The same rate just after.
+    gap_rate_after: NumberSchema,
+    uncertainty: BTreeMap<String, UncertaintySchema>,
+}
+
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_event_kind", rename_all = "lowercase")]
+#[expect(dead_code, reason = "describes an output")]
+enum EventKindSchema {
+    Impact,
+    Release,
+}
+
+/// A gap that reaches zero without a contact
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_touch")]
+#[expect(dead_code, reason = "describes an output")]
+struct TouchSchema {
+    node: String,
+    t: NumberSchema,
+    uncertainty: BTreeMap<String, UncertaintySchema>,
+}
+
+/// A contact at a node
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_contact")]
+#[expect(dead_code, reason = "describes an output")]
+struct ContactSchema {
+    node: String,
+    impact: NumberSchema,
+    /// Null if the run ends before.
+    release: Option<NumberSchema>,
+    impulse: NumberSchema,
+    peak_force: NumberSchema,
+    /// The first time of the greatest force.
+    peak_time: NumberSchema,
+    uncertainty: BTreeMap<String, UncertaintySchema>,
+}
+
+/// A stretch of time on which the compressive force of a node is linear
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_force")]
+#[expect(dead_code, reason = "describes an output")]
+struct ForceSchema {
+    node: String,
+    start: NumberSchema,
+    end: NumberSchema,
+    force_start: NumberSchema,
+    force_end: NumberSchema,
+    uncertainty: BTreeMap<String, UncertaintySchema>,
+}
+
+/// Output of sample for a whole chain
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_samples")]
+#[expect(dead_code, reason = "describes an output")]
+pub(super) struct ChainSamplesSchema {
+    schema: SchemaVersion,
+    title: Option<String>,
+    number: String,
+    /// The unit of each measure; null if it is not known.
+    units: BTreeMap<String, Option<String>>,
+    rows: Vec<SampleSchema>,
+}
+
+/// The columns at a time: u_top.2 of the second body, force.1 of the joint above the first
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_sample")]
+#[expect(dead_code, reason = "describes an output")]
+struct SampleSchema {
+    t: NumberSchema,
+    side: SideSchema,
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    uncertainty: Option<BTreeMap<String, UncertaintySchema>>,
+    #[schemars(flatten)]
+    columns: BTreeMap<String, NumberSchema>,
+}
+
+#[derive(JsonSchema)]
+#[schemars(rename = "chain_side", rename_all = "lowercase")]
+#[expect(dead_code, reason = "describes an output")]
+enum SideSchema {
+    Left,
+    Right,
+}
