@@ -53,6 +53,14 @@ fn holds(found: &Value, truth: &Rational) -> bool {
     Scalar::to_f64(&(near - truth)).abs() <= found.log2_error().exp2() * (1.0 + 1e-12)
 }
 
+/// Returns the listing with the events and contacts of each joint together: doubles do not know the order of those of
+/// different joints that are nearer than their bounds.
+fn by_joint(mut listing: ChainListing) -> ChainListing {
+    listing.events.sort_by_key(|event| event.node);
+    listing.contacts.sort_by_key(|contact| contact.node);
+    listing
+}
+
 fn numbers(listing: &ChainListing) -> Vec<&Value> {
     let events = listing.events.iter().flat_map(|event| [&event.t, &event.before, &event.after]);
     let contacts = listing
@@ -70,7 +78,7 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
         for _ in 0..12 {
             let chain = chain(&mut random, e);
             let exact = chain.solve(Numbers::Exact).unwrap();
-            let truths = exact.listing().unwrap();
+            let truths = by_joint(exact.listing().unwrap());
             let truth = |value: &Value| value.as_rational().unwrap().clone();
             // Times beside events, on both sides of those that nearly coincide with them.
             let mut times = vec![number("37/29"), number("151/43")];
@@ -84,7 +92,7 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
             }
             for asked in [Numbers::default(), Numbers::Digits(40), Numbers::Certified(40)] {
                 let history = chain.solve(asked).unwrap();
-                let found = history.listing().unwrap();
+                let found = by_joint(history.listing().unwrap());
                 assert!(history.warning().is_none(), "{asked}, 1e-{e}: {chain:?}");
                 let order = |listing: &ChainListing| -> Vec<String> {
                     let events = listing.events.iter();
