@@ -57,6 +57,7 @@ page:
 	$(CARGO) run --quiet --package pack -- target/web/$(WASM)/page/dalembert_web.wasm web/page target/page/dalembert.html
 
 page-test: page chromium web/test/node_modules
+	$(CARGO) test --quiet --package pack
 	$(CARGO) $(BUILD)
 	cd web/test && node page.mjs
 

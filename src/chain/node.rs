@@ -291,7 +291,13 @@ impl<N: Bounded> Node<N> {
                 self.resting = false;
             }
         }
-        if was_closed != self.closed {
+        // Where two breaks, or a break and a root, coincide within their bounds, their order sets the rates at the event,
+        // the peak, and whether there is another event.
+        let is_event = was_closed != self.closed;
+        if (is_event && alone.is_some()) || (root.is_some() && crossed) {
+            self.doubts(&t, &t);
+        }
+        if is_event {
             let place = stored.nominal().joined(root.as_ref().unwrap_or(&t)).joined(&t);
             self.cross(&place, &mut off);
         }
@@ -372,8 +378,9 @@ impl<N: Bounded> Node<N> {
         Ok(false)
     }
 
-    /// Notes a doubt if the force of a closed contact is greater between two breaks, which coincide within their bounds,
-    /// than before and after them: whether they coincide sets the peak. `alone` has the drives after one of them each.
+    /// Notes a doubt if the force of a closed contact is greater between two breaks than before and after them. The
+    /// breaks coincide within their bounds; if they do not coincide, that force is the peak. `alone` has the drives after
+    /// one of them each.
     fn check_sliver(&mut self, drives: [&Line<N>; 2], alone: Option<&[Line<N>; 2]>, t: &N) {
         let drives = drives.map(|line| line.value_at(t));
         // The force rises as the drive falls.

@@ -17,7 +17,7 @@ fn beside(whole: i64, k: i64, e: u32) -> Number {
     sum.to_string().parse().unwrap()
 }
 
-/// Returns equal bars and bars of twice the impedance in a row, at velocities and gaps that let all joints act at nearly
+/// Returns bars of impedance one and two in a row, at velocities and gaps that let all joints act at nearly
 /// the same times.
 fn chain(random: &mut Random, e: u32) -> Chain {
     let mut off = || random.below(7) as i64 - 3;
@@ -116,4 +116,26 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
         }
     }
     assert!(compared > 10_000, "{compared}");
+}
+
+/// A wave that slows an approach reaches the joint just after or just before it closes. The velocities −1/2 and −1/10 at
+/// which free ends would close give the forces 1/4 and 1/20 of bars of impedance one.
+#[test]
+fn a_wave_beside_an_impact_sets_its_force() {
+    for e in [6, 12, 18, 25] {
+        for (gap, rate) in [(beside(1, -5, e + 1), "-1/2"), (beside(1, 5, e + 1), "-1/10")] {
+            let bar = || Body::new(1.into(), 1.into(), 1.into());
+            let pulled = [("0", "0"), ("1", "0"), ("1", "-1/5")].map(|(t, v)| (number(t), number(v)));
+            let chain = Chain::builder(bar()).bottom(End::Velocity(pulled.to_vec()));
+            let chain = chain.contact(gap, bar().with_velocity(number("-1/2"))).until(3.into()).build().unwrap();
+            let rate = number(rate).to_rational();
+            let peak = rate.clone() / Rational::from(-2);
+            for asked in [Numbers::Exact, Numbers::default(), Numbers::Digits(30), Numbers::Certified(30)] {
+                let listing = chain.solve(asked).unwrap().listing().unwrap();
+                let (event, contact) = (&listing.events[0], &listing.contacts[0]);
+                let found = [&event.before, &event.after].map(|found| holds(found, &rate));
+                assert!(found == [true; 2] && holds(&contact.peak, &peak), "{asked}, 1e-{e}: {event:?} {contact:?}");
+            }
+        }
+    }
 }

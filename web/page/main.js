@@ -111,6 +111,7 @@ function say(mistake, doubts) {
   const text = mistake || doubts.map((doubt) => `Not settled: ${doubt}.`).join(" ");
   $("doubt").textContent = text;
   $("doubt").hidden = text === "";
+  if (chain >= 0 && text) $("status").textContent = text;
   $("beyond").hidden = doubts.length === 0;
 }
 
@@ -337,6 +338,7 @@ const showChain = () => busily(async () => {
   const { text, story } = CHAINS[chain];
   $("story").replaceChildren(...withSubscripts(story));
   $("scene").textContent = text;
+  $("command").textContent = command(text);
   say("", []);
   mark();
   const asked = chain;
@@ -373,8 +375,8 @@ async function choose(k) {
 
 /** Marks the story whose scene is shown, if there is one. */
 function mark() {
-  const same = (story) => chain < 0 && Object.entries(story.scene).every(([name, text]) => String(scene[name]) === String(text));
-  const found = PRESETS.findIndex(same);
+  const same = (story) => Object.entries(story.scene).every(([name, text]) => String(scene[name]) === String(text));
+  const found = chain < 0 ? PRESETS.findIndex(same) : -1;
   const pressed = chain < 0 ? found : PRESETS.length + chain;
   buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(k === pressed)));
   if (chain < 0) $("story").replaceChildren(...(found >= 0 ? withSubscripts(PRESETS[found].story) : []));
@@ -481,7 +483,7 @@ function listen() {
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "light"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => setTheme(event.matches));
   $("copy-scene").addEventListener("click", () => copy($("scene").textContent, "scene"));
-  $("copy-command").addEventListener("click", () => copy(command(), "command"));
+  $("copy-command").addEventListener("click", () => copy($("command").textContent, "command"));
   $("copy-link").addEventListener("click", () => copy(
     location.href.split("#")[0] + (chain < 0 ? fragment($("now").value) : chainFragment(chain)), "link"));
   $("save").addEventListener("click", () => busily(saveSvg));
@@ -531,7 +533,7 @@ function unpacked(text) {
   for (let k = 0; k * 5 < text.length; k += 1) {
     let group = 0;
     for (let j = 0; j < 5; j += 1) {
-      // The code after the backslash and the less-than sign, which are left out.
+      // The codes pass over the less-than sign and the backslash.
       const code = text.charCodeAt(5 * k + j);
       group = group * 85 + (Number.isNaN(code) ? 84 : code - 35 - (code > 60) - (code > 92));
     }

@@ -39,7 +39,11 @@ export const PRESETS = [
   },
 ];
 
-const bar = (name, values) => `[[body]]\nname = "${name}"\n${Object.entries(values).map(([key, x]) => `${key} = ${x}\n`).join("")}\n`;
+/** Returns a body in TOML. */
+const bar = (name, values) => {
+  const lines = Object.entries(values).map(([key, x]) => `${key} = ${x}`);
+  return ["[[body]]", `name = "${name}"`, ...lines, "", ""].join("\n");
+};
 // The wave speed is 5076 m/s.
 const steel = (length, area) => ({ length, modulus: "200973052800", density: 7800, area });
 const unit = { length: 1, wave_speed: 1, impedance: 1 };

@@ -19,8 +19,8 @@ export function toml() {
   return [...lines, "", "[run]", `impacts = ${n}`, ""].join("\n");
 }
 
-/** Returns a command line for a POSIX shell that solves the scene. */
-export const command = () => `dalembert solve - <<'END'\n${toml()}END\n`;
+/** Returns a command line for a POSIX shell that solves a scene. */
+export const command = (text = toml()) => `dalembert solve - <<'END'\n${text}END\n`;
 
 /** Returns the fragment of a link that holds the scene and a time. */
 export const fragment = (time) => `#${new URLSearchParams({ ...scene, t: time })}`;

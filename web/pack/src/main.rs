@@ -45,7 +45,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Writes four bytes as five characters, from `#` to `y` without `<` and `\\`: a sixteenth shorter than base64. The
+/// Writes four bytes as five characters, from `#` to `y` without the less-than sign and the backslash: a sixteenth shorter than base64. The
 /// function `unpacked` of the page reads them.
 fn encoded(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_encoded_is_decoded() {
+    fn decoding_inverts_encoding() {
         let bytes: Vec<u8> =
             (0..4000u32).map(|k| (k.wrapping_mul(2_654_435_761) >> 13) as u8).chain([255; 9]).collect();
         for length in [0, 1, 2, 3, 4, 5, 6, 7, 8, 255, bytes.len()] {
