@@ -156,6 +156,16 @@ pub enum Error {
     /// The travelling waves of a damped rod, or of a body of a chain.
     #[error("found a damped rod or a body of a chain, expected an undamped rod by itself, which two waves describe")]
     NoWaves,
+    /// Exact fractions of a chain with springs, dashpots or masses.
+    #[error(
+        "found a chain with springs, dashpots or masses in fractions, expected digits: its signals are exponentials,          which are no fractions"
+    )]
+    SoftExact,
+    /// Lines of a chain with springs, dashpots or masses.
+    #[error(
+        "found a chain with springs, dashpots or masses, expected rigid joints and bars: its velocity and stress are no          lines between rays"
+    )]
+    Curved,
     /// A contact that the history does not have.
     #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
     NoContact {

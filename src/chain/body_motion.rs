@@ -245,7 +245,7 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     fn departures(&self) -> Result<[Vec<(N, N)>; 2], Error> {
         let ray = |pair: &[Piece<N>]| {
             let from = &pair[1].from;
-            let jump = pair[1].line.value_at(from) - pair[0].line.value_at(from);
+            let jump = pair[1].signal.value_at(from) - pair[0].signal.value_at(from);
             (from.clone(), jump.halved())
         };
         let [up, down] = &self.run.waves[self.body];

@@ -40,6 +40,25 @@ pub enum BodyMaterial {
         /// `A > 0`.
         area: Number,
     },
+    /// A rigid body without a length, which no wave passes.
+    Rigid {
+        /// `m > 0`.
+        mass: Number,
+    },
+}
+
+/// A spring with a dashpot beside it, through which two neighbours act on each other.
+///
+/// The compressive force is `k δ + d δ′` for the depth `δ`, which is the negative gap. In a contact it acts while it pushes,
+/// and in a bonded joint always.
+///
+/// **Units**: those of a whole cross-section, `k` in force per length and `d` in force per velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spring {
+    /// `k ≥ 0`.
+    pub stiffness: Number,
+    /// `d ≥ 0`.
+    pub damping: Number,
 }
 
 /// The connection of a body to the body below it.
@@ -79,7 +98,7 @@ pub enum End {
     },
 }
 
-/// A chain of undamped elastic bars along one axis, from the bottom up.
+/// A chain of undamped elastic bars and rigid masses along one axis, from the bottom up.
 ///
 /// ```
 /// use dalembert::chain::{Body, Chain, End};
@@ -95,6 +114,8 @@ pub struct Chain {
     pub(super) bodies: Vec<Body>,
     pub(super) joints: Vec<Joint>,
     pub(super) ends: [End; 2],
+    /// The springs, each at its node.
+    pub(super) springs: Vec<(usize, Spring)>,
     pub(super) gravity: Number,
     pub(super) until: Number,
     pub(super) max_pieces: usize,
@@ -115,13 +136,29 @@ impl Body {
         Body::with_material(length, BodyMaterial::Elastic { modulus, density, area })
     }
 
+    /// Returns a rigid body at rest, with this mass and without a length.
+    pub fn rigid(mass: Number) -> Self {
+        Body::with_material(0.into(), BodyMaterial::Rigid { mass })
+    }
+
+    /// Returns the mass of a rigid body; `None` for a bar.
+    pub fn rigid_mass(&self) -> Option<&Number> {
+        match &self.material {
+            BodyMaterial::Rigid { mass } => Some(mass),
+            _ => None,
+        }
+    }
+
     pub(super) fn with_material(length: Number, material: BodyMaterial) -> Self {
         Body { name: None, length, material, velocity: Vec::new(), displacement: Vec::new() }
     }
 
     /// Returns the body with one velocity everywhere, upward where it is positive.
     pub fn with_velocity(self, velocity: Number) -> Self {
-        let velocity = vec![(0.into(), velocity.clone()), (self.length.clone(), velocity)];
+        let velocity = match self.material {
+            BodyMaterial::Rigid { .. } => vec![(0.into(), velocity)],
+            _ => vec![(0.into(), velocity.clone()), (self.length.clone(), velocity)],
+        };
         Body { velocity, ..self }
     }
 
@@ -170,7 +207,7 @@ impl Body {
         &self.material
     }
 
-    /// Returns `Z²` and `c²`, which are fractions.
+    /// Returns `Z²` and `c²`, which are fractions; zero and one for a rigid body.
     pub(super) fn squares(&self) -> [Rational; 2] {
         match &self.material {
             BodyMaterial::Impedance { wave_speed, impedance } => {
@@ -180,6 +217,7 @@ impl Body {
                 let [modulus, density, area] = [modulus, density, area].map(Number::to_rational);
                 [Scalar::square(&area) * &modulus * &density, modulus / density]
             }
+            BodyMaterial::Rigid { .. } => [Rational::from(0), Rational::from(1)],
         }
     }
 }
@@ -193,6 +231,7 @@ impl Chain {
             bodies,
             joints: Vec::new(),
             ends,
+            springs: Vec::new(),
             gravity: zero.clone(),
             until: zero,
             max_pieces: MAX_PIECES,
@@ -212,6 +251,16 @@ impl Chain {
     /// Returns the conditions at the bottom and at the top.
     pub fn ends(&self) -> &[End; 2] {
         &self.ends
+    }
+
+    /// Returns the spring at a node, if it has one: 0 is the bottom of the chain, `n` lies above the n-th body.
+    pub fn spring(&self, node: usize) -> Option<&Spring> {
+        self.springs.iter().find(|(at, _)| *at == node).map(|(_, spring)| spring)
+    }
+
+    /// Returns whether the chain has a spring, a dashpot or a rigid mass, so that its signals are curves.
+    pub fn is_soft(&self) -> bool {
+        !self.springs.is_empty() || self.bodies.iter().any(|body| body.rigid_mass().is_some())
     }
 
     /// Returns the acceleration of gravity, downward.
@@ -322,6 +371,26 @@ impl ChainBuilder {
         self
     }
 
+    /// Puts a spring in place of rigid contact, or of a rigid bond, at a node: 0 is the bottom of the chain, `n` lies above
+    /// the n-th body.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn, End, Spring};
+    /// use dalembert::{Number, Numbers, Side};
+    /// // A free rod on a penalty of 20 EA/L leaves the ground at 2L/c + x/ω with eˣ = 2 + 2x, for ω = 20 c/L.
+    /// let rod = Body::new(1.into(), 1.into(), 1.into()).with_velocity((-1).into());
+    /// let spring = Spring { stiffness: 20.into(), damping: 0.into() };
+    /// let ground = End::Ground { gap: 0.into(), velocity: Vec::new() };
+    /// let chain = Chain::builder(rod).bottom(ground).spring(0, spring).until(3.into()).build()?;
+    /// let release = chain.solve(Numbers::Digits(30))?.listing()?.events[1].t.to_string();
+    /// assert_eq!(release, "2.08391734950033301182670644256");
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn spring(mut self, node: usize, spring: Spring) -> Self {
+        self.0.springs.push((node, spring));
+        self
+    }
+
     /// Sets the acceleration of gravity, downward.
     pub fn gravity(mut self, gravity: Number) -> Self {
         self.0.gravity = gravity;
@@ -347,6 +416,17 @@ impl ChainBuilder {
         let chain = self.0;
         for (k, body) in chain.bodies.iter().enumerate() {
             let path = |key: &str| format!("body[{k}].{key}");
+            if let BodyMaterial::Rigid { mass } = &body.material {
+                positive(&path("mass"), "mass", mass)?;
+                for (key, most, points) in [("velocity", 1, &body.velocity), ("displacement", 0, &body.displacement)] {
+                    if points.len() > most {
+                        let found = format!("{} points of the {key} of a rigid body", points.len());
+                        let expected = "one velocity, and no displacement: a rigid body has no length";
+                        return Err(ProblemError::new(Kind::Contradiction, &path(key), found, expected));
+                    }
+                }
+                continue;
+            }
             positive(&path("length"), "length", &body.length)?;
             match &body.material {
                 BodyMaterial::Impedance { wave_speed, impedance } => {
@@ -358,6 +438,7 @@ impl ChainBuilder {
                     positive(&path("density"), "density", density)?;
                     positive(&path("area"), "area", area)?;
                 }
+                BodyMaterial::Rigid { .. } => {}
             }
             for (key, points) in [("velocity", &body.velocity), ("displacement", &body.displacement)] {
                 let may_jump = key == "velocity";
@@ -389,12 +470,61 @@ impl ChainBuilder {
                 End::Free | End::Infinite { impedance: None, .. } => (),
             }
         }
+        chain.check_springs()?;
         if chain.gravity.to_f64() < 0.0 {
             let found = format!("acceleration = {}", chain.gravity);
             return Err(ProblemError::new(Kind::OutOfRange, "gravity.acceleration", found, "zero or more"));
         }
         positive("run.time", "time", &chain.until)?;
         Ok(chain)
+    }
+}
+
+impl Chain {
+    /// Checks the springs, and that neighbours without an elastic side between them have one.
+    fn check_springs(&self) -> Result<(), ProblemError> {
+        let top = self.bodies.len();
+        let path = |node: usize| match node {
+            0 => "ends.bottom".to_string(),
+            node if node == top => "ends.top".to_string(),
+            node => format!("body[{node}].joint"),
+        };
+        for (k, (node, spring)) in self.springs.iter().enumerate() {
+            let refuse = |found: String, expected: &str| {
+                Err(ProblemError::new(Kind::Contradiction, &path(*node), found, expected.to_string()))
+            };
+            let place = if *node > top { format!("node {node}") } else { self.node_name(*node) };
+            if *node > top || self.springs[..k].iter().any(|(other, _)| other == node) {
+                return refuse(format!("a spring at {place}"), "one spring at a node of the chain");
+            }
+            for (name, value) in [("stiffness", &spring.stiffness), ("damping", &spring.damping)] {
+                let size = value.to_f64();
+                if !(value.is_zero() || (LIMITS.0..=LIMITS.1).contains(&size)) {
+                    let found = format!("{name} = {}", short(&value.to_string()));
+                    let expected = "zero, or a number between 1e-40 and 1e40";
+                    return Err(ProblemError::new(Kind::OutOfRange, &path(*node), found, expected));
+                }
+            }
+            if spring.stiffness.is_zero() && spring.damping.is_zero() {
+                return refuse(format!("no stiffness and no damping at {place}"), "one of them above zero");
+            }
+            let end = (*node == 0).then_some(&self.ends[0]).or_else(|| (*node == top).then_some(&self.ends[1]));
+            if matches!(end, Some(End::Free | End::Force(_))) {
+                return refuse(format!("a spring at the {place}, which is free or loaded"), "ground, or an end that is held");
+            }
+        }
+        for node in 0..=top {
+            let is_rigid = |body: Option<usize>| body.is_none_or(|body| self.bodies[body].rigid_mass().is_some());
+            let end = (node == 0).then_some(&self.ends[0]).or_else(|| (node == top).then_some(&self.ends[1]));
+            let yields = matches!(end, Some(End::Free | End::Force(_) | End::Infinite { .. }));
+            let neighbours = [node.checked_sub(1), (node < top).then_some(node)];
+            if !yields && neighbours.into_iter().all(is_rigid) && self.spring(node).is_none() {
+                let found = format!("a rigid {} beside a rigid mass", self.node_name(node));
+                let expected = "a stiffness or a damping there: rigid bodies that meet have no force of finite size";
+                return Err(ProblemError::new(Kind::Contradiction, &path(node), found, expected));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -1,5 +1,6 @@
 //! The field along a body of a chain, and the sums over it.
 
+use super::curve::{Signal, bound, greater, primitive, product, turned, value};
 use super::run::ChainRun;
 use super::start::Bar;
 use super::wave::{Piece, Wave, is_exact_zero, order};
@@ -41,7 +42,8 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if the point is not told from a ray.
     pub fn field(&self, body: usize, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
         self.check_time(time)?;
-        let Bar { length, wave_speed, .. } = &self.bars[body];
+        let Bar { length, wave_speed, mass, .. } = &self.bars[body];
+        let is_rigid = mass.is_some();
         if point.negative()? || length.below(point)? {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
@@ -53,7 +55,7 @@ impl<N: Bounded> ChainRun<N> {
         Ok(Field {
             displacement: (rising.1 + &falling.1 - fall.clone() * time).halved(),
             velocity: (rising.0.clone() + &falling.0).halved() - fall,
-            strain: (falling.0 - rising.0).halved() / wave_speed,
+            strain: if is_rigid { length.zero() } else { (falling.0 - rising.0).halved() / wave_speed },
         })
     }
 
@@ -76,14 +78,17 @@ impl<N: Bounded> ChainRun<N> {
         self.check_time(time)?;
         let Bar { length, wave_speed, travel, .. } = &self.bars[body];
         let [up, down] = &self.waves[body];
+        if up.is_curved() {
+            return Err(Error::Curved);
+        }
         let earliest = time.clone() - travel;
         // Upward pieces in the order of x: the last to leave is the lowest.
         let rising = window(up, &earliest, time)?;
         let falling = window(down, &earliest, time)?;
         let place = |from: &N| (time.clone() - from) * wave_speed;
-        let mut rising = rising.iter().rev().map(|piece| (place(&piece.from), &piece.line)).peekable();
+        let mut rising = rising.iter().rev().map(|piece| (place(&piece.from), piece.signal.line())).peekable();
         let tops = falling.iter().skip(1).map(|piece| length.clone() - place(&piece.from)).map(Some).chain([None]);
-        let mut falling = falling.iter().map(|piece| &piece.line).zip(tops).peekable();
+        let mut falling = falling.iter().map(|piece| piece.signal.line()).zip(tops).peekable();
         let mut from = length.zero();
         let mut displacement = self.end_field(body, false, time, Side::Left)?.displacement;
         let fall = self.gravity.clone() * time;
@@ -132,8 +137,17 @@ impl<N: Bounded> ChainRun<N> {
     ///
     /// **Errors**: those of [`ChainRun::stretches`].
     pub fn sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
-        let Bar { length, wave_speed, impedance, .. } = &self.bars[body];
+        let Bar { length, wave_speed, impedance, mass, .. } = &self.bars[body];
         let zero = length.zero();
+        if let Some(mass) = mass {
+            let Field { displacement, velocity, .. } = self.field(body, &zero, time, Side::Right)?;
+            let kinetic = (velocity.square() * mass).halved();
+            let potential = displacement.clone() * mass * &self.gravity;
+            return Ok(BodySums { displacement, velocity, kinetic, strain: zero, potential });
+        }
+        if self.waves[body][0].is_curved() {
+            return self.curved_sums(body, time);
+        }
         let mut sums = [zero.clone(), zero.clone(), zero.clone(), zero];
         for stretch in self.stretches(body, time)? {
             let [displacement, velocity, _] = stretch.moments(&stretch.width);
@@ -158,6 +172,35 @@ impl<N: Bounded> ChainRun<N> {
         })
     }
 
+    /// Returns the sums over a body whose waves are curves.
+    ///
+    /// **Source**: with `P = ∫p`, `∫ v dx = (c/2) ∫ (P + Q − g t²) ds` over the travel time before `t`, and the energies are
+    /// `(Z/8) ∫ (p + q − 2gt)² ds` and `(Z/8) ∫ (q − p)² ds`, where `q` is taken at `2t − T − s`.
+    fn curved_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
+        let Bar { impedance, travel, wave_speed, .. } = &self.bars[body];
+        let windows = self.waves[body].each_ref().map(|wave| Window::new(wave, time, travel));
+        let [rising, falling] = windows;
+        let (rising, falling) = (rising?, falling?);
+        let fall = self.gravity.clone() * time;
+        let total = rising.total.clone() + &falling.total;
+        let squares = rising.square() + falling.square();
+        let cross = rising.product(&falling);
+        let density = impedance.clone() / wave_speed;
+        let mean = |sum: N| sum.halved() / travel;
+        // ∫ (p + q − 2gt)² = ∫p² + ∫q² + 2∫pq − 4gt ∫(p + q) + 4g²t² T.
+        let moved = squares.clone() + cross.clone().doubled() - (total.clone() * &fall - fall.square() * travel) * fall.int(4);
+        let stretched = squares - cross.doubled();
+        let energy = |sum: N| sum * impedance / impedance.int(8);
+        let displacement = mean(rising.height + &falling.height) - (fall.clone() * time).halved();
+        Ok(BodySums {
+            velocity: mean(total) - &fall,
+            kinetic: energy(moved),
+            strain: energy(stretched),
+            potential: displacement.clone() * &density * &self.bars[body].length * &self.gravity,
+            displacement,
+        })
+    }
+
     /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body whose centre has the velocity `rate`.
     ///
     /// **Errors**: those of [`ChainRun::stretches`].
@@ -173,6 +216,117 @@ impl<N: Bounded> ChainRun<N> {
     }
 }
 
+/// A wave over the travel time before a time.
+struct Window<N> {
+    /// Stored beginning and end of each part, with the wave on it.
+    parts: Vec<(N, N, Signal<N>)>,
+    begin: N,
+    end: N,
+    /// Integral of the wave, and integral of that integral.
+    total: N,
+    height: N,
+    /// For each uncertain border, its uncertainty times the jump of the wave there, and the sum of both values.
+    slivers: Vec<(N, N)>,
+}
+
+impl<N: Bounded> Window<N> {
+    fn new(wave: &Wave<N>, time: &N, travel: &N) -> Result<Self, Error> {
+        let earliest = time.clone() - travel;
+        let [first, last] = [wave.piece_at(&earliest, Side::Right)?, wave.piece_at(time, Side::Left)?];
+        let (first, last) = (first.min(last), last);
+        let [(begin, early), (end, late)] = [&earliest, time].map(N::centred);
+        let zero = time.zero();
+        let mut window = Window {
+            parts: Vec::new(),
+            total: wave.sum_at(last, time) - wave.sum_at(first, &earliest),
+            height: zero.clone(),
+            slivers: Vec::new(),
+            begin: begin.clone(),
+            end: end.clone(),
+        };
+        for k in first..=last {
+            let piece = &wave.pieces[k];
+            let (own, own_late) = piece.from.centred();
+            let from = if k == first { begin.clone() } else { own.clone() };
+            let to = if k == last { end.clone() } else { wave.pieces[k + 1].from.centred().0 };
+            let (width, rounding) = (to.clone() - &from).centred();
+            if k > first && !is_exact_zero(&own_late) {
+                let [before, after] = [&wave.pieces[k - 1], piece].map(|piece| piece.signal.value_at(&own).magnitude());
+                let jump = (wave.pieces[k - 1].signal.value_at(&own) - piece.signal.value_at(&own)).magnitude();
+                window.slivers.push((jump * own_late, before + after));
+            }
+            for late in [(k == first).then_some(&early), (k == last).then_some(&late), Some(&rounding)] {
+                let Some(late) = late.filter(|late| !is_exact_zero(*late)) else { continue };
+                let size = piece.signal.value_at(&from).magnitude() + piece.signal.value_at(&to).magnitude();
+                window.slivers.push((size.clone() * late, size));
+            }
+            let curve = piece.signal.about(&from, &width);
+            let twice = primitive(&primitive(&curve.terms));
+            let risen = value(&twice, &width).widened(&(curve.error * width.square()));
+            window.height = window.height + wave.sum_at(k, &from) * &width + risen;
+            window.parts.push((from, to, piece.signal.clone()));
+        }
+        // The whole window lies off by the error of its ends.
+        let off = wave.sum_at(last, time).magnitude() + wave.sum_at(first, &earliest).magnitude();
+        window.height = window.height.widened(&(off * (early + late)));
+        Ok(window)
+    }
+
+    /// Returns the greatest magnitude of the wave.
+    fn most(&self) -> N {
+        let size = |(from, to, signal): &(N, N, Signal<N>)| {
+            let width = (to.clone() - from).centred().0;
+            let curve = signal.about(from, &width);
+            bound(&curve.terms, &width) + curve.error
+        };
+        self.parts.iter().map(size).fold(self.begin.zero(), greater)
+    }
+
+    /// Returns the integral of the square.
+    fn square(&self) -> N {
+        let part = |(from, to, signal): &(N, N, Signal<N>)| {
+            let width = (to.clone() - from).centred().0;
+            signal.about(from, &width).square_integral(&width)
+        };
+        let sum = self.parts.iter().map(part).fold(self.begin.zero(), |sum, part| sum + part);
+        self.slivers.iter().fold(sum, |sum, (area, size)| sum.widened(&(area.clone() * size)))
+    }
+
+    /// Returns the integral of the product with another wave that runs against this one.
+    fn product(&self, other: &Self) -> N {
+        let zero = self.begin.zero();
+        let mirror = |at: &N| (self.begin.clone() + &self.end - at).centred().0;
+        let mut sum = zero.clone();
+        let mut from = self.begin.clone();
+        let mut others = other.parts.iter().rev().peekable();
+        let mut own = self.parts.iter().peekable();
+        while let (Some((_, own_end, p)), Some((other_begin, _, q))) = (own.peek(), others.peek()) {
+            let other_end = mirror(other_begin);
+            let is_own_first = own_end.below(&other_end) == Ok(true);
+            let to = if is_own_first { own_end.clone() } else { other_end.clone() };
+            let width = (to.clone() - &from).centred().0;
+            if width.positive() == Ok(true) {
+                let (p, q) = (p.about(&from, &width), q.about(&mirror(&to), &width));
+                let turned = turned(&q.terms, &width);
+                let (a, b) = (bound(&p.terms, &width), bound(&q.terms, &width));
+                let error = (a + &p.error) * &q.error + b * &p.error;
+                sum = sum + value(&primitive(&product(&p.terms, &turned)), &width).widened(&(error * &width));
+            }
+            let ends_alike = own_end.alike(&other_end);
+            if is_own_first || ends_alike {
+                own.next();
+            }
+            if !is_own_first {
+                others.next();
+            }
+            from = to;
+        }
+        let [own_most, other_most] = [self, other].map(Window::most);
+        let slivers = |window: &Self, most: &N| window.slivers.iter().fold(zero.clone(), |sum, (area, _)| sum + area.clone() * most);
+        sum.widened(&(slivers(self, &other_most) + slivers(other, &own_most)))
+    }
+}
+
 /// Returns `∫ f² dx` over a stretch, on which `f` has a value at its lower end and a slope.
 fn square<N: Bounded>(stretch: &Stretch<N>, [value, slope]: &[N; 2]) -> N {
     let rise = slope.clone() * &stretch.width;
@@ -183,7 +337,7 @@ fn square<N: Bounded>(stretch: &Stretch<N>, [value, slope]: &[N; 2]) -> N {
 /// Returns value and integral of a wave at a time.
 fn wave_at<N: Bounded>(wave: &Wave<N>, time: N, side: Side) -> Result<(N, N), Open> {
     let at = wave.piece_at(&time, side)?;
-    Ok((wave.pieces[at].line.value_at(&time), wave.sum_at(at, &time)))
+    Ok((wave.pieces[at].signal.value_at(&time), wave.sum_at(at, &time)))
 }
 
 /// Returns the pieces of a wave between two times.

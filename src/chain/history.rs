@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::{Arc, OnceLock};
 
-use super::definition::Chain;
+use super::definition::{Body, Chain};
 use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 use crate::error::Error;
@@ -53,15 +53,22 @@ pub enum ChainQuantity {
     /// Compressive force of a node.
     #[strum(serialize = "force")]
     Force,
-    /// Gap of a node.
+    /// Gap of a node; the depth of a spring is its negative.
     #[strum(serialize = "gap")]
     Gap,
+    /// Energy that the spring of a node holds.
+    #[strum(serialize = "spring_energy")]
+    SpringEnergy,
+    /// Energy that the dashpot of a node has taken up, and that a released spring has lost.
+    #[strum(serialize = "dissipated")]
+    Dissipated,
 }
 
 impl ChainQuantity {
     /// Returns whether the quantity belongs to a node, and not to a body.
     pub fn is_of_node(self) -> bool {
-        matches!(self, ChainQuantity::Force | ChainQuantity::Gap)
+        use ChainQuantity::{Dissipated, Force, Gap, SpringEnergy};
+        matches!(self, Force | Gap | SpringEnergy | Dissipated)
     }
 
     /// Returns the measure of the quantity.
@@ -71,7 +78,11 @@ impl ChainQuantity {
             ChainQuantity::EndVelocity | ChainQuantity::TopVelocity | ChainQuantity::CentreVelocity => {
                 Measure::Velocity
             }
-            ChainQuantity::Kinetic | ChainQuantity::StrainEnergy | ChainQuantity::Energy => Measure::Energy,
+            ChainQuantity::Kinetic
+            | ChainQuantity::StrainEnergy
+            | ChainQuantity::Energy
+            | ChainQuantity::SpringEnergy
+            | ChainQuantity::Dissipated => Measure::Energy,
             _ => Measure::Length,
         }
     }
@@ -123,12 +134,15 @@ impl ChainColumn {
         format!("{}.{place}", self.quantity)
     }
 
-    /// Returns every column of `chain`.
+    /// Returns every column of `chain`; those of springs at nodes that have one.
     pub fn all(chain: &Chain) -> Vec<Self> {
         let bodies = chain.bodies().len();
         let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
         let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
-        quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place })).collect()
+        let columns = quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));
+        let is_of_spring =
+            |column: &Self| matches!(column.quantity, ChainQuantity::SpringEnergy | ChainQuantity::Dissipated);
+        columns.filter(|column| !is_of_spring(column) || chain.spring(column.place).is_some()).collect()
     }
 }
 
@@ -236,6 +250,8 @@ impl<N: ToValue> Answers for ChainRun<N> {
             }
             ChainQuantity::Force => self.force(place, &time, side)?,
             ChainQuantity::Gap => self.gap(place, &time)?,
+            ChainQuantity::SpringEnergy => self.spring_energies(place, &time)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies(place, &time)?[1].clone(),
         };
         Ok(found.to_value())
     }
@@ -339,7 +355,11 @@ impl Chain {
         {
             return Err(Error::Digits { found, most: MAX_DIGITS });
         }
-        let attempts = rungs(numbers).into_iter().map(|rung| (rung, Attempt::new())).collect();
+        if self.is_soft() && numbers == Numbers::Exact {
+            return Err(Error::SoftExact);
+        }
+        let is_possible = |rung: &Rung| !(self.is_soft() && *rung == Rung::Fractions);
+        let attempts = rungs(numbers).into_iter().filter(is_possible).map(|rung| (rung, Attempt::new())).collect();
         let history = ChainHistory { chain: self.clone(), numbers, observe, attempts };
         history.attempt(0).map(|_| ()).or_else(|error| match error {
             Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
@@ -356,7 +376,10 @@ impl Chain {
         let mut forces = 0.0f64;
         for body in &self.bodies {
             let [z, c] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
-            let strained = size(&body.displacement) / body.length.to_f64() * c;
+            let strained = match body.rigid_mass() {
+                Some(_) => 0.0,
+                None => size(&body.displacement) / body.length.to_f64() * c,
+            };
             velocity = velocity.max(size(&body.velocity)).max(strained);
             (impedance, length) = (impedance.max(z), length.max(body.length.to_f64()));
         }
@@ -369,7 +392,11 @@ impl Chain {
                 _ => (),
             }
         }
-        velocity = velocity.max(forces / impedance);
+        let lightest = self.bodies.iter().filter_map(Body::rigid_mass).map(Number::to_f64).fold(f64::INFINITY, f64::min);
+        velocity = velocity.max(if impedance > 0.0 { forces / impedance } else { forces / lightest * self.until.to_f64() });
+        if impedance == 0.0 {
+            (impedance, length) = (lightest / self.until.to_f64(), 1.0);
+        }
         let time = self.until.to_f64();
         let force = (impedance * velocity).max(forces);
         match measure {

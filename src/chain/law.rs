@@ -19,13 +19,13 @@ pub(super) enum Law {
 #[derive(Clone, Debug)]
 pub(super) struct Mix<N> {
     /// `r = (Z₋ − Z₊)/(Z₋ + Z₊)`; 1 above a rigid ground, −1 below one.
-    reflection: N,
+    pub(super) reflection: N,
     /// `1 − r` and `1 + r`.
-    passed: [N; 2],
+    pub(super) passed: [N; 2],
     /// `1/Y = Z₋Z₊/(Z₋ + Z₊)`.
-    conductance: N,
+    pub(super) conductance: N,
     /// `2Y₋` and `2Y₊`.
-    twice: [N; 2],
+    pub(super) twice: [N; 2],
 }
 
 /// Signals that leave a node.

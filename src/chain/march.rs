@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 
+use super::cluster::Cluster;
 use super::definition::Chain;
-use super::node::{Node, Occurrence, Stop};
+use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
-use super::start::Start;
+use super::start::{Nodes, Start};
+use super::wave::Wave;
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Bounded, Open};
@@ -35,7 +37,16 @@ impl<N: Bounded> ChainRun<N> {
         precision: &N::Precision,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let Start { bars, mut nodes, mut waves, gravity, until } = Start::<N>::new(chain, precision)?;
+        let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(chain, precision)?;
+        let mut nodes = match nodes {
+            Nodes::Rigid(nodes) => nodes,
+            Nodes::Soft(clusters) => {
+                let travels = bars.iter().map(|bar| bar.travel.clone()).collect();
+                let limits = (chain.max_pieces(), observe);
+                let Marched { nodes, events, end, ending, doubt } = march(clusters, &mut waves, (travels, until), limits)?;
+                return Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches: Vec::new(), doubt });
+            }
+        };
         let (mut events, mut touches) = (Vec::new(), Vec::new());
         let mut ending = Ending::Time;
         let mut end = until.clone();
@@ -97,8 +108,78 @@ impl<N: Bounded> ChainRun<N> {
         sort(&mut touches, |touch| (&touch.t, touch.node));
         let doubt = nodes.iter().filter_map(|node| node.doubt).min_by(f64::total_cmp);
         let nodes = nodes.into_iter().map(Node::into_stages).collect();
-        Ok(ChainRun { bars, nodes, waves, gravity, end, ending, events, touches, doubt })
+        Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches, doubt })
     }
+}
+
+/// The nodes of a chain with springs, dashpots or masses, up to the end of its run.
+struct Marched<N> {
+    nodes: Vec<Vec<Stage<N>>>,
+    events: Vec<ChainEvent<N>>,
+    end: N,
+    ending: Ending,
+    doubt: Option<f64>,
+}
+
+/// Runs clusters of nodes up to the end; `travels` has the travel times of the bodies.
+fn march<N: Bounded>(
+    mut clusters: Vec<Cluster<N>>,
+    waves: &mut [[Wave<N>; 2]],
+    (travels, until): (Vec<N>, N),
+    (limit, observe): (usize, &dyn Fn(usize, usize) -> ControlFlow<()>),
+) -> Result<Marched<N>, Error> {
+    let owner = |clusters: &[Cluster<N>], node: usize| clusters.partition_point(|cluster| cluster.first <= node) - 1;
+    let mut events = Vec::new();
+    let mut ending = Ending::Time;
+    let record = |(node, occurrence): (usize, Occurrence<N>), events: &mut Vec<ChainEvent<N>>| {
+        let Occurrence { kind, t, drive: [before, after] } = occurrence;
+        events.extend(kind.map(|kind| ChainEvent { kind, node, t, before, after }));
+    };
+    let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
+    for cluster in &mut clusters {
+        match cluster.begin(waves) {
+            Ok(found) => found.into_iter().for_each(|occurrence| record(occurrence, &mut events)),
+            Err(_) => ending = open(),
+        }
+    }
+    let mut end = if ending == Ending::Time { until.clone() } else { until.zero() };
+    let mut steps = 0;
+    while ending == Ending::Time {
+        let time = |k: &usize| clusters[*k].reached.at.to_f64();
+        let Some(at) = (0..clusters.len()).min_by(|a, b| time(a).total_cmp(&time(b))) else { break };
+        if clusters[at].reached.at.below(&until.clone().centred().0) != Ok(true) {
+            break;
+        }
+        // A signal is known up to the time that its origin has reached, and the travel time after it.
+        let known = |body: usize, side: usize| {
+            let origin = &clusters[owner(&clusters, body + side)];
+            origin.reached.at.clone() + &travels[body]
+        };
+        let sides = clusters[at].interfaces.iter().flat_map(|interface| interface.sides.iter().enumerate());
+        let known = sides.filter_map(|(side, input)| match input.source {
+            Source::Wave(body) => Some(known(body, side)),
+            _ => None,
+        });
+        let horizon = known.reduce(|a, b| if b.below(&a) == Ok(true) { b } else { a });
+        match clusters[at].advance(horizon, waves) {
+            Ok(found) => found.into_iter().for_each(|occurrence| record(occurrence, &mut events)),
+            Err(_) => (ending, end) = (open(), clusters[at].reached.time.clone()),
+        }
+        steps += 1;
+        if steps % 64 == 0 {
+            let pieces = waves.iter().flatten().map(|wave| wave.pieces.len()).sum();
+            if pieces > limit {
+                return Err(Error::TooManyPieces { limit, time: clusters[at].reached.at.to_f64() });
+            }
+            if observe(events.len(), pieces).is_break() {
+                return Err(Error::Interrupted);
+            }
+        }
+    }
+    sort(&mut events, |event| (&event.t, event.node));
+    let doubt = clusters.iter().filter_map(|cluster| cluster.doubt).min_by(f64::total_cmp);
+    let nodes = clusters.into_iter().flat_map(|cluster| cluster.interfaces).map(|interface| interface.stages).collect();
+    Ok(Marched { nodes, events, end, ending, doubt })
 }
 
 /// Sorts a nearly sorted list by time, then by node; an undecided order stays as it is.

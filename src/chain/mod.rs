@@ -20,9 +20,12 @@
 //! `history` (answers in numbers that are long enough).
 
 mod body_motion;
+mod cluster;
+mod curve;
 mod definition;
 mod field;
 mod history;
+mod interface;
 mod law;
 mod march;
 mod node;
@@ -31,7 +34,7 @@ mod start;
 mod wave;
 
 pub(crate) use body_motion::{BodyMotion, Runs};
-pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points};
+pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points, Spring};
 pub use field::BodySums;
 pub use history::{ChainColumn, ChainHistory, ChainListing, ChainQuantity};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};

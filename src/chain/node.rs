@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use super::curve::Signal;
+use super::interface::Softness;
 use super::law::{Law, Leaving, Mix};
 use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
@@ -17,6 +19,8 @@ pub(super) enum Source<N> {
     Wave(usize),
     /// Given lines, each with its beginning.
     Data(Vec<(N, Line<N>)>),
+    /// The velocity of the mass with this index in its cluster.
+    Mass(usize),
 }
 
 /// The signal that arrives from one side.
@@ -50,13 +54,15 @@ pub(super) struct Stage<N> {
     /// Its beginning.
     pub(super) from: N,
     /// The compressive force.
-    pub(super) force: Line<N>,
+    pub(super) force: Signal<N>,
     /// `y`: the rate of the gap between free ends.
-    pub(super) drive: Line<N>,
+    pub(super) drive: Signal<N>,
     /// The gap at the stored beginning; `None` where it stays zero: no contact, a closed one, or one at rest.
     pub(super) gap: Option<N>,
     /// Whether a contact is closed.
     pub(super) closed: bool,
+    /// The gap of a contact, and that of a spring, in a chain with springs, dashpots or masses.
+    pub(super) softness: Option<Softness<N>>,
 }
 
 /// An occurrence at a contact.
@@ -117,7 +123,7 @@ impl<N: Bounded> Arrival<N> {
     /// Returns the line that arrives at the start.
     fn first(&self, waves: &[[Wave<N>; 2]], side: usize) -> Line<N> {
         match (&self.source, &self.delay) {
-            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[0].line.delayed(delay),
+            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[0].signal.line().delayed(delay),
             (Source::Data(lines), _) => lines[0].1.clone(),
             _ => self.line.clone(),
         }
@@ -140,7 +146,7 @@ impl<N: Bounded> Arrival<N> {
     fn advance(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         self.cursor += 1;
         self.line = match (&self.source, &self.delay) {
-            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[self.cursor].line.delayed(delay),
+            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[self.cursor].signal.line().delayed(delay),
             (Source::Data(lines), _) => lines[self.cursor].1.clone(),
             _ => return,
         };
@@ -355,7 +361,7 @@ impl<N: Bounded> Node<N> {
         let Some(stage) = self.stages.last() else { return Ok(false) };
         let Some(gap) = &stage.gap else { return Ok(false) };
         let gap = stage.drive.integral(&stage.from, t) + gap;
-        Ok(!gap.positive()? || (stage.drive.slope.positive()? && !stage.drive.value_at(t).negative()?))
+        Ok(!gap.positive()? || (stage.drive.line().slope.positive()? && !stage.drive.value_at(t).negative()?))
     }
 
     /// Returns whether a closed contact opens. `alone` has the drives after one of two coincident breaks each, and
@@ -454,7 +460,8 @@ impl<N: Bounded> Node<N> {
         let (closed, force) = (self.closed, self.leaving.force.clone());
         let is_open = self.law == Law::Contact && !closed && !self.resting;
         let gap = is_open.then(|| self.gap.clone());
-        self.stages.push(Stage { from: t, force, drive, gap, closed });
+        let [force, drive] = [force, drive].map(Signal::Line);
+        self.stages.push(Stage { from: t, force, drive, gap, closed, softness: None });
         Ok(())
     }
 

@@ -1,8 +1,10 @@
 //! A finished run of a chain: events, contacts, forces and gaps.
 
+use super::curve::{Signal, highest};
+use super::interface::Soft;
 use super::node::Stage;
 use super::start::Bar;
-use super::wave::{Wave, index_at};
+use super::wave::{Wave, index_at, is_exact_zero};
 use crate::error::Error;
 use crate::lattice::Line;
 use crate::motion::{Ending, EventKind, Side};
@@ -109,6 +111,8 @@ impl<N> ForcePiece<N> {
 pub struct ChainRun<N> {
     pub(super) bars: Vec<Bar<N>>,
     pub(super) nodes: Vec<Vec<Stage<N>>>,
+    /// The springs of the nodes.
+    pub(super) springs: Vec<Option<Soft<N>>>,
     pub(super) waves: Vec<[Wave<N>; 2]>,
     pub(super) gravity: N,
     pub(super) end: N,
@@ -173,28 +177,41 @@ impl<N: Bounded> ChainRun<N> {
             }
             let force = &stage.force;
             impulse = impulse + force.integral(&stage.from, to);
+            // An uncertain end of the stage moves the area of the force that ends there.
             for at in [&stage.from, to] {
-                // An uncertain end of the stage moves the area of the force that ends there.
-                if let Some(late) = at.deviation() {
-                    impulse = impulse + late * force.value_at_stored(at);
-                }
-                let value = force.value_at(at);
-                if peak.as_ref().is_none_or(|peak| peak.below(&value) == Ok(true)) {
-                    (peak, peak_time) = (Some(value), at.clone());
-                }
+                impulse = match (force, at.deviation()) {
+                    (Signal::Line(line), Some(late)) => impulse + late * line.value_at_stored(at),
+                    (Signal::Line(_), None) => impulse,
+                    (Signal::Curve(curve), _) => {
+                        let (stored, late) = at.centred();
+                        impulse.widened(&(curve.value_at(&stored).magnitude() * late))
+                    }
+                };
             }
+            // The force of a spring alone has the slope −k gap′.
+            let spring = self.springs[node].as_ref().filter(|soft| is_exact_zero(&soft.damping));
+            let slope_error =
+                spring.and_then(|soft| Some(stage.softness.as_ref()?.rate.error.clone() * &soft.stiffness));
+            let found = force.greatest(&stage.from, to, slope_error.as_ref());
+            let (value, at) = match peak {
+                Some(peak) if stage.softness.is_some() => highest((peak, peak_time), found),
+                Some(peak) if peak.below(&found.0) != Ok(true) => (peak, peak_time),
+                _ => found,
+            };
+            (peak, peak_time) = (Some(value), at);
         }
         let peak = peak.unwrap_or_else(|| self.end.zero());
         ChainContact { node, impact: impact.t.clone(), release, impulse, peak, peak_time }
     }
 
-    /// Returns the pieces of the compressive force of a node, in order and without a gap.
+    /// Returns the pieces of the compressive force of a node, in order and without a gap. In a chain with springs,
+    /// dashpots or masses the force is a curve, and the list is empty.
     pub fn force_pieces(&self, node: usize) -> Vec<ForcePiece<N>> {
         let stages = &self.nodes[node];
         let mut pieces: Vec<(&Line<N>, ForcePiece<N>)> = Vec::new();
         for (k, stage) in stages.iter().enumerate() {
             let end = stages.get(k + 1).map_or(&self.end, |next| &next.from);
-            let line = &stage.force;
+            let Signal::Line(line) = &stage.force else { return Vec::new() };
             if let Some((before, piece)) = pieces.last_mut().filter(|(before, _)| before.same(line)) {
                 (piece.end, piece.last) = (end.clone(), before.value_at(end));
                 continue;
@@ -221,10 +238,30 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn gap(&self, node: usize, time: &N) -> Result<N, Error> {
         let stage = self.stage(node, time, Side::Right)?;
+        if let Some(softness) = &stage.softness {
+            return Ok(softness.gap.value_at(time));
+        }
         let Some(gap) = &stage.gap else { return Ok(time.zero()) };
         let from = stage.from.clone().nominal();
         let middle = (from.clone() + time).halved();
         Ok(stage.drive.value_at(&middle) * (time.clone() - from) + gap)
+    }
+
+    /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    pub fn spring_energies(&self, node: usize, time: &N) -> Result<[N; 2], Error> {
+        let stage = self.stage(node, time, Side::Right)?;
+        let (Some(softness), Some(soft)) = (&stage.softness, &self.springs[node]) else {
+            return Ok([time.zero(), time.zero()]);
+        };
+        if !softness.loaded {
+            return Ok([time.zero(), softness.dissipated.clone()]);
+        }
+        let stored = softness.gap.value_at(time).square() * &soft.stiffness;
+        let since = time.clone() - &softness.rate.origin;
+        let lost = softness.rate.square_integral(&since) * &soft.damping;
+        Ok([stored.halved(), lost + &softness.dissipated])
     }
 
     /// Returns whether a contact is closed.

@@ -1,12 +1,16 @@
 //! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
 
-use super::definition::{Body, Chain, End, Joint, Points};
+use super::cluster::{Cluster, Mass};
+use super::curve::Signal;
+use super::definition::{Body, Chain, End, Joint, Points, Spring};
+use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
 use super::node::{Node, Source};
 use super::wave::{Piece, Wave};
 use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::lattice::Line;
 use crate::number::{Bounded, Number, Rational, Scalar};
+use crate::quantity::Measure;
 
 /// A body in the numbers of a run.
 #[derive(Clone, Debug)]
@@ -16,17 +20,30 @@ pub(super) struct Bar<N> {
     pub(super) impedance: N,
     /// `L/c`.
     pub(super) travel: N,
+    /// The mass of a rigid body; its length and its impedance are zero.
+    pub(super) mass: Option<N>,
 }
 
 /// A chain in the numbers of a run, at the start. Velocities are those in the frame that falls with `g` from rest.
 #[derive(Clone, Debug)]
 pub(super) struct Start<N> {
     pub(super) bars: Vec<Bar<N>>,
-    pub(super) nodes: Vec<Node<N>>,
+    pub(super) nodes: Nodes<N>,
+    /// The springs of the nodes.
+    pub(super) springs: Vec<Option<Soft<N>>>,
     /// The upward and the downward wave of each body.
     pub(super) waves: Vec<[Wave<N>; 2]>,
     pub(super) gravity: N,
     pub(super) until: N,
+}
+
+/// The nodes of a chain.
+#[derive(Clone, Debug)]
+pub(super) enum Nodes<N> {
+    /// Those of bars whose joints are rigid.
+    Rigid(Vec<Node<N>>),
+    /// Those of a chain with springs, dashpots or masses.
+    Soft(Vec<Cluster<N>>),
 }
 
 /// Converts a fraction; rounded once if it is short enough for a [`Number`].
@@ -72,6 +89,13 @@ impl<N: Bounded> Start<N> {
         let mut bars = Vec::new();
         for body in &chain.bodies {
             let [impedance, wave_speed] = body.squares();
+            if let Some(mass) = body.rigid_mass() {
+                let [zero, one] = [gravity.zero(), gravity.one()];
+                let [length, travel, force] = [zero.clone(), zero.clone(), zero];
+                bars.push(Bar { length, wave_speed: one, impedance: force, travel, mass: Some(number(mass)) });
+                squares.push(impedance);
+                continue;
+            }
             let speed: N = root("wave speed", &wave_speed, precision)?;
             let length = number(&body.length);
             let travel = match wave_speed.try_sqrt() {
@@ -79,16 +103,28 @@ impl<N: Bounded> Start<N> {
                 None => length.clone() / &speed,
             };
             let force = root("impedance", &impedance, precision)?;
-            bars.push(Bar { length, wave_speed: speed, impedance: force, travel });
+            bars.push(Bar { length, wave_speed: speed, impedance: force, travel, mass: None });
             squares.push(impedance);
         }
         let waves = chain.bodies.iter().zip(&bars).map(|(body, bar)| waves(body, bar, precision));
         let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
+        let springs = (0..=top).map(|node| chain.spring(node).map(|spring| soft(spring, precision)).transpose());
+        let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
+        let is_soft = chain.is_soft();
+        let mut masses = 0;
         let mut nodes = Vec::with_capacity(top + 1);
+        let mut clusters = Vec::new();
+        let mut parts: (Vec<Interface<N>>, Vec<Mass<N>>) = Default::default();
         for at in 0..=top {
             let (below, above) = (at.checked_sub(1), (at < top).then_some(at));
-            let wave = |body: usize| (Source::Wave(body), Some(squares[body].clone()));
+            let is_mass = |body: Option<usize>| body.is_some_and(|body| chain.bodies[body].rigid_mass().is_some());
+            let own = masses;
+            let wave = |body: usize| match is_mass(Some(body)) {
+                // The mass below is the one that the interface before has begun.
+                true => (Source::Mass(if Some(body) == below { own - 1 } else { own }), None),
+                false => (Source::Wave(body), Some(squares[body].clone())),
+            };
             // The outer side of an end, with the square of its impedance; a rigid one has none.
             let (outer, law) = match (below, above) {
                 (Some(joint), Some(_)) => {
@@ -138,12 +174,49 @@ impl<N: Bounded> Start<N> {
                 (None, _) => gravity.one(),
                 (_, None) => -gravity.one(),
             };
+            let is_bar = |body: Option<usize>| body.filter(|body| !is_mass(Some(*body)));
             let gap = chain.start_gap(at).map_or_else(|| Ok(gravity.zero()), |gap| lift(&gap, precision))?;
-            let delays = [below, above].map(|body| body.map(|body| bars[body].travel.clone()));
-            nodes.push(Node::new([lower, upper], delays, law, Mix::new(reflection, impedances, &gravity), gap));
+            let delays = [below, above].map(|body| is_bar(body).map(|body| bars[body].travel.clone()));
+            let mix = Mix::new(reflection, impedances.clone(), &gravity);
+            if !is_soft {
+                nodes.push(Node::new([lower, upper], delays, law, mix, gap));
+                continue;
+            }
+            let [first, second] = delays;
+            let sides = [Input::new(lower, first, &gap), Input::new(upper, second, &gap)];
+            let outer = usize::from(at == top && at > 0);
+            parts.0.push(Interface::new((law, springs[at].clone()), (sides, impedances), (&mix, outer), &gap));
+            if let (Some(body), true) = (above, is_mass(above)) {
+                parts.1.push(mass(body, chain, precision)?);
+                masses += 1;
+                continue;
+            }
+            let (interfaces, own) = std::mem::take(&mut parts);
+            masses = 0;
+            let first = at + 1 - interfaces.len();
+            let speed = chain.scale(Measure::Velocity);
+            clusters.push(Cluster::new(first, interfaces, own, speed, &number(&chain.until)));
         }
-        Ok(Start { bars, nodes, waves, gravity, until: number(&chain.until) })
+        let nodes = if is_soft { Nodes::Soft(clusters) } else { Nodes::Rigid(nodes) };
+        Ok(Start { bars, nodes, springs, waves, gravity, until: number(&chain.until) })
     }
+}
+
+/// Converts a spring.
+fn soft<N: Bounded>(spring: &Spring, precision: &N::Precision) -> Result<Soft<N>, Error> {
+    let [stiffness, damping] = [&spring.stiffness, &spring.damping].map(|x| N::from_number(x, precision));
+    let irrational = || Error::Irrational { quantity: "stiffness", square: spring.stiffness.to_string() };
+    let root = stiffness.try_sqrt().ok_or_else(irrational)?;
+    Ok(Soft { stiffness, root, damping })
+}
+
+/// Converts the rigid body with this index.
+fn mass<N: Bounded>(body: usize, chain: &Chain, precision: &N::Precision) -> Result<Mass<N>, Error> {
+    let of = &chain.bodies[body];
+    let mass = N::from_number(of.rigid_mass().unwrap_or(&of.length), precision);
+    let velocity = of.velocity.first().map_or_else(|| mass.zero(), |(_, v)| N::from_number(v, precision));
+    let root = mass.try_sqrt().ok_or_else(|| Error::Irrational { quantity: "mass", square: mass.text() })?;
+    Ok(Mass::new(body, velocity, mass.one() / mass, root))
 }
 
 /// Returns the data through `points`, with `fall·t` added: constant after the last point, and zero without points.
@@ -174,6 +247,13 @@ fn signal<N: Bounded>(points: &Points, fall: &N, precision: &N::Precision) -> Ve
 /// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
 fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
+    if bar.mass.is_some() {
+        let zero = length.zero();
+        let velocity = body.velocity.first().map_or_else(|| zero.clone(), |(_, v)| N::from_number(v, precision));
+        let line = Line { intercept: velocity, slope: zero.clone() };
+        let still = || wave(vec![(zero.clone(), line.clone())], N::clone, &zero);
+        return Ok([still(), still()]);
+    }
     let fraction = |x: &Number| x.to_rational();
     // Places at which the start has a break, in exact order.
     let mut places: Vec<Rational> = vec![Rational::default(), fraction(&body.length)];
@@ -232,6 +312,7 @@ fn wave<N: Bounded>(lines: Vec<(N, Line<N>)>, first: impl FnOnce(&N) -> N, zero:
     }
     let first = first(&sums[sums.len() - 1]);
     let given = lines.len();
-    let pieces = lines.into_iter().zip(sums).map(|((from, line), sum)| Piece { from, line, sum: sum + &first });
+    let piece = |((from, line), sum): ((N, Line<N>), N)| Piece { from, signal: Signal::Line(line), sum: sum + &first };
+    let pieces = lines.into_iter().zip(sums).map(piece);
     Wave { pieces: pieces.collect(), given }
 }

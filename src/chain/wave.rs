@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::curve::{Curve, Signal};
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open};
@@ -12,7 +13,7 @@ pub(super) struct Piece<N> {
     /// Its beginning.
     pub(super) from: N,
     /// Its value over time.
-    pub(super) line: Line<N>,
+    pub(super) signal: Signal<N>,
     /// Integral of the wave up to the stored beginning.
     pub(super) sum: N,
 }
@@ -83,12 +84,39 @@ impl<N: Bounded> Wave<N> {
     pub(super) fn push(&mut self, time: &N, line: Line<N>, off: N) {
         let last = self.pieces.len() - 1;
         let last = &mut self.pieces[last];
-        if continues(&last.line.intercept, &line.intercept) && continues(&last.line.slope, &line.slope) {
+        let own = last.signal.line();
+        if continues(&own.intercept, &line.intercept) && continues(&own.slope, &line.slope) {
             last.sum = last.sum.clone() + off;
             return;
         }
-        let sum = (last.line.integral(&last.from, time) + &last.sum + off).without_exact();
-        self.pieces.push(Piece { from: time.clone(), line, sum });
+        let sum = (own.integral(&last.from, time) + &last.sum + off).without_exact();
+        self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum });
+    }
+
+    /// Continues the wave with `curve` from `time` on, whose stored value is within `late` of the true time.
+    pub(super) fn push_curve(&mut self, time: &N, late: &N, curve: Curve<N>) {
+        let last = &self.pieces[self.pieces.len() - 1];
+        let is_same = |old: &N| is_exact_zero(&(old.clone() - &curve.terms[0]));
+        if curve.terms.len() == 1 && is_exact_zero(&curve.error) {
+            let continued = match &last.signal {
+                Signal::Line(line) => is_exact_zero(&line.slope) && line.intercept.roundoffs() == 0.0 && is_same(&line.intercept),
+                Signal::Curve(old) => old.terms.len() == 1 && is_exact_zero(&old.error) && is_same(&old.terms[0]),
+            };
+            if continued {
+                return;
+            }
+        }
+        let mut sum = last.signal.integral(&last.from, &curve.origin) + &last.sum;
+        if !is_exact_zero(late) {
+            let jump = last.signal.value_at(&curve.origin) - &curve.terms[0];
+            sum = sum.widened(&(jump.magnitude().widened(&curve.error) * late));
+        }
+        self.pieces.push(Piece { from: time.clone(), signal: Signal::Curve(curve), sum: sum.without_exact() });
+    }
+
+    /// Returns whether the wave has left a node of a chain with springs, dashpots or masses.
+    pub(super) fn is_curved(&self) -> bool {
+        self.pieces.iter().any(|piece| matches!(piece.signal, Signal::Curve(_)))
     }
 
     /// Returns the index of the piece at a time, as the limit from `side`.
@@ -105,15 +133,20 @@ impl<N: Bounded> Wave<N> {
             Ok(order) => order.is_ge(),
             Err(_) => side == Side::Right,
         });
-        self.pieces[begun.max(1) - 1].line.value_at(time)
+        self.pieces[begun.max(1) - 1].signal.value_at(time)
     }
 
     /// Returns the integral of the wave up to a time in the piece with this index.
     pub(super) fn sum_at(&self, piece: usize, time: &N) -> N {
-        let Piece { from, line, sum } = &self.pieces[piece];
-        let width = time.clone() - from.clone().nominal();
-        let middle = (from.clone().nominal() + time).halved();
-        line.value_at(&middle) * width + sum
+        let Piece { from, signal, sum } = &self.pieces[piece];
+        match signal {
+            Signal::Line(line) => {
+                let width = time.clone() - from.clone().nominal();
+                let middle = (from.clone().nominal() + time).halved();
+                line.value_at(&middle) * width + sum
+            }
+            Signal::Curve(curve) => curve.integral(&curve.origin, time) + sum,
+        }
     }
 }
 

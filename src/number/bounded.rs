@@ -19,6 +19,12 @@ pub trait Bounded: Scalar {
         self
     }
 
+    /// Returns the stored value, or the middle of an enclosure, as an exact number, with a bound of its distance from the
+    /// true number. A number without a bound of its own is returned as it is.
+    fn centred(&self) -> (Self, Self) {
+        (self.clone(), self.zero())
+    }
+
     /// Returns the difference of the stored values.
     fn minus_stored(self, other: &Self) -> Self {
         self - other
@@ -153,6 +159,13 @@ impl<S: Rounded> Bounded for Estimate<S> {
     #[inline]
     fn nominal(self) -> Self {
         Estimate::exact(self.into_value())
+    }
+
+    #[inline]
+    fn centred(&self) -> (Self, Self) {
+        let value = self.value();
+        let radius = if self.error() == 0.0 { value.zero() } else { value.double(self.error()) * &value.roundoff() };
+        (Estimate::exact(value.clone()), Estimate::exact(radius))
     }
 
     #[inline]

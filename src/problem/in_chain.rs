@@ -46,6 +46,11 @@ impl Chain {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn problems(&self) -> Result<Vec<Problem>, ProblemError> {
+        if self.is_soft() {
+            let found = "a body of a chain with springs, dashpots or masses by itself";
+            let expected = "the whole chain: ChainHistory, or solve, sample and explain of the command";
+            return Err(ProblemError::new(Kind::Contradiction, "body", found, expected));
+        }
         let materials = self.bodies().iter().enumerate().map(|(k, body)| material(k, body));
         let materials = materials.collect::<Result<Vec<_>, _>>()?;
         let mut chain = self.clone();
@@ -108,6 +113,10 @@ fn material(k: usize, body: &Body) -> Result<Material, ProblemError> {
             };
             let modulus = number(impedance.clone() * &speed)?;
             Ok(Material::Elastic { modulus, density: number(impedance / speed)?, area: Some(1.into()) })
+        }
+        BodyMaterial::Rigid { mass } => {
+            let found = format!("mass = {mass}");
+            Err(ProblemError::new(Kind::Contradiction, &format!("body[{k}].mass"), found, "a bar"))
         }
     }
 }

@@ -255,6 +255,16 @@ impl Analytic for Interval {
 }
 
 impl Bounded for Interval {
+    fn centred(&self) -> (Self, Self) {
+        if self.lo == self.hi {
+            return (self.clone(), self.zero());
+        }
+        let (mid, bits) = (self.mid(), self.lo.prec());
+        let radius = up(bits, &self.hi - &mid).max(&up(bits, &mid - &self.lo));
+        let point = |x: Float| Interval::checked(x.clone(), x, self.inside.map(|_| None));
+        (point(mid), point(radius))
+    }
+
     fn same(&self, other: &Self) -> bool {
         let points = self.lo == self.hi && other.lo == other.hi && self.lo == other.lo;
         match (&self.inside, &other.inside) {

@@ -1,0 +1,427 @@
+//! Polynomials over a stretch of time with a bound of their error, and the events that they bring.
+
+use std::sync::Arc;
+
+use super::wave::is_exact_zero;
+use crate::lattice::Line;
+use crate::number::{Bounded, Open};
+
+/// A polynomial in the time since an origin, with a bound of its distance from the true signal.
+#[derive(Clone, Debug)]
+pub(super) struct Curve<N> {
+    /// The time from which the polynomial counts, an exact number.
+    pub(super) origin: N,
+    /// Coefficients from degree zero on, exact numbers; one or more.
+    pub(super) terms: Arc<[N]>,
+    /// Bound of the distance from the true signal over the width.
+    pub(super) error: N,
+    /// Length of time over which the bound holds.
+    pub(super) width: N,
+}
+
+/// A signal between two breaks.
+#[derive(Clone, Debug)]
+pub(super) enum Signal<N> {
+    /// A line, in a chain of bars whose joints are rigid.
+    Line(Line<N>),
+    /// A polynomial, in a chain with springs, dashpots or masses.
+    Curve(Curve<N>),
+}
+
+/// Returns the value of a polynomial.
+pub(super) fn value<N: Bounded>(terms: &[N], at: &N) -> N {
+    let (last, others) = terms.split_last().map_or_else(|| (at.zero(), &[][..]), |(last, others)| (last.clone(), others));
+    others.iter().rev().fold(last, |sum, term| sum * at + term)
+}
+
+/// Returns `Σ |cₖ| wᵏ`, which bounds a polynomial over `0 ≤ s ≤ w`.
+pub(super) fn bound<N: Bounded>(terms: &[N], width: &N) -> N {
+    let (last, others) = terms.split_last().map_or_else(|| (width.zero(), &[][..]), |(l, o)| (l.magnitude(), o));
+    others.iter().rev().fold(last, |sum, term| sum * width + term.magnitude())
+}
+
+/// Returns the coefficients of the derivative.
+pub(super) fn derivative<N: Bounded>(terms: &[N]) -> Vec<N> {
+    let scaled = |(k, term): (usize, &N)| term.clone() * term.int(k as i64);
+    terms.iter().enumerate().skip(1).map(scaled).collect()
+}
+
+/// Returns the coefficients of the integral from zero.
+pub(super) fn primitive<N: Bounded>(terms: &[N]) -> Vec<N> {
+    let zero = terms.first().map(N::zero);
+    zero.into_iter().chain(terms.iter().enumerate().map(|(k, term)| term.clone() / term.int(k as i64 + 1))).collect()
+}
+
+/// Returns the coefficients about `by`.
+fn shifted<N: Bounded>(terms: &[N], by: &N) -> Vec<N> {
+    let mut terms = terms.to_vec();
+    if is_exact_zero(by) {
+        return terms;
+    }
+    for first in 0..terms.len().saturating_sub(1) {
+        for k in (first..terms.len() - 1).rev() {
+            terms[k] = terms[k].clone() + terms[k + 1].clone() * by;
+        }
+    }
+    terms
+}
+
+/// Returns the stored values of coefficients, and a bound of what the polynomial loses with their errors.
+pub(super) fn centred<N: Bounded>(terms: Vec<N>, width: &N) -> (Vec<N>, N) {
+    let (stored, errors): (Vec<N>, Vec<N>) = terms.iter().map(N::centred).unzip();
+    let error = if errors.iter().all(is_exact_zero) { width.zero() } else { bound(&errors, width) };
+    (stored, error)
+}
+
+/// Returns an upper bound of a number as an exact number.
+pub(super) fn upper<N: Bounded>(x: N) -> N {
+    let (stored, radius) = x.centred();
+    if is_exact_zero(&radius) {
+        return stored;
+    }
+    // The second radius covers the rounding of the sum.
+    (stored + radius.doubled()).centred().0
+}
+
+/// Returns the greater of two bounds, or their sum if their order is not decided.
+pub(super) fn greater<N: Bounded>(a: N, b: N) -> N {
+    match (a.below(&b), b.below(&a)) {
+        (Ok(true), _) => b,
+        (_, Ok(true)) => a,
+        _ => a + (b.magnitude()),
+    }
+}
+
+impl<N: Bounded> Curve<N> {
+    /// Returns the polynomial with these coefficients, whose errors enter the bound. Coefficients of a high degree that
+    /// are below one rounding of the others are dropped.
+    pub(super) fn new(origin: &N, terms: Vec<N>, error: N, width: &N) -> Self {
+        let (mut stored, rounding) = centred(terms, width);
+        let mut error = if is_exact_zero(&rounding) { error } else { error + rounding };
+        let size = bound(&stored, width) * width.roundoff() / width.int(4);
+        let mut dropped = width.zero();
+        let mut power = stored.iter().skip(1).fold(width.one(), |power, _| power * width);
+        while stored.len() > 1 {
+            let Some(last) = stored.last() else { break };
+            let next = dropped.clone() + last.magnitude() * &power;
+            if !is_exact_zero(last) && next.below(&size) != Ok(true) {
+                break;
+            }
+            (dropped, power) = (next, power / width);
+            stored.pop();
+        }
+        if !is_exact_zero(&dropped) {
+            error = error + dropped;
+        }
+        Curve { origin: origin.clone(), terms: stored.into(), error, width: width.clone() }
+    }
+
+    /// Returns the signal that arrives after the time `delay`.
+    pub(super) fn delayed(&self, delay: &N) -> Self {
+        let (origin, late) = (self.origin.clone() + delay).centred();
+        let error = match is_exact_zero(&late) {
+            true => self.error.clone(),
+            false => bound(&derivative(&self.terms), &self.width) * late + &self.error,
+        };
+        Curve { origin, error, ..self.clone() }
+    }
+
+    /// Returns the polynomial about another origin, and over another width.
+    pub(super) fn about(&self, origin: &N, width: &N) -> Self {
+        let by = origin.clone() - &self.origin;
+        if is_exact_zero(&by) {
+            return Curve { width: width.clone(), ..self.clone() };
+        }
+        let (terms, error) = centred(shifted(&self.terms, &by), width);
+        let error = if is_exact_zero(&error) { self.error.clone() } else { error + &self.error };
+        Curve { origin: origin.clone(), terms: terms.into(), error, width: width.clone() }
+    }
+
+    /// Returns the value at a time.
+    pub(super) fn value_at(&self, time: &N) -> N {
+        value(&self.terms, &(time.clone() - &self.origin)).widened(&self.error)
+    }
+
+    /// Returns the integral between the stored values of two times.
+    pub(super) fn integral(&self, from: &N, to: &N) -> N {
+        let terms = primitive(&self.terms);
+        let [from, to] = [from, to].map(|t| t.clone().centred().0 - &self.origin);
+        let error = (to.clone() - &from).magnitude() * &self.error;
+        let begun = if is_exact_zero(&from) { from.zero() } else { value(&terms, &from) };
+        (value(&terms, &to) - begun).widened(&error)
+    }
+
+    /// Returns the integral of the square over the first part of the width.
+    pub(super) fn square_integral(&self, width: &N) -> N {
+        let square = product(&self.terms, &self.terms);
+        let most = bound(&self.terms, width).doubled() + &self.error;
+        value(&primitive(&square), width).widened(&(most * &self.error * width))
+    }
+
+    /// Returns the greatest value between the stored values of two times, and the first time of it. The slope is that of
+    /// the terms, with the bound `slope_error` of its distance from the slope of the true signal if it is known.
+    pub(super) fn greatest(&self, from: &N, to: &N, slope_error: Option<&N>) -> (N, N) {
+        let [begin, end] = [from, to].map(|t| t.clone().centred().0);
+        let width = (end.clone() - &begin).centred().0;
+        let own = self.about(&begin, &width);
+        let mut best = (self.value_at(from), from.clone());
+        if own.terms.len() < 3 {
+            let last = self.value_at(to);
+            return highest(best, (last, to.clone()));
+        }
+        let slope = Curve { terms: derivative(&own.terms).into(), error: begin.zero(), ..own.clone() };
+        let mut rest = begin.zero();
+        let mut falls = slope.terms[0].negative() == Ok(true);
+        // Maxima and minima of the curve alternate.
+        for turn in 0..own.terms.len() {
+            let left = (width.clone() - &rest).centred().0;
+            if left.positive() != Ok(true) {
+                break;
+            }
+            let slope = slope.about(&(begin.clone() + &rest).centred().0, &left);
+            let slope = if falls { slope.negated() } else { slope };
+            let error = if turn == 0 { begin.zero() } else { upper(slope.terms[0].magnitude()) };
+            let error = slope_error.map_or_else(|| error.clone(), |own| error.clone() + own);
+            let Ok((Fall::After(at), _)) = first_fall(&Curve { error, ..slope }) else { break };
+            let (place, late) = at.centred();
+            let here = (rest.clone() + &place).centred().0;
+            if !falls && !is_exact_zero(&here) {
+                let found = value(&own.terms, &here).widened(&own.error);
+                // The true maximum is within twice the error of this one, on a curve that bends down.
+                let bend = bound(&derivative(&derivative(&own.terms)), &width);
+                let found = found.widened(&(bend * late.square()));
+                let time = match slope_error {
+                    Some(_) => (begin.clone() + &here).widened(&late),
+                    None => self.time_of_maximum(&begin, &here),
+                };
+                best = highest(best, (found, time));
+            }
+            if is_exact_zero(&place) {
+                break;
+            }
+            (rest, falls) = (here, !falls);
+        }
+        let last = self.value_at(to);
+        highest(best, (last, to.clone()))
+    }
+
+    /// Returns the time of a smooth maximum within its bound: a curve within `e` of this one has its maximum where this
+    /// one is within `2e` of its own.
+    fn time_of_maximum(&self, begin: &N, here: &N) -> N {
+        let time = (begin.clone() + here).centred().0;
+        let about = shifted(&self.terms, &(time.clone() - &self.origin));
+        let bend = about.get(2).map_or_else(|| time.zero(), |bend| -bend.clone());
+        let twice = self.error.clone().doubled() + about.get(1).map_or_else(|| time.zero(), N::magnitude);
+        if is_exact_zero(&twice) {
+            return time;
+        }
+        let near = (twice / &bend).doubled().try_sqrt().unwrap_or_else(|| self.width.clone());
+        time.widened(&near)
+    }
+
+    /// Returns a width over which the polynomial rises; `None` if it does not rise at its origin.
+    pub(super) fn rising_width(&self) -> Option<N> {
+        let slopes = derivative(&self.terms);
+        let (first, rest) = slopes.split_first()?;
+        let mut width = self.width.clone();
+        for _ in 0..64 {
+            if (first.clone() - bound(rest, &width) * &width).positive() == Ok(true) {
+                return Some(width);
+            }
+            width = width.halved().centred().0;
+        }
+        None
+    }
+
+    fn negated(&self) -> Self {
+        let terms = self.terms.iter().map(|term| -term.clone()).collect::<Vec<_>>().into();
+        Curve { terms, ..self.clone() }
+    }
+}
+
+/// Returns the greater of two values with their times, of which the second one is later. Values that agree within their
+/// bounds leave the time open between both.
+pub(super) fn highest<N: Bounded>(first: (N, N), second: (N, N)) -> (N, N) {
+    let apart = second.0.clone() - &first.0;
+    match (apart.positive(), apart.negative()) {
+        (Ok(true), _) => second,
+        (_, Ok(true)) => first,
+        _ if is_exact_zero(&apart) => first,
+        _ => {
+            let wait = (second.1.clone() - &first.1).magnitude();
+            let is_second_stored = (second.0.centred().0 - first.0.centred().0).positive() == Ok(true);
+            let (value, other, time) =
+                if is_second_stored { (second.0, first.0, second.1) } else { (first.0, second.0, first.1) };
+            (value.widened(&other.centred().1), time.widened(&wait))
+        }
+    }
+}
+
+/// Returns the coefficients of `P(w − s)`.
+pub(super) fn turned<N: Bounded>(terms: &[N], width: &N) -> Vec<N> {
+    let signed = |(k, term): (usize, N)| if k % 2 == 1 { -term } else { term };
+    shifted(terms, width).into_iter().enumerate().map(signed).collect()
+}
+
+/// Returns the coefficients of a product.
+pub(super) fn product<N: Bounded>(a: &[N], b: &[N]) -> Vec<N> {
+    let Some(first) = a.first().filter(|_| !b.is_empty()) else { return Vec::new() };
+    let mut terms = vec![first.zero(); a.len() + b.len() - 1];
+    for (i, a) in a.iter().enumerate() {
+        for (j, b) in b.iter().enumerate() {
+            terms[i + j] = terms[i + j].clone() + a.clone() * b;
+        }
+    }
+    terms
+}
+
+impl<N: Bounded> Signal<N> {
+    /// Returns the line of a chain of bars whose joints are rigid, which has no curves.
+    pub(super) fn line(&self) -> Line<N> {
+        match self {
+            Signal::Line(line) => line.clone(),
+            Signal::Curve(Curve { terms, .. }) => Line { intercept: terms[0].clone(), slope: terms[0].zero() },
+        }
+    }
+
+    /// Returns the greatest value between the stored values of two times, and the first time of it.
+    pub(super) fn greatest(&self, from: &N, to: &N, slope_error: Option<&N>) -> (N, N) {
+        match self {
+            Signal::Curve(curve) => curve.greatest(from, to, slope_error),
+            Signal::Line(line) => {
+                let [first, last] = [from, to].map(|t| line.value_at(t));
+                if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }
+            }
+        }
+    }
+
+    /// Returns the signal that arrives after the time `delay`.
+    pub(super) fn delayed(&self, delay: &N) -> Self {
+        match self {
+            Signal::Line(line) => Signal::Line(line.delayed(delay)),
+            Signal::Curve(curve) => Signal::Curve(curve.delayed(delay)),
+        }
+    }
+
+    /// Returns the value at a time.
+    pub(super) fn value_at(&self, time: &N) -> N {
+        match self {
+            Signal::Line(line) => line.value_at(time),
+            Signal::Curve(curve) => curve.value_at(time),
+        }
+    }
+
+    /// Returns the integral between the stored values of two times.
+    pub(super) fn integral(&self, from: &N, to: &N) -> N {
+        match self {
+            Signal::Line(line) => line.integral(from, to),
+            Signal::Curve(curve) => curve.integral(from, to),
+        }
+    }
+
+    /// Returns the signal as a polynomial from `origin` on, over a width.
+    pub(super) fn about(&self, origin: &N, width: &N) -> Curve<N> {
+        match self {
+            Signal::Line(line) => {
+                let mut terms = vec![line.value_at(origin)];
+                if !is_exact_zero(&line.slope) {
+                    terms.push(line.slope.clone());
+                }
+                let (terms, error) = centred(terms, width);
+                Curve { origin: origin.clone(), terms: terms.into(), error, width: width.clone() }
+            }
+            Signal::Curve(curve) => curve.about(origin, width),
+        }
+    }
+}
+
+/// The first time at which a function that is not negative at the start falls below zero.
+#[derive(Clone, Debug)]
+pub(super) enum Fall<N> {
+    /// The function stays above zero, or returns from it.
+    None,
+    /// The function falls below zero, after this time since the origin.
+    After(N),
+    /// The function falls, and is zero within its bound at the end of its width.
+    AtEnd,
+}
+
+/// Returns the first fall of a curve below zero within its width, and whether a touch is not told from a fall.
+///
+/// **Source**: an interval on which the curve has no zero, or a derivative of one sign, decides; others are halved.
+pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool), Open> {
+    let halvings = curve.width.bits().map_or(64, |bits| bits / 2 + 24);
+    let mut stretches = vec![(curve.width.zero(), curve.width.clone(), halvings)];
+    let mut doubt = false;
+    while let Some((from, width, halvings)) = stretches.pop() {
+        let (terms, error) = centred(shifted(&curve.terms, &from), &width);
+        let error = error + &curve.error;
+        let (first, rest) = (&terms[0], bound(&terms[1..], &width) * &width);
+        if (first.clone() + &error).negative() == Ok(true) {
+            return Ok((Fall::After(from), doubt));
+        }
+        if (first.clone() - &rest - &error).positive() == Ok(true) {
+            continue;
+        }
+        let slope = terms.get(1).map_or_else(|| width.zero(), N::clone);
+        let bend = bound(&derivative(&derivative(&terms)), &width) * &width;
+        if (slope.clone() - &bend).positive() == Ok(true) {
+            continue;
+        }
+        if (slope.clone() + &bend).negative() == Ok(true) {
+            if (first.clone() - &error).positive() != Ok(true) {
+                let late = (error / (-slope - &bend)).doubled();
+                return Ok((Fall::After(if is_exact_zero(&late) { from } else { from.widened(&late) }), doubt));
+            }
+            let last = value(&terms, &width);
+            if (last.clone() - &error).positive() == Ok(true) {
+                continue;
+            }
+            if (last + &error).negative() != Ok(true) && stretches.is_empty() {
+                return Ok((Fall::AtEnd, doubt));
+            }
+            let root = simple_root(&terms, &width, &error).ok_or(Open)?;
+            return Ok((Fall::After(from + root), doubt));
+        }
+        let size = rest + first.magnitude();
+        if halvings == 0 || error.clone().doubled().below(&size) != Ok(true) {
+            // The curve is zero within its bound; a curve that is exactly zero stays there.
+            doubt |= !(is_exact_zero(&size) && is_exact_zero(&error));
+            continue;
+        }
+        let half = width.clone().halved().centred().0;
+        let middle = (from.clone() + &half).centred().0;
+        stretches.push((middle, width - &half, halvings - 1));
+        stretches.push((from, half, halvings - 1));
+    }
+    Ok((Fall::None, doubt))
+}
+
+/// Returns the root of a falling polynomial in `0 ≤ s ≤ w` within its bound; an end if the root is within the error of
+/// it. `None` if the slope at the root is not told from zero.
+fn simple_root<N: Bounded>(terms: &[N], width: &N, error: &N) -> Option<N> {
+    let slopes = derivative(terms);
+    let (mut least, mut most) = (width.zero(), width.clone());
+    let mut root = width.clone().halved().centred().0;
+    let steps = 2 * width.bits().unwrap_or(64) + 16;
+    for _ in 0..steps {
+        let found = value(terms, &root);
+        if found.clone().centred().0.positive() == Ok(true) { least = root.clone() } else { most = root.clone() }
+        let next = (root.clone() - found / value(&slopes, &root)).centred().0;
+        let inside = least.below(&next) == Ok(true) && next.below(&most) == Ok(true);
+        let next = if inside { next } else { (least.clone() + &most).halved().centred().0 };
+        if next.alike(&root) || is_exact_zero(&(next.clone() - &root)) {
+            break;
+        }
+        root = next;
+    }
+    let about = shifted(terms, &root);
+    let off = about[0].magnitude() + error;
+    let slope = about.get(1)?.magnitude();
+    let near = (off.clone() / &slope).doubled();
+    let bend = bound(&derivative(&derivative(&about)), &near.clone().magnitude()) * &near;
+    let least = slope - bend;
+    let late = off / &least;
+    let certain = least.positive() == Ok(true) && (late.clone() - near).positive() != Ok(true);
+    certain.then(|| root.widened(&late))
+}

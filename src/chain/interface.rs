@@ -1,0 +1,340 @@
+//! An interface of a chain with springs, dashpots or masses: the signals that arrive at it, and its linear law.
+
+use super::curve::{Curve, Signal, upper};
+use super::law::{Law, Mix};
+use super::node::{Source, Stage};
+use super::wave::{Wave, is_exact_zero};
+use crate::lattice::Line;
+use crate::number::Bounded;
+
+/// A spring with a dashpot beside it, in the numbers of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Soft<N> {
+    pub(super) stiffness: N,
+    /// The root of the stiffness.
+    pub(super) root: N,
+    pub(super) damping: N,
+}
+
+/// A time: its exact form where there is one, and a stored value with a bound of its distance from the true time.
+#[derive(Clone, Debug)]
+pub(super) struct Moment<N> {
+    pub(super) time: N,
+    pub(super) at: N,
+    pub(super) late: N,
+}
+
+impl<N: Bounded> Moment<N> {
+    pub(super) fn new(time: N) -> Self {
+        let (at, late) = time.centred();
+        Moment { time, at, late }
+    }
+
+    /// Returns the time within `late` of a stored one.
+    pub(super) fn beside(at: N, late: N) -> Self {
+        let late = upper(late);
+        let time = if is_exact_zero(&late) { at.clone() } else { at.clone().widened(&late).with_identity() };
+        Moment { time, at, late }
+    }
+
+    /// Returns whether both times agree within their bounds.
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        let apart = (self.at.clone() - &other.at).magnitude();
+        (apart - &self.late - &other.late).positive() != Ok(true)
+    }
+
+    /// Returns whether both times are known to be one.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        is_exact_zero(&(self.time.clone() - &other.time))
+    }
+}
+
+/// A factor of a linear law. Factors of zero and one cost no rounding.
+#[derive(Clone, Debug)]
+enum Factor<N> {
+    Zero,
+    Plus,
+    Minus,
+    Times(N),
+}
+
+impl<N: Bounded> Factor<N> {
+    fn new(x: N) -> Self {
+        let one = x.one();
+        match () {
+            () if is_exact_zero(&x) => Factor::Zero,
+            () if is_exact_zero(&(x.clone() - &one)) => Factor::Plus,
+            () if is_exact_zero(&(x.clone() + &one)) => Factor::Minus,
+            () => Factor::Times(x),
+        }
+    }
+
+    fn of(&self, x: &N) -> Option<N> {
+        match self {
+            Factor::Zero => None,
+            Factor::Plus => Some(x.clone()),
+            Factor::Minus => Some(-x.clone()),
+            Factor::Times(by) => Some(x.clone() * by),
+        }
+        .filter(|product| !is_exact_zero(product))
+    }
+
+    fn magnitude(&self) -> Self {
+        match self {
+            Factor::Times(by) => Factor::Times(by.magnitude()),
+            Factor::Minus => Factor::Plus,
+            other => other.clone(),
+        }
+    }
+}
+
+/// A linear form in the signal from below, that from above, and the gap.
+#[derive(Clone, Debug)]
+pub(super) struct Row<N>([Factor<N>; 3]);
+
+impl<N: Bounded> Row<N> {
+    fn new(factors: [N; 3]) -> Self {
+        Row(factors.map(Factor::new))
+    }
+
+    /// Returns the value of the form.
+    pub(super) fn of(&self, values: [&N; 3]) -> N {
+        let mut sum: Option<N> = None;
+        for (factor, value) in self.0.iter().zip(values) {
+            if let Some(product) = factor.of(value) {
+                sum = Some(sum.map_or(product.clone(), |sum| sum + &product));
+            }
+        }
+        sum.unwrap_or_else(|| values[0].zero())
+    }
+
+    /// Returns the form with the magnitudes of its factors, for bounds.
+    pub(super) fn magnitude(&self) -> Self {
+        Row(self.0.each_ref().map(Factor::magnitude))
+    }
+}
+
+/// The linear laws of an interface that is open, or closed.
+#[derive(Clone, Debug)]
+pub(super) struct Rows<N> {
+    /// The compressive force.
+    pub(super) force: Row<N>,
+    /// The rate of the gap.
+    pub(super) rate: Row<N>,
+    /// The signals that leave downward and upward.
+    pub(super) leaving: [Row<N>; 2],
+}
+
+impl<N: Bounded> Rows<N> {
+    /// Returns the laws without a force.
+    pub(super) fn open(zero: &N) -> Self {
+        let (z, one) = (|| zero.zero(), || zero.one());
+        Rows {
+            force: Row::new([z(), z(), z()]),
+            rate: Row::new([-one(), one(), z()]),
+            leaving: [Row::new([one(), z(), z()]), Row::new([z(), one(), z()])],
+        }
+    }
+
+    /// Returns the laws of a closed or bonded interface.
+    ///
+    /// **Source**: with a spring, `f = −(k gap + d gap′)` and `gap′ = A₊ − A₋ + Yf`.
+    pub(super) fn closed((law, outer): (Law, usize), mix: &Mix<N>, soft: Option<&Soft<N>>) -> Self {
+        let zero = mix.conductance.zero();
+        let (z, one) = (|| zero.zero(), || zero.one());
+        let [twice_below, twice_above] = &mix.twice;
+        if let Some(Soft { stiffness, damping, .. }) = soft {
+            let compliance = (twice_below.clone() + twice_above).halved();
+            let denominator = damping.clone() * &compliance + one();
+            let [d, k, share] = [damping.clone(), stiffness.clone(), one()].map(|x| x / &denominator);
+            return Rows {
+                force: Row::new([d.clone(), -d.clone(), -k.clone()]),
+                rate: Row::new([-share.clone(), share, -(k.clone() * &compliance)]),
+                leaving: [
+                    Row::new([
+                        one() - d.clone() * twice_below,
+                        d.clone() * twice_below,
+                        k.clone() * twice_below,
+                    ]),
+                    Row::new([d.clone() * twice_above, one() - d * twice_above, -(k * twice_above)]),
+                ],
+            };
+        }
+        if law == Law::Force {
+            // The force arrives from the outer side.
+            let force = if outer == 0 { [-one(), z(), z()] } else { [z(), -one(), z()] };
+            let below = [one(), twice_below.clone(), z()];
+            let above = [-twice_above.clone(), one(), z()];
+            let rate = Row::new([z(), z(), z()]);
+            return Rows { force: Row::new(force), rate, leaving: [Row::new(below), Row::new(above)] };
+        }
+        let [past_below, past_above] = &mix.passed;
+        let reflection = &mix.reflection;
+        Rows {
+            force: Row::new([mix.conductance.clone(), -mix.conductance.clone(), z()]),
+            rate: Row::new([z(), z(), z()]),
+            leaving: [
+                Row::new([reflection.clone(), past_below.clone(), z()]),
+                Row::new([past_above.clone(), -reflection.clone(), z()]),
+            ],
+        }
+    }
+}
+
+/// The state of an interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// A contact without a force, at a gap.
+    Open,
+    /// A closed contact, or an interface that is never open.
+    Closed,
+    /// A contact whose dashpot no longer pushes, at a depth.
+    Released,
+}
+
+/// The signal that arrives at one side of an interface.
+#[derive(Clone, Debug)]
+pub(super) struct Input<N> {
+    pub(super) source: Source<N>,
+    pub(super) delay: Option<N>,
+    cursor: usize,
+    pub(super) signal: Signal<N>,
+    /// Arrival of the next piece, as far as it is known.
+    pub(super) next: Option<Moment<N>>,
+}
+
+impl<N: Bounded> Input<N> {
+    pub(super) fn new(source: Source<N>, delay: Option<N>, zero: &N) -> Self {
+        let signal = Signal::Line(Line { intercept: zero.zero(), slope: zero.zero() });
+        Input { source, delay, cursor: 0, signal, next: None }
+    }
+
+    fn piece(&self, k: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<(N, Signal<N>)> {
+        match (&self.source, &self.delay) {
+            (Source::Wave(body), Some(delay)) => {
+                let piece = waves[*body][side].pieces.get(k)?;
+                Some((piece.from.clone() + delay, piece.signal.delayed(delay)))
+            }
+            (Source::Data(lines), _) => lines.get(k).map(|(from, line)| (from.clone(), Signal::Line(line.clone()))),
+            _ => None,
+        }
+    }
+
+    /// Receives the first piece.
+    pub(super) fn begin(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
+        if let Some((_, signal)) = self.piece(0, waves, side) {
+            self.signal = signal;
+        }
+    }
+
+    /// Looks up the arrival of the next piece, if it has left its origin.
+    pub(super) fn look_up(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
+        if self.next.is_none() {
+            self.next = match (&self.source, &self.delay) {
+                (Source::Wave(body), Some(delay)) => {
+                    waves[*body][side].pieces.get(self.cursor + 1).map(|piece| piece.from.clone() + delay)
+                }
+                (Source::Data(lines), _) => lines.get(self.cursor + 1).map(|(from, _)| from.clone()),
+                _ => None,
+            }
+            .map(Moment::new);
+        }
+    }
+
+    /// Passes on to the next piece.
+    pub(super) fn advance(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
+        self.cursor += 1;
+        if let Some((_, signal)) = self.piece(self.cursor, waves, side) {
+            self.signal = signal;
+        }
+        self.next = None;
+        self.look_up(waves, side);
+    }
+}
+
+/// An interface between two bodies, or at an end of the chain.
+#[derive(Clone, Debug)]
+pub(super) struct Interface<N> {
+    pub(super) law: Law,
+    pub(super) soft: Option<Soft<N>>,
+    pub(super) sides: [Input<N>; 2],
+    /// Impedances of the sides; zero for a ground or a mass.
+    pub(super) impedances: [N; 2],
+    open: Rows<N>,
+    closed: Rows<N>,
+    pub(super) mode: Mode,
+    /// The gap at the time that is reached, an exact number, and the bound of its error where it is no part of the norm.
+    pub(super) gap: N,
+    pub(super) gap_error: N,
+    /// Whether the contact has just opened at a gap of zero, from a force that fell to zero.
+    pub(super) is_fresh: bool,
+    /// Whether the function that is watched for an event was zero within its bound at the end of the step before.
+    pub(super) grazes: bool,
+    /// Energy that the dashpot has taken up.
+    pub(super) dissipated: N,
+    /// `y` just before the time that is reached.
+    pub(super) drive: N,
+    pub(super) stages: Vec<Stage<N>>,
+}
+
+impl<N: Bounded> Interface<N> {
+    pub(super) fn new(
+        (law, soft): (Law, Option<Soft<N>>),
+        (sides, impedances): ([Input<N>; 2], [Option<N>; 2]),
+        (mix, outer): (&Mix<N>, usize),
+        gap: &N,
+    ) -> Self {
+        let zero = gap.zero();
+        let mode = if law == Law::Contact { Mode::Open } else { Mode::Closed };
+        let (gap, gap_error) = gap.centred();
+        Interface {
+            open: Rows::open(&zero),
+            closed: Rows::closed((law, outer), mix, soft.as_ref()),
+            impedances: impedances.map(|z| z.unwrap_or_else(|| zero.zero())),
+            law,
+            soft,
+            sides,
+            mode,
+            gap,
+            gap_error,
+            is_fresh: false,
+            grazes: false,
+            dissipated: zero.zero(),
+            drive: zero,
+            stages: Vec::new(),
+        }
+    }
+
+    /// Returns the laws in the present state.
+    pub(super) fn rows(&self) -> &Rows<N> {
+        if self.mode == Mode::Closed { &self.closed } else { &self.open }
+    }
+
+    /// Returns the rate of the gap between free ends.
+    pub(super) fn drive_row(&self) -> &Row<N> {
+        &self.open.rate
+    }
+
+    /// Returns the force of the closed interface.
+    pub(super) fn closed_force(&self) -> &Row<N> {
+        &self.closed.force
+    }
+
+    /// Returns whether the gap acts back on the motion: a spring is under load.
+    pub(super) fn is_sprung(&self) -> bool {
+        self.mode == Mode::Closed && self.soft.as_ref().is_some_and(|soft| !is_exact_zero(&soft.stiffness))
+    }
+}
+
+/// The state of an interface over a stretch of time, beside what every node has.
+#[derive(Clone, Debug)]
+pub(super) struct Softness<N> {
+    /// The gap.
+    pub(super) gap: Curve<N>,
+    /// The rate of the gap.
+    pub(super) rate: Curve<N>,
+    /// Whether the spring is loaded, or the contact closed.
+    pub(super) loaded: bool,
+    /// Energy that the dashpot has taken up before.
+    pub(super) dissipated: N,
+}
