@@ -30,7 +30,8 @@ pub(super) enum Signal<N> {
 
 /// Returns the value of a polynomial.
 pub(super) fn value<N: Bounded>(terms: &[N], at: &N) -> N {
-    let (last, others) = terms.split_last().map_or_else(|| (at.zero(), &[][..]), |(last, others)| (last.clone(), others));
+    let (last, others) =
+        terms.split_last().map_or_else(|| (at.zero(), &[][..]), |(last, others)| (last.clone(), others));
     others.iter().rev().fold(last, |sum, term| sum * at + term)
 }
 
@@ -233,7 +234,8 @@ impl<N: Bounded> Curve<N> {
         None
     }
 
-    fn negated(&self) -> Self {
+    /// Returns the negative curve.
+    pub(super) fn negated(&self) -> Self {
         let terms = self.terms.iter().map(|term| -term.clone()).collect::<Vec<_>>().into();
         Curve { terms, ..self.clone() }
     }
@@ -406,7 +408,11 @@ fn simple_root<N: Bounded>(terms: &[N], width: &N, error: &N) -> Option<N> {
     let steps = 2 * width.bits().unwrap_or(64) + 16;
     for _ in 0..steps {
         let found = value(terms, &root);
-        if found.clone().centred().0.positive() == Ok(true) { least = root.clone() } else { most = root.clone() }
+        if found.clone().centred().0.positive() == Ok(true) {
+            least = root.clone()
+        } else {
+            most = root.clone()
+        }
         let next = (root.clone() - found / value(&slopes, &root)).centred().0;
         let inside = least.below(&next) == Ok(true) && next.below(&most) == Ok(true);
         let next = if inside { next } else { (least.clone() + &most).halved().centred().0 };

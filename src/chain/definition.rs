@@ -207,6 +207,20 @@ impl Body {
         &self.material
     }
 
+    /// Returns `EA/L`, within an inner option that is empty if it is no fraction; `None` for a rigid body.
+    pub(crate) fn stiffness(&self) -> Option<Option<Rational>> {
+        let length = self.length.to_rational();
+        match &self.material {
+            BodyMaterial::Elastic { modulus, area, .. } => {
+                Some(Some(modulus.to_rational() * area.to_rational() / length))
+            }
+            BodyMaterial::Impedance { wave_speed, impedance } => {
+                Some(Some(wave_speed.to_rational() * impedance.to_rational() / length))
+            }
+            BodyMaterial::Rigid { .. } => None,
+        }
+    }
+
     /// Returns `Z²` and `c²`, which are fractions; zero and one for a rigid body.
     pub(super) fn squares(&self) -> [Rational; 2] {
         match &self.material {
@@ -510,7 +524,10 @@ impl Chain {
             }
             let end = (*node == 0).then_some(&self.ends[0]).or_else(|| (*node == top).then_some(&self.ends[1]));
             if matches!(end, Some(End::Free | End::Force(_))) {
-                return refuse(format!("a spring at the {place}, which is free or loaded"), "ground, or an end that is held");
+                return refuse(
+                    format!("a spring at the {place}, which is free or loaded"),
+                    "ground, or an end that is held",
+                );
             }
         }
         for node in 0..=top {

@@ -188,7 +188,8 @@ impl<N: Bounded> ChainRun<N> {
         let density = impedance.clone() / wave_speed;
         let mean = |sum: N| sum.halved() / travel;
         // ∫ (p + q − 2gt)² = ∫p² + ∫q² + 2∫pq − 4gt ∫(p + q) + 4g²t² T.
-        let moved = squares.clone() + cross.clone().doubled() - (total.clone() * &fall - fall.square() * travel) * fall.int(4);
+        let moved =
+            squares.clone() + cross.clone().doubled() - (total.clone() * &fall - fall.square() * travel) * fall.int(4);
         let stretched = squares - cross.doubled();
         let energy = |sum: N| sum * impedance / impedance.int(8);
         let displacement = mean(rising.height + &falling.height) - (fall.clone() * time).halved();
@@ -322,7 +323,9 @@ impl<N: Bounded> Window<N> {
             from = to;
         }
         let [own_most, other_most] = [self, other].map(Window::most);
-        let slivers = |window: &Self, most: &N| window.slivers.iter().fold(zero.clone(), |sum, (area, _)| sum + area.clone() * most);
+        let slivers = |window: &Self, most: &N| {
+            window.slivers.iter().fold(zero.clone(), |sum, (area, _)| sum + area.clone() * most)
+        };
         sum.widened(&(slivers(self, &other_most) + slivers(other, &own_most)))
     }
 }

@@ -139,7 +139,8 @@ impl ChainColumn {
         let bodies = chain.bodies().len();
         let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
         let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
-        let columns = quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));
+        let columns =
+            quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));
         let is_of_spring =
             |column: &Self| matches!(column.quantity, ChainQuantity::SpringEnergy | ChainQuantity::Dissipated);
         columns.filter(|column| !is_of_spring(column) || chain.spring(column.place).is_some()).collect()
@@ -392,8 +393,10 @@ impl Chain {
                 _ => (),
             }
         }
-        let lightest = self.bodies.iter().filter_map(Body::rigid_mass).map(Number::to_f64).fold(f64::INFINITY, f64::min);
-        velocity = velocity.max(if impedance > 0.0 { forces / impedance } else { forces / lightest * self.until.to_f64() });
+        let lightest =
+            self.bodies.iter().filter_map(Body::rigid_mass).map(Number::to_f64).fold(f64::INFINITY, f64::min);
+        velocity =
+            velocity.max(if impedance > 0.0 { forces / impedance } else { forces / lightest * self.until.to_f64() });
         if impedance == 0.0 {
             (impedance, length) = (lightest / self.until.to_f64(), 1.0);
         }

@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, Signal, upper};
 use super::law::{Law, Mix};
-use super::node::{Source, Stage};
+use super::node::{Gap, Source, Stage};
 use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
 use crate::number::Bounded;
@@ -90,28 +90,40 @@ impl<N: Bounded> Factor<N> {
 
 /// A linear form in the signal from below, that from above, and the gap.
 #[derive(Clone, Debug)]
-pub(super) struct Row<N>([Factor<N>; 3]);
+pub(super) struct Row<N> {
+    factors: [Factor<N>; 3],
+    /// Magnitudes of the factors.
+    sizes: [Factor<N>; 3],
+}
 
 impl<N: Bounded> Row<N> {
     fn new(factors: [N; 3]) -> Self {
-        Row(factors.map(Factor::new))
+        let factors = factors.map(Factor::new);
+        Row { sizes: factors.each_ref().map(Factor::magnitude), factors }
     }
 
     /// Returns the value of the form.
     pub(super) fn of(&self, values: [&N; 3]) -> N {
-        let mut sum: Option<N> = None;
-        for (factor, value) in self.0.iter().zip(values) {
-            if let Some(product) = factor.of(value) {
-                sum = Some(sum.map_or(product.clone(), |sum| sum + &product));
-            }
-        }
-        sum.unwrap_or_else(|| values[0].zero())
+        weighted(&self.factors, values)
     }
 
-    /// Returns the form with the magnitudes of its factors, for bounds.
-    pub(super) fn magnitude(&self) -> Self {
-        Row(self.0.each_ref().map(Factor::magnitude))
+    /// Returns a bound of the form for bounds of its values.
+    pub(super) fn bound_of(&self, values: [&N; 3]) -> N {
+        weighted(&self.sizes, values)
     }
+}
+
+fn weighted<N: Bounded>(factors: &[Factor<N>; 3], values: [&N; 3]) -> N {
+    let mut sum: Option<N> = None;
+    for (factor, value) in factors.iter().zip(values) {
+        if let Some(product) = factor.of(value) {
+            sum = Some(match sum {
+                Some(sum) => sum + product,
+                None => product,
+            });
+        }
+    }
+    sum.unwrap_or_else(|| values[0].zero())
 }
 
 /// The linear laws of an interface that is open, or closed.
@@ -151,11 +163,7 @@ impl<N: Bounded> Rows<N> {
                 force: Row::new([d.clone(), -d.clone(), -k.clone()]),
                 rate: Row::new([-share.clone(), share, -(k.clone() * &compliance)]),
                 leaving: [
-                    Row::new([
-                        one() - d.clone() * twice_below,
-                        d.clone() * twice_below,
-                        k.clone() * twice_below,
-                    ]),
+                    Row::new([one() - d.clone() * twice_below, d.clone() * twice_below, k.clone() * twice_below]),
                     Row::new([d.clone() * twice_above, one() - d * twice_above, -(k * twice_above)]),
                 ],
             };
@@ -326,7 +334,17 @@ impl<N: Bounded> Interface<N> {
     }
 }
 
-/// The state of an interface over a stretch of time, beside what every node has.
+impl<N> Stage<N> {
+    /// Returns the gap of a chain with springs, dashpots or masses.
+    pub(super) fn softness(&self) -> Option<&Softness<N>> {
+        match &self.gap {
+            Gap::Soft(softness) => Some(softness),
+            _ => None,
+        }
+    }
+}
+
+/// The gap of an interface over a stretch of time.
 #[derive(Clone, Debug)]
 pub(super) struct Softness<N> {
     /// The gap.

@@ -43,8 +43,20 @@ impl<N: Bounded> ChainRun<N> {
             Nodes::Soft(clusters) => {
                 let travels = bars.iter().map(|bar| bar.travel.clone()).collect();
                 let limits = (chain.max_pieces(), observe);
-                let Marched { nodes, events, end, ending, doubt } = march(clusters, &mut waves, (travels, until), limits)?;
-                return Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches: Vec::new(), doubt });
+                let Marched { nodes, events, end, ending, doubt } =
+                    march(clusters, &mut waves, (travels, until), limits)?;
+                return Ok(ChainRun {
+                    bars,
+                    nodes,
+                    springs,
+                    waves,
+                    gravity,
+                    end,
+                    ending,
+                    events,
+                    touches: Vec::new(),
+                    doubt,
+                });
             }
         };
         let (mut events, mut touches) = (Vec::new(), Vec::new());

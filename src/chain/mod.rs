@@ -29,8 +29,10 @@ mod interface;
 mod law;
 mod march;
 mod node;
+mod norm;
 mod run;
 mod start;
+mod step;
 mod wave;
 
 pub(crate) use body_motion::{BodyMotion, Runs};

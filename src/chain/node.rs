@@ -55,14 +55,21 @@ pub(super) struct Stage<N> {
     pub(super) from: N,
     /// The compressive force.
     pub(super) force: Signal<N>,
-    /// `y`: the rate of the gap between free ends.
-    pub(super) drive: Signal<N>,
-    /// The gap at the stored beginning; `None` where it stays zero: no contact, a closed one, or one at rest.
-    pub(super) gap: Option<N>,
+    /// The gap.
+    pub(super) gap: Gap<N>,
     /// Whether a contact is closed.
     pub(super) closed: bool,
-    /// The gap of a contact, and that of a spring, in a chain with springs, dashpots or masses.
-    pub(super) softness: Option<Softness<N>>,
+}
+
+/// The gap of a node over time.
+#[derive(Clone, Debug)]
+pub(super) enum Gap<N> {
+    /// Zero: no contact, a closed one, or one at rest.
+    Zero,
+    /// A gap `at` the stored beginning, and `drive`, its rate `y` between free ends.
+    Open { at: N, drive: Line<N> },
+    /// The gap of a contact, or of a spring, in a chain with springs, dashpots or masses.
+    Soft(Softness<N>),
 }
 
 /// An occurrence at a contact.
@@ -359,9 +366,9 @@ impl<N: Bounded> Node<N> {
     /// Returns whether the gap closes before or at `t`, given that it does so at all while no signal changes.
     fn lands_before(&self, t: &N) -> Result<bool, Open> {
         let Some(stage) = self.stages.last() else { return Ok(false) };
-        let Some(gap) = &stage.gap else { return Ok(false) };
-        let gap = stage.drive.integral(&stage.from, t) + gap;
-        Ok(!gap.positive()? || (stage.drive.line().slope.positive()? && !stage.drive.value_at(t).negative()?))
+        let Gap::Open { at, drive } = &stage.gap else { return Ok(false) };
+        let gap = drive.integral(&stage.from, t) + at;
+        Ok(!gap.positive()? || (drive.slope.positive()? && !drive.value_at(t).negative()?))
     }
 
     /// Returns whether a closed contact opens. `alone` has the drives after one of two coincident breaks each, and
@@ -459,9 +466,8 @@ impl<N: Bounded> Node<N> {
         self.root = if self.law == Law::Contact { self.find_root(&drive, &t)? } else { Root::None };
         let (closed, force) = (self.closed, self.leaving.force.clone());
         let is_open = self.law == Law::Contact && !closed && !self.resting;
-        let gap = is_open.then(|| self.gap.clone());
-        let [force, drive] = [force, drive].map(Signal::Line);
-        self.stages.push(Stage { from: t, force, drive, gap, closed, softness: None });
+        let gap = if is_open { Gap::Open { at: self.gap.clone(), drive } } else { Gap::Zero };
+        self.stages.push(Stage { from: t, force: Signal::Line(force), gap, closed });
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use super::curve::{Signal, highest};
 use super::interface::Soft;
-use super::node::Stage;
+use super::node::{Gap, Stage};
 use super::start::Bar;
 use super::wave::{Wave, index_at, is_exact_zero};
 use crate::error::Error;
@@ -191,10 +191,10 @@ impl<N: Bounded> ChainRun<N> {
             // The force of a spring alone has the slope −k gap′.
             let spring = self.springs[node].as_ref().filter(|soft| is_exact_zero(&soft.damping));
             let slope_error =
-                spring.and_then(|soft| Some(stage.softness.as_ref()?.rate.error.clone() * &soft.stiffness));
+                spring.and_then(|soft| Some(stage.softness()?.rate.error.clone() * &soft.stiffness));
             let found = force.greatest(&stage.from, to, slope_error.as_ref());
             let (value, at) = match peak {
-                Some(peak) if stage.softness.is_some() => highest((peak, peak_time), found),
+                Some(peak) if stage.softness().is_some() => highest((peak, peak_time), found),
                 Some(peak) if peak.below(&found.0) != Ok(true) => (peak, peak_time),
                 _ => found,
             };
@@ -238,13 +238,15 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn gap(&self, node: usize, time: &N) -> Result<N, Error> {
         let stage = self.stage(node, time, Side::Right)?;
-        if let Some(softness) = &stage.softness {
-            return Ok(softness.gap.value_at(time));
-        }
-        let Some(gap) = &stage.gap else { return Ok(time.zero()) };
-        let from = stage.from.clone().nominal();
-        let middle = (from.clone() + time).halved();
-        Ok(stage.drive.value_at(&middle) * (time.clone() - from) + gap)
+        Ok(match &stage.gap {
+            Gap::Zero => time.zero(),
+            Gap::Open { at, drive } => {
+                let from = stage.from.clone().nominal();
+                let middle = (from.clone() + time).halved();
+                drive.value_at(&middle) * (time.clone() - from) + at
+            }
+            Gap::Soft(softness) => softness.gap.value_at(time),
+        })
     }
 
     /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up.
@@ -252,7 +254,7 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn spring_energies(&self, node: usize, time: &N) -> Result<[N; 2], Error> {
         let stage = self.stage(node, time, Side::Right)?;
-        let (Some(softness), Some(soft)) = (&stage.softness, &self.springs[node]) else {
+        let (Some(softness), Some(soft)) = (stage.softness(), &self.springs[node]) else {
             return Ok([time.zero(), time.zero()]);
         };
         if !softness.loaded {

@@ -99,7 +99,9 @@ impl<N: Bounded> Wave<N> {
         let is_same = |old: &N| is_exact_zero(&(old.clone() - &curve.terms[0]));
         if curve.terms.len() == 1 && is_exact_zero(&curve.error) {
             let continued = match &last.signal {
-                Signal::Line(line) => is_exact_zero(&line.slope) && line.intercept.roundoffs() == 0.0 && is_same(&line.intercept),
+                Signal::Line(line) => {
+                    is_exact_zero(&line.slope) && line.intercept.roundoffs() == 0.0 && is_same(&line.intercept)
+                }
                 Signal::Curve(old) => old.terms.len() == 1 && is_exact_zero(&old.error) && is_same(&old.terms[0]),
             };
             if continued {

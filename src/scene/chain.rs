@@ -9,7 +9,7 @@ use super::error::{SceneError, position};
 use super::read::Scene;
 use super::reader::{Reader, Value};
 use super::target::Target;
-use crate::chain::{Body, BodyMaterial, Chain, End, Joint, MAX_PIECES, Points};
+use crate::chain::{Body, BodyMaterial, Chain, End, Joint, MAX_PIECES, Points, Spring};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
 use crate::number::{Number, Rational};
@@ -31,20 +31,24 @@ const BODY_KEYS: &[&str] = &[
     "state",
     "velocity",
     "displacement",
+    "mass",
     "joint",
     "gap",
 ];
+const RIGID_KEYS: &[&str] = &["name", "mass", "velocity", "joint", "gap"];
+const JOINT_KEYS: &[&str] = &["stiffness", "damping", "penalty", "bonded"];
+const SPRING_KEYS: [&str; 3] = ["stiffness", "damping", "penalty"];
 const ROD_KEYS: &[&str] =
     &["length", "wave_speed", "impedance", "modulus", "density", "area", "poisson", "state", "bottom", "top"];
 const TABLES: [(&str, &[&str]); 6] = [
     ("ends", &["bottom", "top"]),
     ("impact", &["speed", "gap"]),
     ("start", &["displacement", "velocity"]),
-    ("ground", &["velocity"]),
+    ("ground", &["velocity", "stiffness", "damping", "penalty"]),
     ("gravity", &["acceleration"]),
     ("run", &["time", "accuracy", "pieces"]),
 ];
-const END_KEYS: &[&str] = &["force", "velocity", "infinite", "gap"];
+const END_KEYS: &[&str] = &["force", "velocity", "infinite", "gap", "stiffness", "damping", "penalty"];
 const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];
 
 /// A scene file with several bodies, checked: a chain in exact numbers, and the line that each value stands on.
@@ -89,6 +93,26 @@ const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];
 /// time = 0.6
 /// ```
 ///
+/// A joint may yield: `joint = { stiffness = 5e9, damping = 2e4 }` is a spring with a dashpot beside it that pushes where
+/// the bodies touch, and with `bonded = true` one that pulls as well. Both are those of the whole cross-section, in force
+/// per length and in force per velocity. `penalty = 20` is a stiffness of 20 EA/L of the body. `[ground]` takes the same
+/// keys, and so does an end: `top = { gap = 0.1, stiffness = 5 }`, or without a gap a spring to a wall. A body with a `mass`
+/// and without a length is rigid.
+///
+/// ```toml
+/// [[body]]
+/// length = 1
+/// wave_speed = 1
+/// impedance = 1
+/// [[body]]
+/// mass = 6
+/// velocity = -1
+/// [ends]
+/// bottom = "fixed"
+/// [run]
+/// time = 12
+/// ```
+///
 /// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among several
 /// bodies each has the number of its `body`, from 1.
 ///
@@ -131,7 +155,9 @@ impl ChainScene {
             let (_, top) = reader.get("rod.top")?;
             Some(top.get_ref().as_table().is_some() || matches!(top.get_ref().as_str(), Some("ground" | "absorbing")))
         };
-        ["body", "ends", "rod.bottom"].iter().any(|key| reader.get(key).is_some()) || is_other_top() == Some(true)
+        let springs = SPRING_KEYS.map(|key| format!("ground.{key}"));
+        let keys = ["body", "ends", "rod.bottom"].into_iter().chain(springs.iter().map(String::as_str));
+        keys.into_iter().any(|key| reader.get(key).is_some()) || is_other_top() == Some(true)
     }
 
     /// Reads a scene.
@@ -217,11 +243,16 @@ impl<'a> Reader<'a> {
         let tables = self.bodies()?;
         let mut lines = self.lines();
         let mut joined = Vec::new();
+        let mut springs = Vec::new();
         for (k, (table, span)) in tables.iter().enumerate() {
             let reader = Reader { document: table, ..*self };
             joined.push(match is_rod {
                 true => (Joint::Bonded, reader.material_body(("[rod]", ROD_KEYS), span.clone())?),
-                false => reader.body(k, span.clone())?,
+                false => {
+                    let (joint, body, spring) = reader.body(k, span.clone())?;
+                    springs.extend(spring.map(|spring| (k, spring)));
+                    (joint, body)
+                }
             });
             lines.push((format!("body[{k}]"), position(self.source, span.start).0));
             let keys = table.keys().map(|key| (format!("body[{k}].{}", key.get_ref()), key.span().start));
@@ -234,8 +265,17 @@ impl<'a> Reader<'a> {
         if is_rod {
             lowest = self.started(lowest)?;
         }
-        let mut builder = joined.fold(Chain::builder(lowest), |builder, (joint, body)| builder.joined(joint, body));
-        let [bottom, top] = self.ends(is_rod)?;
+        let joined: Vec<(Joint, Body)> = joined.collect();
+        let highest = joined.last().map_or_else(|| lowest.clone(), |(_, body)| body.clone());
+        let ([bottom, top], own) = self.ends(is_rod, [&lowest, &highest])?;
+        for (node, spring) in [0, joined.len() + 1].into_iter().zip(own) {
+            springs.extend(spring.map(|spring| (node, spring)));
+        }
+        let start = Chain::builder(lowest);
+        let mut builder = joined.into_iter().fold(start, |builder, (joint, body)| builder.joined(joint, body));
+        for (node, spring) in springs {
+            builder = builder.spring(node, spring);
+        }
         let run = self.table("run");
         let time = run.plain_number("time")?;
         let time =
@@ -286,15 +326,47 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the body in this table, and its joint with the body below.
-    fn body(&self, index: usize, span: Range<usize>) -> Result<(Joint, Body), SceneError> {
+    fn body(&self, index: usize, span: Range<usize>) -> Result<(Joint, Body, Option<Spring>), SceneError> {
         let shown = format!("[[body]] {}", index + 1);
-        let body = self.material_body((&shown, BODY_KEYS), span)?;
+        let body = match self.plain_number("mass")? {
+            Some(mass) => {
+                if let Some(key) = BODY_KEYS.iter().find(|key| !RIGID_KEYS.contains(key) && self.get(key).is_some()) {
+                    let expected = "a bar without a mass, or a rigid mass without a length and a material";
+                    return Err(self.contradiction((key, &shown), expected));
+                }
+                self.check_known((self.document, &shown), RIGID_KEYS, |key| {
+                    nearest(key, RIGID_KEYS.iter().copied()).map(String::from)
+                })?;
+                Body::rigid(mass)
+            }
+            None => self.material_body((&shown, BODY_KEYS), span)?,
+        };
         let mut body = self.moving(body)?;
         if let Some((name, _)) = self.text("name")? {
             body = body.named(name);
         }
         let contradiction = |key: &str, expected: &str| self.contradiction((key, &shown), expected);
-        let joint = match self.choice("joint", &["contact", "bonded"])? {
+        let table = self.get("joint").and_then(|(_, value)| value.get_ref().as_table());
+        let yielding = match table.filter(|_| index > 0) {
+            Some(table) => {
+                let near = |key: &str| nearest(key, JOINT_KEYS.iter().copied()).map(String::from);
+                self.check_known((table, &format!("joint of {shown}")), JOINT_KEYS, near)?;
+                let reader = Reader { document: table, ..*self };
+                let spring = reader.spring(&body)?;
+                if spring.is_none() {
+                    let expected = "a stiffness, a damping, or a penalty in multiples of EA/L";
+                    return Err(self.contradiction(("joint", &shown), expected));
+                }
+                spring.map(|spring| Ok((reader.flag("bonded")?, spring))).transpose()?
+            }
+            None => None,
+        };
+        let choice = match &yielding {
+            Some((bonded, _)) => Some(usize::from(*bonded)),
+            None if table.is_some() => None,
+            None => self.choice("joint", &["contact", "bonded"])?,
+        };
+        let joint = match choice {
             _ if index == 0 => {
                 for key in ["joint", "gap"] {
                     if self.get(key).is_some() {
@@ -307,7 +379,42 @@ impl<'a> Reader<'a> {
             Some(1) => Joint::Bonded,
             _ => Joint::Contact { gap: self.plain_number("gap")?.unwrap_or_else(|| 0.into()) },
         };
-        Ok((joint, body))
+        Ok((joint, body, yielding.map(|(_, spring)| spring)))
+    }
+
+    /// Reads the spring of this table, for a joint or an end of `body`; `None` if there is none.
+    fn spring(&self, body: &Body) -> Result<Option<Spring>, SceneError> {
+        let [stiffness, damping, penalty] = SPRING_KEYS.map(|key| self.plain_number(key));
+        let (stiffness, damping, penalty) = (stiffness?, damping?, penalty?);
+        let zero = || Number::from(0);
+        let stiffness = match (stiffness, penalty) {
+            (Some(_), Some(_)) => {
+                let span = self.get("penalty").map_or(0..0, |(key, _)| key.span());
+                let expected = "one of them: a penalty is a stiffness in multiples of EA/L";
+                return Err(self.error(span, Kind::Contradiction, "penalty beside stiffness", expected));
+            }
+            (None, Some(penalty)) => {
+                let (key, value) = self.get("penalty").map_or((0..0, 0..0), |(key, v)| (key.span(), v.span()));
+                let Some(own) = body.stiffness() else {
+                    let expected = "a stiffness: a rigid mass has no EA/L";
+                    return Err(self.error(key, Kind::Contradiction, "penalty of a rigid mass", expected));
+                };
+                let found = || format!("penalty = {penalty}, whose product with EA/L has too many digits");
+                let product = own.and_then(|own| Number::of_rational(&(own * penalty.to_rational())));
+                product.ok_or_else(|| self.error(value, Kind::OutOfRange, found(), "a stiffness"))?
+            }
+            (stiffness, None) => match (stiffness, &damping) {
+                (None, None) => return Ok(None),
+                (stiffness, _) => stiffness.unwrap_or_else(zero),
+            },
+        };
+        Ok(Some(Spring { stiffness, damping: damping.unwrap_or_else(zero) }))
+    }
+
+    /// Reads `true` or `false`; `false` if the key is absent.
+    fn flag(&self, key: &str) -> Result<bool, SceneError> {
+        let Some((_, value)) = self.get(key) else { return Ok(false) };
+        value.get_ref().as_bool().ok_or_else(|| self.wrong_type(value, key, "true or false"))
     }
 
     fn contradiction(&self, (key, shown): (&str, &str), expected: &str) -> SceneError {
@@ -440,14 +547,15 @@ impl<'a> Reader<'a> {
         Ok(points)
     }
 
-    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`. A `[rod]` without a bottom is above the ground, by the
-    /// gap of `[impact]`.
-    fn ends(&self, is_rod: bool) -> Result<[End; 2], SceneError> {
+    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`, with the springs there. A `[rod]` without a bottom is above
+    /// the ground, by the gap of `[impact]`.
+    fn ends(&self, is_rod: bool, bodies: [&Body; 2]) -> Result<([End; 2], [Option<Spring>; 2]), SceneError> {
         let place = if is_rod { "rod" } else { "ends" };
         let table = self.table(place);
         let ground = self.table("ground").list("velocity")?;
-        let [bottom, top] = ["bottom", "top"].map(|name| table.end(name, place));
-        let (mut bottom, top) = (bottom?, top?);
+        let [bottom, top] =
+            [("bottom", bodies[0]), ("top", bodies[1])].map(|(name, body)| table.end(name, place, body));
+        let ((mut bottom, below), (top, above)) = (bottom?, top?);
         let gap = self.table("impact").plain_number("gap")?;
         match &mut bottom {
             None if is_rod => bottom = Some(End::Ground { gap: gap.unwrap_or_else(|| 0.into()), velocity: Vec::new() }),
@@ -460,36 +568,50 @@ impl<'a> Reader<'a> {
             _ => {}
         }
         let Some((key, _)) = self.get("ground") else {
-            return Ok([bottom.unwrap_or(End::Free), top.unwrap_or(End::Free)]);
+            return Ok(([bottom.unwrap_or(End::Free), top.unwrap_or(End::Free)], [below, above]));
         };
+        let yielding = self.table("ground").spring(bodies[0])?;
+        if below.is_some() && yielding.is_some() {
+            let expected = "a spring in one of both";
+            return Err(self.error(
+                key.span(),
+                Kind::Contradiction,
+                "[ground] with a spring beside that of the bottom",
+                expected,
+            ));
+        }
         let bottom = match bottom {
             None => End::Ground { gap: 0.into(), velocity: ground },
             Some(End::Ground { gap, velocity }) if velocity.is_empty() => End::Ground { gap, velocity: ground },
+            Some(end @ End::Ground { .. }) if ground.is_empty() => end,
             Some(_) => {
                 let expected = "bottom = \"ground\" or { gap = … }: a body that is fixed or free there meets no ground";
                 return Err(self.error(key.span(), Kind::Contradiction, "[ground] under another bottom", expected));
             }
         };
-        Ok([bottom, top.unwrap_or(End::Free)])
+        Ok(([bottom, top.unwrap_or(End::Free)], [below.or(yielding), above]))
     }
 
-    /// Reads the end at `name` of the table called `place`.
-    fn end(&self, name: &str, place: &str) -> Result<Option<End>, SceneError> {
-        let Some((key, value)) = self.get(name) else { return Ok(None) };
+    /// Reads the end at `name` of the table called `place`, at an end of `body`, and its spring.
+    fn end(&self, name: &str, place: &str, body: &Body) -> Result<(Option<End>, Option<Spring>), SceneError> {
+        let Some((key, value)) = self.get(name) else { return Ok((None, None)) };
         let Some(table) = value.get_ref().as_table() else {
-            return Ok(self.choice(name, &END_WORDS)?.map(|word| match END_WORDS[word] {
+            let end = self.choice(name, &END_WORDS)?.map(|word| match END_WORDS[word] {
                 "fixed" => End::Velocity(Vec::new()),
                 "ground" => End::Ground { gap: 0.into(), velocity: Vec::new() },
                 "absorbing" => End::Infinite { impedance: None, gap: None },
                 _ => End::Free,
-            }));
+            });
+            return Ok((end, None));
         };
         let near = |key: &str| nearest(key, END_KEYS.iter().copied()).map(String::from);
         let reader = Reader { document: table, ..*self };
         self.check_known((table, &format!("{name} of [{place}]")), END_KEYS, near)?;
         let gap = reader.plain_number("gap")?;
+        let spring = reader.spring(body)?;
         let has = |key: &str| table.contains_key(key);
-        Ok(Some(match [has("force"), has("velocity"), has("infinite"), has("gap")] {
+        let end = match [has("force"), has("velocity"), has("infinite"), has("gap")] {
+            [false, false, false, false] if spring.is_some() => End::Velocity(Vec::new()),
             [true, false, false, false] => End::Force(reader.list("force")?),
             [false, true, false, false] => End::Velocity(reader.list("velocity")?),
             [false, velocity, false, true] => {
@@ -498,15 +620,16 @@ impl<'a> Reader<'a> {
             }
             [false, false, true, _] => End::Infinite { impedance: reader.plain_number("infinite")?, gap },
             _ => {
-                let expected = "one of a force, a velocity, a gap of a rigid stop (which may have a velocity), or \
-                     infinite = Z with a gap or without";
+                let expected = "one of a force, a velocity, a gap of a stop (which may have a velocity and a stiffness), a \
+                     stiffness, or infinite = Z with a gap or without";
                 let found = format!(
                     "{name} of [{place}] with {}",
                     table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(" and ")
                 );
                 return Err(self.error(key.span(), Kind::Contradiction, found, expected));
             }
-        }))
+        };
+        Ok((Some(end), spring))
     }
 
     /// Returns the error of a chain, at its place: `body[1].velocity[2].x`, `ends.top`.

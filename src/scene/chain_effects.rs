@@ -89,6 +89,29 @@ impl ChainScene {
             "a half-infinite bar takes up waves for ever".into(),
             "no wave leaves the chain",
         );
+        let top = bodies;
+        let path = |node: usize| match node {
+            0 if self.line_of("ground.stiffness").or(self.line_of("ground.damping")).is_some() => {
+                "ground.stiffness".into()
+            }
+            0 => "ends.bottom".to_string(),
+            node if node == top => "ends.top".into(),
+            node => format!("body[{node}].joint"),
+        };
+        let yielding = (0..=top).filter(|node| chain.spring(*node).is_some()).collect::<Vec<_>>();
+        add(
+            "springs",
+            yielding.first().map(|node| path(*node)),
+            format!("{} of {} nodes yield: signals are curves, not lines", yielding.len(), top + 1),
+            "no joint yields",
+        );
+        let rigid = chain.bodies().iter().position(|body| body.rigid_mass().is_some());
+        add(
+            "rigid_masses",
+            rigid.map(|k| format!("body[{k}].mass")),
+            "a rigid mass moves as one, and reflects waves with a delay".into(),
+            "no body is rigid",
+        );
         add(
             "gravity",
             (!chain.gravity().is_zero()).then(|| "gravity.acceleration".into()),
