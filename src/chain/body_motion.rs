@@ -4,10 +4,11 @@ use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
+use super::curve::Signal;
 use super::definition::Chain;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::start::Bar;
-use super::wave::Piece;
+use super::wave::{Piece, Wave};
 use crate::error::Error;
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece, Stretch};
 use crate::number::{Bounded, Open};
@@ -169,10 +170,7 @@ impl<N: Bounded> BodyMotion<N> {
     /// Returns a bound of the acceleration of the centre of mass.
     fn greatest_acceleration(&self) -> N {
         let mass = self.density() * &self.bar().length;
-        let force = |node: usize| {
-            let ends = self.run.force_pieces(node).into_iter().flat_map(|piece| [piece.first, piece.last]);
-            ends.fold(mass.zero(), |most, force| most.larger(force.magnitude()))
-        };
+        let force = |node: usize| self.run.greatest_force(node);
         // A force that is known within its bound may be greater by the bound.
         (force(self.body) + force(self.body + 1)).doubled() / &mass + self.run.gravity.magnitude()
     }
@@ -249,7 +247,16 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
             (from.clone(), jump.halved())
         };
         let [up, down] = &self.run.waves[self.body];
-        Ok([up, down].map(|wave| wave.pieces.windows(2).map(ray).collect()))
+        // Curves are continued by others without a jump.
+        let is_ray = |(pair, jump): &(&[Piece<N>], N)| {
+            matches!(pair[1].signal, Signal::Line(_)) || jump.positive() == Ok(true) || jump.negative() == Ok(true)
+        };
+        let rays = |wave: &Wave<N>| {
+            let pairs = wave.pieces.windows(2).map(|pair| (pair, ray(pair)));
+            let rays = pairs.map(|(pair, (from, jump))| ((pair, jump), from)).filter(|(pair, _)| is_ray(pair));
+            rays.map(|((_, jump), from)| (from, jump)).collect()
+        };
+        Ok([rays(up), rays(down)])
     }
 
     /// Returns nothing: other bodies or loads may act on the body in flight.

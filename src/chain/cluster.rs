@@ -14,7 +14,7 @@ use super::curve::{Curve, Fall, Signal, first_fall, greater, upper, value};
 use super::interface::{Interface, Mode, Moment, Row, Softness};
 use super::law::Law;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
-use super::step::{Linear, Step, degree, refs};
+use super::step::{Linear, Step, Values, degree, in_unit, power, refs};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
@@ -45,12 +45,16 @@ pub(super) struct Cluster<N> {
     until: Moment<N>,
     /// Bound of the error of the states, in the norm of the energy.
     pub(super) norm: N,
+    /// The norm of a single state that decays, before a step, and the bound that it decays to.
+    pub(super) fading: Option<(N, N)>,
     /// The natural speed of the chain.
     pub(super) speed: N,
+    /// One rounding, relative to the number.
+    pub(super) rounding: N,
     /// Degree of the polynomials.
     pub(super) degree: usize,
-    /// States of the step before, and its width.
-    pub(super) before: Option<(Vec<Vec<N>>, N)>,
+    /// States of the step before, their unit of time, and its width in that unit.
+    pub(super) before: Option<(Vec<Vec<N>>, N, N)>,
     /// Latest events of the interfaces.
     latest: Vec<Option<Moment<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
@@ -67,7 +71,7 @@ type Solved<'a, N> = (&'a [[Curve<N>; 2]], &'a Step<N>, &'a [N]);
 /// All that leaves an interface over a step, and its state.
 struct Output<N> {
     force: Curve<N>,
-    leaving: [Option<Curve<N>>; 2],
+    leaving: [Curve<N>; 2],
     softness: Option<Softness<N>>,
 }
 
@@ -109,7 +113,9 @@ impl<N: Bounded> Cluster<N> {
             reached: Moment::new(zero.clone()),
             until: Moment::new(until.clone()),
             norm: upper(norm),
+            fading: None,
             speed: zero.double(speed),
+            rounding: power(&zero.one().halved(), bits as usize),
             degree: degree(bits),
             before: None,
             repeated: 0,
@@ -186,6 +192,7 @@ impl<N: Bounded> Cluster<N> {
         let origin = self.reached.at.clone();
         let inputs: Vec<[Curve<N>; 2]> = self.inputs(&origin, &width);
         let step = self.solve(&inputs, &width)?;
+        let inputs = in_unit(&inputs, &step.unit);
         let is_short = step.width.below(&width) == Ok(true);
         let norm = self.norm.clone();
         let errors = self.step_errors(&inputs, &step);
@@ -218,7 +225,7 @@ impl<N: Bounded> Cluster<N> {
         } else {
             self.emit(outputs, solved, &width, waves);
             self.take(&step, &errors, &width);
-            self.before = Some((step.states, width.clone()));
+            self.before = Some((step.states, step.unit.clone(), width.clone() / &step.unit));
             self.repeated = 0;
         }
         let drives_before: Vec<N> = self.interfaces.iter().map(|interface| interface.drive.clone()).collect();
@@ -321,49 +328,57 @@ impl<N: Bounded> Cluster<N> {
             }
             _ => {
                 let curve = &inputs[j][side];
-                value(&curve.terms, at).widened(&curve.error)
+                value(&curve.terms, &(at.clone() / &curve.unit)).widened(&curve.error)
             }
         };
         side(1) - side(0)
     }
 
-    /// Returns the polynomial of a row of the law of an interface over a step.
-    fn curve(&self, row: &Row<N>, j: usize, (inputs, step, errors): Solved<'_, N>) -> Curve<N> {
+    /// Returns the polynomials of rows of the law of an interface over a step.
+    fn curves<const R: usize>(
+        &self,
+        rows: [&Row<N>; R],
+        j: usize,
+        (inputs, step, errors): Solved<'_, N>,
+    ) -> [Curve<N>; R] {
         let zero = self.norm.zero();
         let states = step.states.iter().map(Vec::len).max().unwrap_or(1);
         let count = inputs[j].iter().map(|curve| curve.terms.len()).max().unwrap_or(1).max(states);
-        let term = |k: usize| {
+        let values = |k: usize| {
             let state = |state: usize| step.states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
-            row.of(refs(&self.values(inputs, j, k, &state)))
+            self.values(inputs, j, k, &state)
         };
+        let values: Vec<Values<N>> = (0..count).map(values).collect();
         let side = |side: usize| match &self.interfaces[j].sides[side].source {
             Source::Mass(mass) => errors[*mass].clone(),
             _ => inputs[j][side].error.clone(),
         };
-        let error = row.bound_of(refs(&[side(0), side(1), errors[self.masses.len() + j].clone()]));
-        Curve::new(&self.reached.at, (0..count).map(term).collect(), error, &step.width)
+        let bounds = [side(0), side(1), errors[self.masses.len() + j].clone()];
+        rows.map(|row| {
+            let terms = values.iter().map(|values| row.of(refs(values))).collect();
+            Curve::new((&self.reached.at, &step.unit), terms, row.bound_of(refs(&bounds)), &step.width)
+        })
     }
 
     /// Returns the polynomial of a state over a step.
     fn state_curve(&self, state: usize, (_, step, errors): Solved<'_, N>) -> Curve<N> {
-        Curve::new(&self.reached.at, step.states[state].clone(), errors[state].clone(), &step.width)
+        let origin = (&self.reached.at, &step.unit);
+        Curve::new(origin, step.states[state].clone(), errors[state].clone(), &step.width)
     }
 
     /// Returns all that leaves an interface over a step, and its state.
     fn output(&self, j: usize, solved: Solved<'_, N>) -> Output<N> {
         let interface = &self.interfaces[j];
         let rows = interface.rows();
-        let leaving = [0, 1].map(|side| {
-            let is_wave = matches!(interface.sides[side].source, Source::Wave(_));
-            is_wave.then(|| self.curve(&rows.leaving[side], j, solved))
-        });
+        let [force, rate, below, above] =
+            self.curves([&rows.force, &rows.rate, &rows.leaving[0], &rows.leaving[1]], j, solved);
         let softness = (interface.law == Law::Contact || interface.soft.is_some()).then(|| Softness {
             gap: self.state_curve(self.masses.len() + j, solved),
-            rate: self.curve(&rows.rate, j, solved),
+            rate,
             loaded: interface.mode == Mode::Closed,
             dissipated: interface.dissipated.clone(),
         });
-        Output { force: self.curve(&rows.force, j, solved), leaving, softness }
+        Output { force, leaving: [below, above], softness }
     }
 
     /// Returns the changes of contacts within a step, each with its time since the beginning.
@@ -374,17 +389,17 @@ impl<N: Bounded> Cluster<N> {
     ) -> Result<Vec<(usize, Change, Moment<N>)>, Stop> {
         let mut found = Vec::new();
         let step = solved.1;
-        for j in 0..self.interfaces.len() {
+        for (j, output) in outputs.iter().enumerate() {
             if self.interfaces[j].law != Law::Contact {
                 continue;
             }
             let interface = &self.interfaces[j];
-            let Output { force, softness: Some(Softness { gap, .. }), .. } = &outputs[j] else { continue };
+            let Output { force, softness: Some(Softness { gap, .. }), .. } = output else { continue };
             let mut skipped = self.norm.zero();
             let watched = match interface.mode {
                 Mode::Open if interface.is_fresh => {
                     // The force fell to zero, so that y rises from zero, and the gap with it.
-                    let drive = self.curve(interface.drive_row(), j, solved);
+                    let [drive] = self.curves([interface.drive_row()], j, solved);
                     match drive.rising_width() {
                         Some(width) if width.below(&step.width) == Ok(true) => {
                             let origin = (gap.origin.clone() + &width).centred().0;
@@ -399,7 +414,7 @@ impl<N: Bounded> Cluster<N> {
                 Mode::Open => vec![(Change::Close, gap.clone())],
                 Mode::Closed => vec![(Change::Release, force.clone())],
                 Mode::Released => {
-                    let pull = self.curve(interface.closed_force(), j, solved);
+                    let [pull] = self.curves([interface.closed_force()], j, solved);
                     vec![(Change::Return, gap.negated()), (Change::Close, pull.negated())]
                 }
             };
@@ -498,14 +513,14 @@ impl<N: Bounded> Cluster<N> {
         let cut = |curve: Curve<N>| Curve { width: width.clone(), ..curve };
         for (i, mass) in self.masses.iter().enumerate() {
             let curve = cut(self.state_curve(i, solved));
-            for side in 0..2 {
-                waves[mass.body][side].push_curve(&from, &late, curve.clone());
+            for wave in &mut waves[mass.body] {
+                wave.push_curve(&from, &late, curve.clone());
             }
         }
         for (interface, output) in self.interfaces.iter_mut().zip(outputs) {
             let Output { force, leaving, softness } = output;
             for (side, curve) in leaving.into_iter().enumerate() {
-                if let (Source::Wave(body), Some(curve)) = (&interface.sides[side].source, curve) {
+                if let Source::Wave(body) = &interface.sides[side].source {
                     waves[*body][1 - side].push_curve(&from, &late, cut(curve));
                 }
             }
@@ -526,9 +541,10 @@ impl<N: Bounded> Cluster<N> {
 
     /// Takes over the states at the end of a step.
     fn take(&mut self, step: &Step<N>, errors: &[N], width: &N) {
+        self.fade(width);
         let masses = self.masses.len();
         for (state, terms) in step.states.iter().enumerate() {
-            let (found, radius) = value(terms, width).centred();
+            let (found, radius) = value(terms, &(width.clone() / &step.unit)).centred();
             match self.linear.root(state) {
                 Some(root) => self.norm = self.norm.clone() + radius * root,
                 None => self.interfaces[state - masses].gap_error = upper(errors[state].clone() + radius),

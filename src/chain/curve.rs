@@ -7,10 +7,15 @@ use crate::lattice::Line;
 use crate::number::{Bounded, Open};
 
 /// A polynomial in the time since an origin, with a bound of its distance from the true signal.
+///
+/// The polynomial is `Σ cₖ (s/u)ᵏ`. The unit `u` is the power of two next above the width, so that the coefficients
+/// neither overflow nor vanish where a signal is fast.
 #[derive(Clone, Debug)]
 pub(super) struct Curve<N> {
     /// The time from which the polynomial counts, an exact number.
     pub(super) origin: N,
+    /// The unit of time, a power of two.
+    pub(super) unit: N,
     /// Coefficients from degree zero on, exact numbers; one or more.
     pub(super) terms: Arc<[N]>,
     /// Bound of the distance from the true signal over the width.
@@ -28,6 +33,18 @@ pub(super) enum Signal<N> {
     Curve(Curve<N>),
 }
 
+/// Returns the least power of two that is no less than a width.
+pub(super) fn unit_of<N: Bounded>(width: &N) -> N {
+    let size = width.to_f64();
+    width.double(if size > 0.0 { size.log2().ceil().exp2() } else { 1.0 })
+}
+
+/// Returns `log₂` of the size of a number; infinity where it is below the range of doubles.
+fn log2_size<N: Bounded>(x: &N) -> f64 {
+    let size = x.to_f64().abs();
+    if size > 1e-290 { size.log2() } else { f64::INFINITY }
+}
+
 /// Returns the value of a polynomial.
 pub(super) fn value<N: Bounded>(terms: &[N], at: &N) -> N {
     let (last, others) =
@@ -39,6 +56,23 @@ pub(super) fn value<N: Bounded>(terms: &[N], at: &N) -> N {
 pub(super) fn bound<N: Bounded>(terms: &[N], width: &N) -> N {
     let (last, others) = terms.split_last().map_or_else(|| (width.zero(), &[][..]), |(l, o)| (l.magnitude(), o));
     others.iter().rev().fold(last, |sum, term| sum * width + term.magnitude())
+}
+
+/// Returns a bound of `Σ |cₖ| wᵏ` as a double, where a bound that is a little too great costs nothing.
+pub(super) fn rough_bound<N: Bounded>(terms: &[N], width: &N) -> N {
+    let reach = width.to_f64().abs() * (1.0 + 4.0 * f64::EPSILON);
+    let sum = terms.iter().rev().fold(0.0, |sum, term| sum * reach + term.to_f64().abs());
+    // Each step rounds twice, and what underflows is less than the least normal double.
+    width.double(sum * (1.0 + 4.0 * f64::EPSILON * (terms.len() as f64 + 1.0)) + 1e-300 * terms.len() as f64)
+}
+
+/// Returns `Σ k |cₖ| wᵏ⁻¹`, or with the second order `Σ k(k − 1) |cₖ| wᵏ⁻²`, as [`rough_bound`] does.
+fn rough_slope<N: Bounded>(terms: &[N], width: &N, order: usize) -> N {
+    let reach = width.to_f64().abs() * (1.0 + 4.0 * f64::EPSILON);
+    let factor = |k: usize| (0..order).map(|j| (k - j) as f64).product::<f64>();
+    let term = |(k, term): (usize, &N)| term.to_f64().abs() * factor(k);
+    let sum = terms.iter().enumerate().skip(order).map(term).rev().fold(0.0, |sum, term| sum * reach + term);
+    width.double(sum * (1.0 + 8.0 * f64::EPSILON * (terms.len() as f64 + 1.0)) + 1e-300 * terms.len() as f64)
 }
 
 /// Returns the coefficients of the derivative.
@@ -96,25 +130,57 @@ pub(super) fn greater<N: Bounded>(a: N, b: N) -> N {
 impl<N: Bounded> Curve<N> {
     /// Returns the polynomial with these coefficients, whose errors enter the bound. Coefficients of a high degree that
     /// are below one rounding of the others are dropped.
-    pub(super) fn new(origin: &N, terms: Vec<N>, error: N, width: &N) -> Self {
-        let (mut stored, rounding) = centred(terms, width);
+    pub(super) fn new((origin, unit): (&N, &N), terms: Vec<N>, error: N, width: &N) -> Self {
+        // A power of the width in units is at most one.
+        let (mut stored, rounding) = centred(terms, &width.one());
         let mut error = if is_exact_zero(&rounding) { error } else { error + rounding };
-        let size = bound(&stored, width) * width.roundoff() / width.int(4);
+        // Less than a quarter of a rounding of the value is dropped.
+        let least =
+            stored.iter().map(|term| term.to_f64().abs()).fold(0.0, f64::max).log2() + width.log2_roundoff() - 2.0;
         let mut dropped = width.zero();
-        let mut power = stored.iter().skip(1).fold(width.one(), |power, _| power * width);
         while stored.len() > 1 {
             let Some(last) = stored.last() else { break };
-            let next = dropped.clone() + last.magnitude() * &power;
-            if !is_exact_zero(last) && next.below(&size) != Ok(true) {
+            let is_zero = is_exact_zero(last);
+            let next = dropped.clone() + last.magnitude();
+            if !is_zero && log2_size(&next) > least {
                 break;
             }
-            (dropped, power) = (next, power / width);
+            dropped = if is_zero { dropped } else { next };
             stored.pop();
         }
         if !is_exact_zero(&dropped) {
             error = error + dropped;
         }
-        Curve { origin: origin.clone(), terms: stored.into(), error, width: width.clone() }
+        let (origin, unit) = (origin.clone(), unit.clone());
+        Curve { origin, unit, terms: stored.into(), error, width: width.clone() }
+    }
+
+    /// Returns a time since the origin in units.
+    fn in_units(&self, time: &N) -> N {
+        time.clone() / &self.unit
+    }
+
+    /// Returns the width in units.
+    fn reach(&self) -> N {
+        self.in_units(&self.width)
+    }
+
+    /// Returns the curve in another unit.
+    pub(super) fn in_unit(&self, unit: &N) -> Self {
+        if self.unit.alike(unit) {
+            return self.clone();
+        }
+        let ratio = unit.clone() / &self.unit;
+        let mut power = unit.one();
+        let scaled = |term: &N| {
+            let scaled = term.clone() * &power;
+            power = power.clone() * &ratio;
+            scaled
+        };
+        let terms: Vec<N> = self.terms.iter().map(scaled).collect();
+        let (terms, error) = centred(terms, &(self.width.clone() / unit));
+        let error = if is_exact_zero(&error) { self.error.clone() } else { error + &self.error };
+        Curve { unit: unit.clone(), terms: terms.into(), error, ..self.clone() }
     }
 
     /// Returns the signal that arrives after the time `delay`.
@@ -122,41 +188,48 @@ impl<N: Bounded> Curve<N> {
         let (origin, late) = (self.origin.clone() + delay).centred();
         let error = match is_exact_zero(&late) {
             true => self.error.clone(),
-            false => bound(&derivative(&self.terms), &self.width) * late + &self.error,
+            false => rough_slope(&self.terms, &self.reach(), 1) * self.in_units(&late) + &self.error,
         };
         Curve { origin, error, ..self.clone() }
     }
 
     /// Returns the polynomial about another origin, and over another width.
     pub(super) fn about(&self, origin: &N, width: &N) -> Self {
-        let by = origin.clone() - &self.origin;
+        let (by, unit) = (origin.clone() - &self.origin, unit_of(width));
         if is_exact_zero(&by) {
-            return Curve { width: width.clone(), ..self.clone() };
+            return Curve { width: width.clone(), ..self.clone() }.in_unit(&unit);
         }
-        let (terms, error) = centred(shifted(&self.terms, &by), width);
+        let (terms, error) = centred(shifted(&self.terms, &self.in_units(&by)), &self.in_units(width));
         let error = if is_exact_zero(&error) { self.error.clone() } else { error + &self.error };
-        Curve { origin: origin.clone(), terms: terms.into(), error, width: width.clone() }
+        let (origin, width) = (origin.clone(), width.clone());
+        Curve { origin, unit: self.unit.clone(), terms: terms.into(), error, width }.in_unit(&unit)
     }
 
     /// Returns the value at a time.
     pub(super) fn value_at(&self, time: &N) -> N {
-        value(&self.terms, &(time.clone() - &self.origin)).widened(&self.error)
+        value(&self.terms, &self.in_units(&(time.clone() - &self.origin))).widened(&self.error)
     }
 
     /// Returns the integral between the stored values of two times.
     pub(super) fn integral(&self, from: &N, to: &N) -> N {
         let terms = primitive(&self.terms);
-        let [from, to] = [from, to].map(|t| t.clone().centred().0 - &self.origin);
-        let error = (to.clone() - &from).magnitude() * &self.error;
+        let [from, to] = [from, to].map(|t| self.in_units(&(t.clone().centred().0 - &self.origin)));
+        let error = (to.clone() - &from).magnitude() * &self.error * &self.unit;
         let begun = if is_exact_zero(&from) { from.zero() } else { value(&terms, &from) };
-        (value(&terms, &to) - begun).widened(&error)
+        ((value(&terms, &to) - begun) * &self.unit).widened(&error)
+    }
+
+    /// Returns a bound of the magnitude.
+    pub(super) fn most(&self) -> N {
+        rough_bound(&self.terms, &self.reach()) + &self.error
     }
 
     /// Returns the integral of the square over the first part of the width.
     pub(super) fn square_integral(&self, width: &N) -> N {
         let square = product(&self.terms, &self.terms);
-        let most = bound(&self.terms, width).doubled() + &self.error;
-        value(&primitive(&square), width).widened(&(most * &self.error * width))
+        let reach = self.in_units(width);
+        let most = rough_bound(&self.terms, &reach).doubled() + &self.error;
+        (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
     }
 
     /// Returns the greatest value between the stored values of two times, and the first time of it. The slope is that of
@@ -170,6 +243,7 @@ impl<N: Bounded> Curve<N> {
             let last = self.value_at(to);
             return highest(best, (last, to.clone()));
         }
+        let own_unit = own.unit.clone();
         let slope = Curve { terms: derivative(&own.terms).into(), error: begin.zero(), ..own.clone() };
         let mut rest = begin.zero();
         let mut falls = slope.terms[0].negative() == Ok(true);
@@ -180,17 +254,18 @@ impl<N: Bounded> Curve<N> {
                 break;
             }
             let slope = slope.about(&(begin.clone() + &rest).centred().0, &left);
+            // The slope is one per unit of the whole curve.
             let slope = if falls { slope.negated() } else { slope };
             let error = if turn == 0 { begin.zero() } else { upper(slope.terms[0].magnitude()) };
-            let error = slope_error.map_or_else(|| error.clone(), |own| error.clone() + own);
+            let error = slope_error.map_or_else(|| error.clone(), |own| own.clone() * &own_unit + &error);
             let Ok((Fall::After(at), _)) = first_fall(&Curve { error, ..slope }) else { break };
             let (place, late) = at.centred();
             let here = (rest.clone() + &place).centred().0;
             if !falls && !is_exact_zero(&here) {
-                let found = value(&own.terms, &here).widened(&own.error);
+                let found = value(&own.terms, &own.in_units(&here)).widened(&own.error);
                 // The true maximum is within twice the error of this one, on a curve that bends down.
-                let bend = bound(&derivative(&derivative(&own.terms)), &width);
-                let found = found.widened(&(bend * late.square()));
+                let bend = bound(&derivative(&derivative(&own.terms)), &own.reach());
+                let found = found.widened(&(bend * own.in_units(&late).square()));
                 let time = match slope_error {
                     Some(_) => (begin.clone() + &here).widened(&late),
                     None => self.time_of_maximum(&begin, &here),
@@ -210,26 +285,26 @@ impl<N: Bounded> Curve<N> {
     /// one is within `2e` of its own.
     fn time_of_maximum(&self, begin: &N, here: &N) -> N {
         let time = (begin.clone() + here).centred().0;
-        let about = shifted(&self.terms, &(time.clone() - &self.origin));
+        let about = shifted(&self.terms, &self.in_units(&(time.clone() - &self.origin)));
         let bend = about.get(2).map_or_else(|| time.zero(), |bend| -bend.clone());
         let twice = self.error.clone().doubled() + about.get(1).map_or_else(|| time.zero(), N::magnitude);
         if is_exact_zero(&twice) {
             return time;
         }
-        let near = (twice / &bend).doubled().try_sqrt().unwrap_or_else(|| self.width.clone());
-        time.widened(&near)
+        let near = (twice / &bend).doubled().try_sqrt().map(|near| near * &self.unit);
+        time.widened(&near.unwrap_or_else(|| self.width.clone()))
     }
 
     /// Returns a width over which the polynomial rises; `None` if it does not rise at its origin.
     pub(super) fn rising_width(&self) -> Option<N> {
         let slopes = derivative(&self.terms);
         let (first, rest) = slopes.split_first()?;
-        let mut width = self.width.clone();
+        let mut reach = self.reach().centred().0;
         for _ in 0..64 {
-            if (first.clone() - bound(rest, &width) * &width).positive() == Ok(true) {
-                return Some(width);
+            if (first.clone() - rough_bound(rest, &reach) * &reach).positive() == Ok(true) {
+                return Some((reach * &self.unit).centred().0);
             }
-            width = width.halved().centred().0;
+            reach = reach.halved().centred().0;
         }
         None
     }
@@ -329,8 +404,12 @@ impl<N: Bounded> Signal<N> {
                 if !is_exact_zero(&line.slope) {
                     terms.push(line.slope.clone());
                 }
-                let (terms, error) = centred(terms, width);
-                Curve { origin: origin.clone(), terms: terms.into(), error, width: width.clone() }
+                let unit = unit_of(width);
+                if let Some(slope) = terms.get_mut(1) {
+                    *slope = slope.clone() * &unit;
+                }
+                let (terms, error) = centred(terms, &width.one());
+                Curve { origin: origin.clone(), unit, terms: terms.into(), error, width: width.clone() }
             }
             Signal::Curve(curve) => curve.about(origin, width),
         }
@@ -353,27 +432,33 @@ pub(super) enum Fall<N> {
 /// **Source**: an interval on which the curve has no zero, or a derivative of one sign, decides; others are halved.
 pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool), Open> {
     let halvings = curve.width.bits().map_or(64, |bits| bits / 2 + 24);
-    let mut stretches = vec![(curve.width.zero(), curve.width.clone(), halvings)];
+    let after = |at: N| Fall::After(if is_exact_zero(&at) { at } else { at * &curve.unit });
+    let mut stretches = vec![(curve.width.zero(), curve.reach().centred().0, halvings)];
     let mut doubt = false;
     while let Some((from, width, halvings)) = stretches.pop() {
-        let (terms, error) = centred(shifted(&curve.terms, &from), &width);
-        let error = error + &curve.error;
-        let (first, rest) = (&terms[0], bound(&terms[1..], &width) * &width);
+        let (terms, error) = match is_exact_zero(&from) {
+            true => (curve.terms.to_vec(), curve.error.clone()),
+            false => {
+                let (terms, error) = centred(shifted(&curve.terms, &from), &width);
+                (terms, error + &curve.error)
+            }
+        };
+        let (first, rest) = (&terms[0], rough_bound(&terms[1..], &width) * &width);
         if (first.clone() + &error).negative() == Ok(true) {
-            return Ok((Fall::After(from), doubt));
+            return Ok((after(from), doubt));
         }
         if (first.clone() - &rest - &error).positive() == Ok(true) {
             continue;
         }
         let slope = terms.get(1).map_or_else(|| width.zero(), N::clone);
-        let bend = bound(&derivative(&derivative(&terms)), &width) * &width;
+        let bend = rough_slope(&terms, &width, 2) * &width;
         if (slope.clone() - &bend).positive() == Ok(true) {
             continue;
         }
         if (slope.clone() + &bend).negative() == Ok(true) {
             if (first.clone() - &error).positive() != Ok(true) {
                 let late = (error / (-slope - &bend)).doubled();
-                return Ok((Fall::After(if is_exact_zero(&late) { from } else { from.widened(&late) }), doubt));
+                return Ok((after(if is_exact_zero(&late) { from } else { from.widened(&late) }), doubt));
             }
             let last = value(&terms, &width);
             if (last.clone() - &error).positive() == Ok(true) {
@@ -383,7 +468,7 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
                 return Ok((Fall::AtEnd, doubt));
             }
             let root = simple_root(&terms, &width, &error).ok_or(Open)?;
-            return Ok((Fall::After(from + root), doubt));
+            return Ok((after(from + root), doubt));
         }
         let size = rest + first.magnitude();
         if halvings == 0 || error.clone().doubled().below(&size) != Ok(true) {

@@ -207,18 +207,14 @@ impl Body {
         &self.material
     }
 
-    /// Returns `EA/L`, within an inner option that is empty if it is no fraction; `None` for a rigid body.
-    pub(crate) fn stiffness(&self) -> Option<Option<Rational>> {
-        let length = self.length.to_rational();
-        match &self.material {
-            BodyMaterial::Elastic { modulus, area, .. } => {
-                Some(Some(modulus.to_rational() * area.to_rational() / length))
-            }
-            BodyMaterial::Impedance { wave_speed, impedance } => {
-                Some(Some(wave_speed.to_rational() * impedance.to_rational() / length))
-            }
-            BodyMaterial::Rigid { .. } => None,
-        }
+    /// Returns `EA/L`; `None` for a rigid body.
+    pub(crate) fn stiffness(&self) -> Option<Rational> {
+        let force = match &self.material {
+            BodyMaterial::Elastic { modulus, area, .. } => modulus.to_rational() * area.to_rational(),
+            BodyMaterial::Impedance { wave_speed, impedance } => wave_speed.to_rational() * impedance.to_rational(),
+            BodyMaterial::Rigid { .. } => return None,
+        };
+        Some(force / self.length.to_rational())
     }
 
     /// Returns `Z²` and `c²`, which are fractions; zero and one for a rigid body.

@@ -206,7 +206,15 @@ impl<N: Bounded> ChainRun<N> {
     ///
     /// **Errors**: those of [`ChainRun::stretches`].
     pub(super) fn vibration(&self, body: usize, time: &N, rate: &N) -> Result<N, Error> {
-        let speed = &self.bars[body].wave_speed;
+        let Bar { length, wave_speed: speed, impedance, .. } = &self.bars[body];
+        if self.waves[body][0].is_curved() {
+            let BodySums { kinetic, strain, velocity, .. } = self.sums(body, time)?;
+            // ½ ∫ (v_t − h′)² dx with the mean velocity, and what another rate adds.
+            let off = velocity.clone() - rate;
+            return Ok(
+                (kinetic + strain) * speed / impedance - (velocity.square() - off.square()) * length.clone().halved()
+            );
+        }
         let mut sum = rate.zero();
         for stretch in self.stretches(body, time)? {
             let [velocity, slope] = stretch.velocity.clone();
@@ -263,7 +271,8 @@ impl<N: Bounded> Window<N> {
             }
             let curve = piece.signal.about(&from, &width);
             let twice = primitive(&primitive(&curve.terms));
-            let risen = value(&twice, &width).widened(&(curve.error * width.square()));
+            let reach = width.clone() / &curve.unit;
+            let risen = (value(&twice, &reach) * curve.unit.square()).widened(&(curve.error * width.square()));
             window.height = window.height + wave.sum_at(k, &from) * &width + risen;
             window.parts.push((from, to, piece.signal.clone()));
         }
@@ -277,8 +286,7 @@ impl<N: Bounded> Window<N> {
     fn most(&self) -> N {
         let size = |(from, to, signal): &(N, N, Signal<N>)| {
             let width = (to.clone() - from).centred().0;
-            let curve = signal.about(from, &width);
-            bound(&curve.terms, &width) + curve.error
+            signal.about(from, &width).most()
         };
         self.parts.iter().map(size).fold(self.begin.zero(), greater)
     }
@@ -308,10 +316,12 @@ impl<N: Bounded> Window<N> {
             let width = (to.clone() - &from).centred().0;
             if width.positive() == Ok(true) {
                 let (p, q) = (p.about(&from, &width), q.about(&mirror(&to), &width));
-                let turned = turned(&q.terms, &width);
-                let (a, b) = (bound(&p.terms, &width), bound(&q.terms, &width));
+                let reach = width.clone() / &p.unit;
+                let turned = turned(&q.terms, &reach);
+                let (a, b) = (bound(&p.terms, &reach), bound(&q.terms, &reach));
                 let error = (a + &p.error) * &q.error + b * &p.error;
-                sum = sum + value(&primitive(&product(&p.terms, &turned)), &width).widened(&(error * &width));
+                let part = value(&primitive(&product(&p.terms, &turned)), &reach) * &p.unit;
+                sum = sum + part.widened(&(error * &width));
             }
             let ends_alike = own_end.alike(&other_end);
             if is_own_first || ends_alike {

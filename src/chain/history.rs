@@ -166,7 +166,9 @@ pub struct ChainListing {
 type Judged<'a> = (&'a Value, Measure);
 
 impl ChainListing {
-    fn numbers(&self) -> Vec<Judged<'_>> {
+    /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to half as
+    /// many digits as the force, and that of a plateau not at all: it says so by its bound.
+    fn numbers(&self, peaks: bool) -> Vec<Judged<'_>> {
         let mut all = Vec::new();
         for event in &self.events {
             all.extend([
@@ -176,7 +178,8 @@ impl ChainListing {
             ]);
         }
         for contact in &self.contacts {
-            all.extend([&contact.impact, &contact.peak_time].map(|t| (t, Measure::Time)));
+            all.push((&contact.impact, Measure::Time));
+            all.extend(Some(&contact.peak_time).filter(|_| peaks).map(|t| (t, Measure::Time)));
             all.extend(contact.release.iter().map(|t| (t, Measure::Time)));
             all.extend([(&contact.impulse, Measure::Impulse), (&contact.peak, Measure::Force)]);
         }
@@ -424,7 +427,8 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn listing(&self) -> Result<ChainListing, Error> {
-        let listing = self.settled(|run| Ok(run.listing()), ChainListing::numbers)?;
+        let peaks = !self.chain.is_soft();
+        let listing = self.settled(|run| Ok(run.listing()), |listing| listing.numbers(peaks))?;
         let printed = |value: Value| self.printed(value);
         let forces = listing.forces.into_iter();
         Ok(ChainListing {
@@ -461,7 +465,8 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn ending(&self) -> Result<Ending, Error> {
-        self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers())
+        let peaks = !self.chain.is_soft();
+        self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks))
             .map(|(_, end)| end)
     }
 

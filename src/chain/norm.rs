@@ -27,18 +27,22 @@ impl<N: Bounded> Cluster<N> {
             self.rates(&values, true)
         };
         let width = &step.width;
+        let mut fading = None;
         let norm = match &dynamic[..] {
             [] => zero.clone(),
             [(state, root)] => {
                 let decay = decay.unwrap_or_else(|| zero.clone());
                 let input = given(&|_| zero.clone())[*state].clone();
                 let before = self.norm.clone();
-                let held = match decay.positive() {
-                    Ok(true) if !is_exact_zero(&input) => greater(before, input / decay * root),
-                    Ok(true) => before,
-                    _ => before + input * width * root,
+                let defect = step.defects[*state].clone() * root;
+                let decays = decay.positive() == Ok(true);
+                let held = match decays {
+                    true if is_exact_zero(&input) => zero.clone(),
+                    true => input / &decay * root,
+                    false => before.clone() + input * width * root,
                 };
-                held + step.defects[*state].clone() * root
+                fading = decays.then(|| (before.clone(), upper(held.clone() + &defect)));
+                greater(before, held) + defect
             }
             _ => self.energy_bound(&dynamic, inputs, step),
         };
@@ -55,8 +59,21 @@ impl<N: Bounded> Cluster<N> {
                 }),
             );
         }
+        self.fading = fading;
         self.norm = upper(norm);
         errors
+    }
+
+    /// Lets the norm of a single state decay over a step: an error of the state before the step fades as `e⁻ᵏʷ`, which is
+    /// below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
+    pub(super) fn fade(&mut self, width: &N) {
+        let (Some((before, held)), Some(decay)) = (self.fading.take(), &self.linear.decay) else { return };
+        let x = decay.clone() * width;
+        let sixth = (x.clone() / x.int(3) + x.one()) * &x / x.int(2) + x.one();
+        let norm = upper(before / (sixth * &x + x.one()) + held);
+        if norm.below(&self.norm) == Ok(true) {
+            self.norm = norm;
+        }
     }
 
     /// Returns `√(n² + ½ Σ Z e² w) + Σ √weight · defect`.
@@ -102,11 +119,14 @@ impl<N: Bounded> Cluster<N> {
     /// Adds the error that the uncertain time of a break or an event causes: the jumps of the rates over that time.
     fn add_slivers(&mut self, step: &Step<N>) {
         let late = self.reached.late.clone();
-        let Some((before, width)) = self.before.clone().filter(|_| !is_exact_zero(&late)) else { return };
+        let Some((before, unit, reach)) = self.before.clone().filter(|_| !is_exact_zero(&late)) else { return };
         for (state, terms) in step.states.iter().enumerate() {
+            // Rates and their slopes per time, at the end of the step before and at the beginning of this one.
             let (old, new) = (derivative(&before[state]), derivative(terms));
-            let jump = (value(&new, &late.zero()) - value(&old, &width)).magnitude();
-            let bend = bound(&derivative(&old), &(width.clone() + &late)) + bound(&derivative(&new), &late);
+            let rate = value(&new, &late.zero()) / &step.unit - value(&old, &reach) / &unit;
+            let jump = rate.magnitude();
+            let old_bend = bound(&derivative(&old), &(late.clone() / &unit + &reach)) / unit.square();
+            let bend = bound(&derivative(&new), &(late.clone() / &step.unit)) / step.unit.square() + old_bend;
             let added = upper((jump + bend * &late) * &late);
             match self.linear.root(state) {
                 Some(root) => self.norm = self.norm.clone() + added * root,

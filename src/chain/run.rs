@@ -51,7 +51,8 @@ pub struct ChainContact<N> {
     pub impulse: N,
     /// Greatest force.
     pub peak: N,
-    /// The first time of the greatest force.
+    /// The first time of the greatest force. Where the force agrees with its greatest value over some time within its bound,
+    /// as on a plateau, the bound of this time covers all of it.
     pub peak_time: N,
 }
 
@@ -190,8 +191,7 @@ impl<N: Bounded> ChainRun<N> {
             }
             // The force of a spring alone has the slope −k gap′.
             let spring = self.springs[node].as_ref().filter(|soft| is_exact_zero(&soft.damping));
-            let slope_error =
-                spring.and_then(|soft| Some(stage.softness()?.rate.error.clone() * &soft.stiffness));
+            let slope_error = spring.and_then(|soft| Some(stage.softness()?.rate.error.clone() * &soft.stiffness));
             let found = force.greatest(&stage.from, to, slope_error.as_ref());
             let (value, at) = match peak {
                 Some(peak) if stage.softness().is_some() => highest((peak, peak_time), found),
@@ -224,6 +224,18 @@ impl<N: Bounded> ChainRun<N> {
             pieces.pop_if(|(_, piece)| piece.start.same(&piece.end));
         }
         pieces.into_iter().map(|(_, piece)| piece).collect()
+    }
+
+    /// Returns a bound of the magnitude of the force of a node.
+    pub(super) fn greatest_force(&self, node: usize) -> N {
+        let zero = self.end.zero();
+        let stages = self.nodes[node].iter();
+        let ends = self.force_pieces(node).into_iter().flat_map(|piece| [piece.first, piece.last]);
+        let lines = ends.fold(zero, |most, force| most.larger(force.magnitude()));
+        stages.fold(lines, |most, stage| match &stage.force {
+            Signal::Curve(curve) => most.larger(curve.most()),
+            Signal::Line(_) => most,
+        })
     }
 
     /// Returns the compressive force of a node.

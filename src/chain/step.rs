@@ -1,7 +1,7 @@
 //! The linear equation of a cluster over a step, and its solution by polynomials.
 
 use super::cluster::Cluster;
-use super::curve::{Curve, bound};
+use super::curve::{Curve, bound, unit_of};
 use super::interface::{Interface, Row};
 use super::node::{Source, Stop};
 use super::wave::is_exact_zero;
@@ -9,7 +9,9 @@ use crate::number::Bounded;
 
 /// The states over a step.
 pub(super) struct Step<N> {
+    /// Coefficients of each state, for times in the unit.
     pub(super) states: Vec<Vec<N>>,
+    pub(super) unit: N,
     pub(super) width: N,
     /// Integral of the defect of each state, or a bound of its effect.
     pub(super) defects: Vec<N>,
@@ -42,6 +44,9 @@ impl<N> Linear<N> {
 /// Greatest product of rate and width for a Taylor step.
 const WIDEST: f64 = 2.0;
 
+/// Roundings of a state that do not count as a decaying part.
+const NOISE: f64 = 64.0;
+
 /// Returns the degree at which `θᵏ/k!` falls below a rounding, for steps of [`WIDEST`].
 pub(super) fn degree(bits: u32) -> usize {
     let (mut log2, mut k) = (0.0, 0);
@@ -53,7 +58,7 @@ pub(super) fn degree(bits: u32) -> usize {
 }
 
 /// Returns `x` to the power `n`.
-fn power<N: Bounded>(x: &N, n: usize) -> N {
+pub(super) fn power<N: Bounded>(x: &N, n: usize) -> N {
     let half = if n < 2 { x.one() } else { power(x, n / 2).square() };
     if n % 2 == 1 { half * x } else { half }
 }
@@ -142,7 +147,13 @@ impl<N: Bounded> Cluster<N> {
 
     fn inputs_of_zero(&self) -> Vec<[Curve<N>; 2]> {
         let zero = self.norm.zero();
-        let none = Curve { origin: zero.clone(), terms: vec![zero.clone()].into(), error: zero.clone(), width: zero };
+        let none = Curve {
+            origin: zero.clone(),
+            unit: zero.one(),
+            terms: vec![zero.clone()].into(),
+            error: zero.clone(),
+            width: zero,
+        };
         self.interfaces.iter().map(|_| [none.clone(), none.clone()]).collect()
     }
 
@@ -151,7 +162,7 @@ impl<N: Bounded> Cluster<N> {
         let zero = self.norm.zero();
         let Linear { dynamic, decay, rate } = &self.linear;
         let rate = *rate;
-        let tolerance = self.speed.clone() * zero.roundoff();
+        let tolerance = self.speed.clone() * &self.rounding;
         let product = rate * width.to_f64();
         if !product.is_finite() || !rate.is_finite() {
             return Err(Stop::Open);
@@ -163,24 +174,28 @@ impl<N: Bounded> Cluster<N> {
         if product > WIDEST {
             width = (width / zero.double((product / WIDEST).ceil())).centred().0;
         }
+        let unit = unit_of(&width);
+        let inputs = in_unit(inputs, &unit);
         let count = self.masses.len() + self.interfaces.len();
         let mut states: Vec<Vec<N>> = self.states().into_iter().map(|state| vec![state]).collect();
         let mut radii: Vec<Vec<N>> = vec![vec![zero.clone()]; count];
         let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
         let mut rates = Vec::new();
         for k in 0..=last {
-            rates = self.rates_in_order(inputs, k, &|state| states[state][k].clone());
+            rates = self.rates_in_order(&inputs, k, &|state| states[state][k].clone());
             if k < last {
                 for (state, rate) in rates.iter().enumerate() {
-                    let (term, radius) = (rate.clone() / rate.int(k as i64 + 1)).centred();
+                    let (term, radius) = (rate.clone() * &unit / rate.int(k as i64 + 1)).centred();
                     states[state].push(term);
                     radii[state].push(radius);
                 }
             }
         }
         // The order that is left out.
-        let rest =
-            |state: usize, width: &N| rates[state].magnitude() * power(width, last + 1) / width.int(last as i64 + 1);
+        let rest = |state: usize, width: &N| {
+            let share = power(&(width.clone() / &unit), last + 1);
+            rates[state].magnitude() * &unit * share / width.int(last as i64 + 1)
+        };
         for _ in 0..8 {
             let allowed = |state: usize| {
                 let time = if rate > 0.0 { width.to_f64().min(1.0 / rate) } else { width.to_f64() };
@@ -188,15 +203,16 @@ impl<N: Bounded> Cluster<N> {
             };
             let excess = |state: usize| (rest(state, &width) / &tolerance).to_f64() / allowed(state);
             let worst = (0..count).map(excess).fold(0.0, f64::max);
-            if worst <= 1.0 || !worst.is_finite() && is_exact_zero(&tolerance) {
+            if worst <= 1.0 || !worst.is_finite() {
                 break;
             }
-            let factor = 0.9 * worst.min(1e300).powf(-1.0 / (last as f64 + 1.0));
+            let factor = 0.9 * worst.powf(-1.0 / (last as f64 + 1.0));
             width = (width * zero.double(factor)).centred().0;
         }
-        let defect = |state: usize| bound(&radii[state], &width) + rest(state, &width);
+        let reach = width.clone() / &unit;
+        let defect = |state: usize| bound(&radii[state], &reach) + rest(state, &width);
         let defects = (0..count).map(defect).collect();
-        Ok(Step { states, width, defects })
+        Ok(Step { states, unit, width, defects })
     }
 
     /// Solves `x′ = −κx + u` for one state that decays fast: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` and a decaying exponential, which is a
@@ -205,46 +221,54 @@ impl<N: Bounded> Cluster<N> {
         let zero = self.norm.zero();
         let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
         let none = |_: usize| zero.clone();
-        let forced: Vec<N> = (0..=last).map(|k| self.rates_in_order(inputs, k, &none)[fast].clone()).collect();
+        let wide = unit_of(width);
+        let inputs = in_unit(inputs, &wide);
         let mut slow = vec![zero.clone(); last + 2];
         for k in (0..=last).rev() {
-            let next = slow[k + 1].clone() * zero.int(k as i64 + 1);
-            slow[k] = ((forced[k].clone() - next) / decay).centred().0;
+            let forced = self.rates_in_order(&inputs, k, &none)[fast].clone();
+            let next = slow[k + 1].clone() * zero.int(k as i64 + 1) / &wide;
+            slow[k] = ((forced - next) / decay).centred().0;
         }
         slow.truncate(last + 1);
         let begun = self.states();
         let amplitude = (begun[fast].clone() - &slow[0]).centred().0;
         let allowed = if fast < self.masses.len() { tolerance.clone() } else { tolerance.clone() / decay };
-        let mut width = width.clone();
-        let excess = (amplitude.magnitude() / &allowed).to_f64();
-        let mut terms = slow;
+        // An amplitude within some roundings of the state is dropped; it would not decay.
+        let noise = slow[0].magnitude() * &self.rounding;
+        let excess = (amplitude.magnitude() / (allowed + noise)).to_f64() / NOISE;
+        let (mut width, mut unit, mut terms, mut inputs) = (width.clone(), wide.clone(), slow, inputs);
         let mut dropped = amplitude.magnitude();
-        if !(excess <= 1.0) {
+        if excess > 1.0 {
             // |C| (κw)ⁿ/n! is at most the tolerance.
             let n = last + 1;
             let log2: f64 = (1..=n).map(|k| (k as f64).log2()).sum();
             let reach = ((log2 - excess.min(1e300).log2()) / n as f64).exp2() / decay.to_f64();
             if reach < width.to_f64() {
                 width = zero.double(reach * 0.99);
+                unit = unit_of(&width);
+                inputs = in_unit(&inputs, &unit);
             }
-            let mut decaying = amplitude.clone();
+            let (mut share, ratio) = (zero.one(), unit.clone() / wide);
+            let (mut decaying, per_unit) = (amplitude, decay.clone() * &unit);
             for (k, term) in terms.iter_mut().enumerate() {
                 if k > 0 {
-                    decaying = (-(decaying * decay) / zero.int(k as i64)).centred().0;
+                    decaying = (-(decaying * &per_unit) / zero.int(k as i64)).centred().0;
+                    share = share * &ratio;
                 }
-                *term = (term.clone() + &decaying).centred().0;
+                *term = (term.clone() * &share + &decaying).centred().0;
             }
             dropped = zero.clone();
         }
         let mut states: Vec<Vec<N>> = begun.iter().map(|state| vec![state.clone()]).collect();
         let first = (terms[0].clone() - &begun[fast]).magnitude();
+        let first = if is_exact_zero(&dropped) { first } else { zero.clone() };
         states[fast] = terms;
         let mut defects: Vec<Vec<N>> = vec![Vec::new(); states.len()];
         for k in 0..=last {
-            let rates =
-                self.rates_in_order(inputs, k, &|state| states[state].get(k).cloned().unwrap_or_else(|| zero.clone()));
+            let state = |state: usize| states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
+            let rates = self.rates_in_order(&inputs, k, &state);
             for (state, rate) in rates.iter().enumerate() {
-                let factor = zero.int(k as i64 + 1);
+                let factor = zero.int(k as i64 + 1) / &unit;
                 if state == fast {
                     let own = states[fast].get(k + 1).map_or_else(|| zero.clone(), |term| term.clone() * &factor);
                     defects[state].push((own - rate).magnitude());
@@ -257,15 +281,21 @@ impl<N: Bounded> Cluster<N> {
                 }
             }
         }
+        let reach = width.clone() / &unit;
         let effect = |state: usize| {
             if state == fast {
                 // A defect acts for no longer than 1/κ.
-                return bound(&defects[state], &width) / decay + &dropped + &first;
+                return bound(&defects[state], &reach) / decay + &dropped + &first;
             }
             let integrals = defects[state].iter().enumerate().map(|(k, term)| term.clone() / zero.int(k as i64 + 1));
-            bound(&integrals.collect::<Vec<_>>(), &width) * &width
+            bound(&integrals.collect::<Vec<_>>(), &reach) * &width
         };
         let defects = (0..states.len()).map(effect).collect();
-        Step { states, width, defects }
+        Step { states, unit, width, defects }
     }
+}
+
+/// Returns arriving signals in another unit of time.
+pub(super) fn in_unit<N: Bounded>(inputs: &[[Curve<N>; 2]], unit: &N) -> Vec<[Curve<N>; 2]> {
+    inputs.iter().map(|sides| sides.each_ref().map(|curve| curve.in_unit(unit))).collect()
 }

@@ -46,10 +46,10 @@ impl Chain {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn problems(&self) -> Result<Vec<Problem>, ProblemError> {
-        if self.is_soft() {
-            let found = "a body of a chain with springs, dashpots or masses by itself";
+        if let Some(k) = self.bodies().iter().position(|body| body.rigid_mass().is_some()) {
+            let found = "a body of a chain with a rigid mass by itself";
             let expected = "the whole chain: ChainHistory, or solve, sample and explain of the command";
-            return Err(ProblemError::new(Kind::Contradiction, "body", found, expected));
+            return Err(ProblemError::new(Kind::Contradiction, &format!("body[{k}].mass"), found, expected));
         }
         let materials = self.bodies().iter().enumerate().map(|(k, body)| material(k, body));
         let materials = materials.collect::<Result<Vec<_>, _>>()?;

@@ -67,6 +67,12 @@ pub const CHAINS: &[Builtin] = &[
     scene!("carpenter-taylor-katona", "two bars in inches and pounds, in rigid contact"),
     scene!("hopkinson-bar", "striker, input bar, specimen and output bar"),
     scene!("rose-column", "a column on a fixed base under a sudden load"),
+    scene!("getfem-penalty", "a compressed rod under a fixed top, on a penalty of 20 EA/L"),
+    scene!("carpenter-penalty", "two bars in inches and pounds, on their published penalty"),
+    scene!("code-aster-sdnl111-a-spring", "a bar against a clamped one, on its spring and dashpot"),
+    scene!("ansys-vm85-spring", "a long bar stopped by its gap element, in inches and pounds"),
+    scene!("saint-venant-mass", "a mass of six rods strikes a clamped rod: released at 7.4076 L/c"),
+    scene!("yoong-legrand-spring-bar", "a bar on a spring before a stop"),
 ];
 
 /// The names of the built-in scenes of a single rod.

@@ -5,11 +5,12 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
+use super::chain_ends::SPRING_KEYS;
 use super::error::{SceneError, position};
 use super::read::Scene;
 use super::reader::{Reader, Value};
 use super::target::Target;
-use crate::chain::{Body, BodyMaterial, Chain, End, Joint, MAX_PIECES, Points, Spring};
+use crate::chain::{Body, BodyMaterial, Chain, Joint, MAX_PIECES, Points, Spring};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
 use crate::number::{Number, Rational};
@@ -37,7 +38,6 @@ const BODY_KEYS: &[&str] = &[
 ];
 const RIGID_KEYS: &[&str] = &["name", "mass", "velocity", "joint", "gap"];
 const JOINT_KEYS: &[&str] = &["stiffness", "damping", "penalty", "bonded"];
-const SPRING_KEYS: [&str; 3] = ["stiffness", "damping", "penalty"];
 const ROD_KEYS: &[&str] =
     &["length", "wave_speed", "impedance", "modulus", "density", "area", "poisson", "state", "bottom", "top"];
 const TABLES: [(&str, &[&str]); 6] = [
@@ -48,8 +48,6 @@ const TABLES: [(&str, &[&str]); 6] = [
     ("gravity", &["acceleration"]),
     ("run", &["time", "accuracy", "pieces"]),
 ];
-const END_KEYS: &[&str] = &["force", "velocity", "infinite", "gap", "stiffness", "damping", "penalty"];
-const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];
 
 /// A scene file with several bodies, checked: a chain in exact numbers, and the line that each value stands on.
 ///
@@ -307,7 +305,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Returns a reader of the table at `name`, or of an empty one.
-    fn table(&self, name: &str) -> Reader<'a> {
+    pub(super) fn table(&self, name: &str) -> Reader<'a> {
         static EMPTY: std::sync::LazyLock<DeTable<'static>> = std::sync::LazyLock::new(DeTable::new);
         let table = self.get(name).and_then(|(_, value)| value.get_ref().as_table());
         Reader { document: table.unwrap_or(&EMPTY), ..*self }
@@ -380,41 +378,6 @@ impl<'a> Reader<'a> {
             _ => Joint::Contact { gap: self.plain_number("gap")?.unwrap_or_else(|| 0.into()) },
         };
         Ok((joint, body, yielding.map(|(_, spring)| spring)))
-    }
-
-    /// Reads the spring of this table, for a joint or an end of `body`; `None` if there is none.
-    fn spring(&self, body: &Body) -> Result<Option<Spring>, SceneError> {
-        let [stiffness, damping, penalty] = SPRING_KEYS.map(|key| self.plain_number(key));
-        let (stiffness, damping, penalty) = (stiffness?, damping?, penalty?);
-        let zero = || Number::from(0);
-        let stiffness = match (stiffness, penalty) {
-            (Some(_), Some(_)) => {
-                let span = self.get("penalty").map_or(0..0, |(key, _)| key.span());
-                let expected = "one of them: a penalty is a stiffness in multiples of EA/L";
-                return Err(self.error(span, Kind::Contradiction, "penalty beside stiffness", expected));
-            }
-            (None, Some(penalty)) => {
-                let (key, value) = self.get("penalty").map_or((0..0, 0..0), |(key, v)| (key.span(), v.span()));
-                let Some(own) = body.stiffness() else {
-                    let expected = "a stiffness: a rigid mass has no EA/L";
-                    return Err(self.error(key, Kind::Contradiction, "penalty of a rigid mass", expected));
-                };
-                let found = || format!("penalty = {penalty}, whose product with EA/L has too many digits");
-                let product = own.and_then(|own| Number::of_rational(&(own * penalty.to_rational())));
-                product.ok_or_else(|| self.error(value, Kind::OutOfRange, found(), "a stiffness"))?
-            }
-            (stiffness, None) => match (stiffness, &damping) {
-                (None, None) => return Ok(None),
-                (stiffness, _) => stiffness.unwrap_or_else(zero),
-            },
-        };
-        Ok(Some(Spring { stiffness, damping: damping.unwrap_or_else(zero) }))
-    }
-
-    /// Reads `true` or `false`; `false` if the key is absent.
-    fn flag(&self, key: &str) -> Result<bool, SceneError> {
-        let Some((_, value)) = self.get(key) else { return Ok(false) };
-        value.get_ref().as_bool().ok_or_else(|| self.wrong_type(value, key, "true or false"))
     }
 
     fn contradiction(&self, (key, shown): (&str, &str), expected: &str) -> SceneError {
@@ -517,7 +480,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads points, or a single number that holds for ever.
-    fn list(&self, key: &str) -> Result<Points, SceneError> {
+    pub(super) fn list(&self, key: &str) -> Result<Points, SceneError> {
         let Some((_, value)) = self.get(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
             return Ok(self.plain_number(key)?.map(|value| vec![(0.into(), value)]).unwrap_or_default());
@@ -545,91 +508,6 @@ impl<'a> Reader<'a> {
             ));
         }
         Ok(points)
-    }
-
-    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`, with the springs there. A `[rod]` without a bottom is above
-    /// the ground, by the gap of `[impact]`.
-    fn ends(&self, is_rod: bool, bodies: [&Body; 2]) -> Result<([End; 2], [Option<Spring>; 2]), SceneError> {
-        let place = if is_rod { "rod" } else { "ends" };
-        let table = self.table(place);
-        let ground = self.table("ground").list("velocity")?;
-        let [bottom, top] =
-            [("bottom", bodies[0]), ("top", bodies[1])].map(|(name, body)| table.end(name, place, body));
-        let ((mut bottom, below), (top, above)) = (bottom?, top?);
-        let gap = self.table("impact").plain_number("gap")?;
-        match &mut bottom {
-            None if is_rod => bottom = Some(End::Ground { gap: gap.unwrap_or_else(|| 0.into()), velocity: Vec::new() }),
-            Some(End::Ground { gap: own, .. }) if own.to_f64() == 0.0 => *own = gap.unwrap_or_else(|| own.clone()),
-            _ if gap.is_some() => {
-                let span = self.get("impact.gap").map_or(0..0, |(key, _)| key.span());
-                let expected = "bottom = \"ground\", or no bottom: other ends have no gap above the ground";
-                return Err(self.error(span, Kind::Contradiction, "gap of [impact] above another bottom", expected));
-            }
-            _ => {}
-        }
-        let Some((key, _)) = self.get("ground") else {
-            return Ok(([bottom.unwrap_or(End::Free), top.unwrap_or(End::Free)], [below, above]));
-        };
-        let yielding = self.table("ground").spring(bodies[0])?;
-        if below.is_some() && yielding.is_some() {
-            let expected = "a spring in one of both";
-            return Err(self.error(
-                key.span(),
-                Kind::Contradiction,
-                "[ground] with a spring beside that of the bottom",
-                expected,
-            ));
-        }
-        let bottom = match bottom {
-            None => End::Ground { gap: 0.into(), velocity: ground },
-            Some(End::Ground { gap, velocity }) if velocity.is_empty() => End::Ground { gap, velocity: ground },
-            Some(end @ End::Ground { .. }) if ground.is_empty() => end,
-            Some(_) => {
-                let expected = "bottom = \"ground\" or { gap = … }: a body that is fixed or free there meets no ground";
-                return Err(self.error(key.span(), Kind::Contradiction, "[ground] under another bottom", expected));
-            }
-        };
-        Ok(([bottom, top.unwrap_or(End::Free)], [below.or(yielding), above]))
-    }
-
-    /// Reads the end at `name` of the table called `place`, at an end of `body`, and its spring.
-    fn end(&self, name: &str, place: &str, body: &Body) -> Result<(Option<End>, Option<Spring>), SceneError> {
-        let Some((key, value)) = self.get(name) else { return Ok((None, None)) };
-        let Some(table) = value.get_ref().as_table() else {
-            let end = self.choice(name, &END_WORDS)?.map(|word| match END_WORDS[word] {
-                "fixed" => End::Velocity(Vec::new()),
-                "ground" => End::Ground { gap: 0.into(), velocity: Vec::new() },
-                "absorbing" => End::Infinite { impedance: None, gap: None },
-                _ => End::Free,
-            });
-            return Ok((end, None));
-        };
-        let near = |key: &str| nearest(key, END_KEYS.iter().copied()).map(String::from);
-        let reader = Reader { document: table, ..*self };
-        self.check_known((table, &format!("{name} of [{place}]")), END_KEYS, near)?;
-        let gap = reader.plain_number("gap")?;
-        let spring = reader.spring(body)?;
-        let has = |key: &str| table.contains_key(key);
-        let end = match [has("force"), has("velocity"), has("infinite"), has("gap")] {
-            [false, false, false, false] if spring.is_some() => End::Velocity(Vec::new()),
-            [true, false, false, false] => End::Force(reader.list("force")?),
-            [false, true, false, false] => End::Velocity(reader.list("velocity")?),
-            [false, velocity, false, true] => {
-                let velocity = if velocity { reader.list("velocity")? } else { Vec::new() };
-                End::Ground { gap: gap.unwrap_or_else(|| 0.into()), velocity }
-            }
-            [false, false, true, _] => End::Infinite { impedance: reader.plain_number("infinite")?, gap },
-            _ => {
-                let expected = "one of a force, a velocity, a gap of a stop (which may have a velocity and a stiffness), a \
-                     stiffness, or infinite = Z with a gap or without";
-                let found = format!(
-                    "{name} of [{place}] with {}",
-                    table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(" and ")
-                );
-                return Err(self.error(key.span(), Kind::Contradiction, found, expected));
-            }
-        };
-        Ok((Some(end), spring))
     }
 
     /// Returns the error of a chain, at its place: `body[1].velocity[2].x`, `ends.top`.

@@ -3,6 +3,7 @@
 pub mod builtin;
 mod chain;
 mod chain_effects;
+mod chain_ends;
 mod effects;
 mod error;
 mod read;

@@ -11,6 +11,7 @@ mod certified_undamped;
 mod chain_bodies;
 mod chain_coincidences;
 mod chain_published;
+mod chain_soft;
 // Tests run in the order of their names: the longest one is among the first.
 mod chaotic;
 mod columns;

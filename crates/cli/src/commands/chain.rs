@@ -150,7 +150,10 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
 
 /// Returns the bodies, from the bottom up.
 fn bodies(scene: &ChainScene) -> Json {
-    let body = |(k, body): (usize, &dalembert::chain::Body)| json!({ "body": k + 1, "name": body.name(), "length": body.length().to_string() });
+    let body = |(k, body): (usize, &dalembert::chain::Body)| {
+        let (length, mass) = (body.length().to_string(), body.rigid_mass().map(ToString::to_string));
+        json!({ "body": k + 1, "name": body.name(), "length": length, "mass": mass })
+    };
     scene.chain.bodies().iter().enumerate().map(body).collect()
 }
 

@@ -39,6 +39,8 @@ struct BodySchema {
     body: usize,
     name: Option<String>,
     length: String,
+    /// The mass of a rigid body, whose length is zero; null for a bar.
+    mass: Option<String>,
 }
 
 /// An impact or a release
