@@ -80,7 +80,7 @@ struct Compared {
 impl Compared {
     fn check<N: Bounded>(&mut self, place: impl Fn() -> String, found: &N, expected: &Json) {
         let Json::String(text) = expected else { return };
-        let exact = found.from_text(text);
+        let exact = found.alike_text(text);
         let size = exact.to_f64().abs();
         let apart = found.clone() - &exact;
         let rounding = apart.double(size * 1e-30 + 1e-32);
@@ -95,12 +95,12 @@ impl Compared {
 }
 
 /// A number in the system of another one.
-trait FromText: Bounded {
-    fn from_text(&self, text: &str) -> Self {
+trait ReadsText: Bounded {
+    fn alike_text(&self, text: &str) -> Self {
         Self::from_number(&number(text), &self.precision())
     }
 }
-impl<N: Bounded> FromText for N {}
+impl<N: Bounded> ReadsText for N {}
 
 /// Compares events, contacts, forces, gaps, energies, ends and sums of all cases; returns the number of comparisons and the
 /// widest bound.
@@ -157,7 +157,7 @@ fn compare<N: Bounded>(precision: &N::Precision, only: impl Fn(&str) -> bool) ->
                 compared.check(|| at("strain", k), &sums.strain, &body["strain"]);
                 let scene = &case["scene"]["bodies"][k];
                 if let (Json::String(length), third) = (&scene["length"], &body["third"]) {
-                    let point = time.from_text(length) / time.int(3);
+                    let point = time.alike_text(length) / time.int(3);
                     let field = run.field(k, &point, &time, Side::Right).unwrap();
                     compared.check(|| at("v at a third", k), &field.displacement, &third["v"]);
                     compared.check(|| at("v_t at a third", k), &field.velocity, &third["v_t"]);
@@ -315,7 +315,7 @@ fn energy_is_conserved() {
         let run = ChainRun::<Estimate<Wide<2>>>::new(&chain, &(), &|_, _| ControlFlow::Continue(())).unwrap();
         let total = |share: &str| {
             let end = run.end().clone();
-            let time = end.clone() * end.from_text(share);
+            let time = end.clone() * end.alike_text(share);
             let mut sum = end.zero();
             for body in 0..bodies.len() {
                 let sums = run.sums(body, &time).unwrap();
