@@ -150,20 +150,25 @@ pub enum Error {
         /// The points, in words.
         found: String,
     },
-    /// A body of a chain, in a build without the feature `chain`.
-    #[error("found a body of a chain, expected a single rod: this build solves no chains")]
+    /// A body of a chain, or a spring or a mass in one, in a build without the feature `chain`.
+    #[error(
+        "found a body of a chain, or a chain with springs or masses, expected a single rod or rigid joints: this build \
+         solves no others"
+    )]
     NoChains,
     /// The travelling waves of a damped rod, or of a body of a chain.
     #[error("found a damped rod or a body of a chain, expected an undamped rod by itself, which two waves describe")]
     NoWaves,
     /// Exact fractions of a chain with springs, dashpots or masses.
     #[error(
-        "found a chain with springs, dashpots or masses in fractions, expected digits: its signals are exponentials,          which are no fractions"
+        "found a chain with springs, dashpots or masses in fractions, expected digits: \
+         its signals are exponentials, which are no fractions"
     )]
     SoftExact,
     /// Lines of a chain with springs, dashpots or masses.
     #[error(
-        "found a chain with springs, dashpots or masses, expected rigid joints and bars: its velocity and stress are no          lines between rays"
+        "found a chain with springs, dashpots or masses, expected rigid joints and bars: \
+         its velocity and stress are no lines between rays"
     )]
     Curved,
     /// A contact that the history does not have.

@@ -317,7 +317,10 @@ impl<N: Bounded> Cluster<N> {
         let horizon = horizon.map(|time| Moment { late: time.zero(), ..Moment::new(time) });
         let fronts = self.interfaces.iter().flat_map(|interface| &interface.sides).filter_map(|side| side.next.clone());
         let first = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
-        fronts.chain(horizon).fold(self.until.clone(), first)
+        let end = horizon.into_iter().fold(self.until.clone(), first);
+        // Of times that agree, that of a break has the exact form.
+        let sooner = |a: Moment<N>, b: Moment<N>| if b.meets(&a) || b.at.below(&a.at) == Ok(true) { b } else { a };
+        fronts.reduce(first).map_or(end.clone(), |front| sooner(end, front))
     }
 
     /// Returns `y` of an interface after the time `at` in a step.

@@ -118,12 +118,15 @@ pub(super) fn upper<N: Bounded>(x: N) -> N {
     (stored + radius.doubled()).centred().0
 }
 
-/// Returns the greater of two bounds, or their sum if their order is not decided.
+/// Returns the greater of two bounds, or a little more if their order is not decided.
 pub(super) fn greater<N: Bounded>(a: N, b: N) -> N {
     match (a.below(&b), b.below(&a)) {
         (Ok(true), _) => b,
         (_, Ok(true)) => a,
-        _ => a + (b.magnitude()),
+        _ => {
+            let apart = (b - &a).magnitude();
+            a + apart
+        }
     }
 }
 
@@ -203,6 +206,11 @@ impl<N: Bounded> Curve<N> {
         let error = if is_exact_zero(&error) { self.error.clone() } else { error + &self.error };
         let (origin, width) = (origin.clone(), width.clone());
         Curve { origin, unit: self.unit.clone(), terms: terms.into(), error, width }.in_unit(&unit)
+    }
+
+    /// Returns the curve without terms that are below a rounding of the others.
+    pub(super) fn trimmed(self) -> Self {
+        Curve::new((&self.origin, &self.unit), self.terms.to_vec(), self.error, &self.width)
     }
 
     /// Returns the value at a time.
@@ -292,6 +300,7 @@ impl<N: Bounded> Curve<N> {
             return time;
         }
         let near = (twice / &bend).doubled().try_sqrt().map(|near| near * &self.unit);
+        let near = near.filter(|near| near.below(&self.width) == Ok(true));
         time.widened(&near.unwrap_or_else(|| self.width.clone()))
     }
 

@@ -393,7 +393,7 @@ impl ChainBuilder {
     /// let ground = End::Ground { gap: 0.into(), velocity: Vec::new() };
     /// let chain = Chain::builder(rod).bottom(ground).spring(0, spring).until(3.into()).build()?;
     /// let release = chain.solve(Numbers::Digits(30))?.listing()?.events[1].t.to_string();
-    /// assert_eq!(release, "2.08391734950033301182670644256");
+    /// assert_eq!(release, "2.08391734950083303260736240307");
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn spring(mut self, node: usize, spring: Spring) -> Self {

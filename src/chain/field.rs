@@ -295,7 +295,7 @@ impl<N: Bounded> Window<N> {
     fn square(&self) -> N {
         let part = |(from, to, signal): &(N, N, Signal<N>)| {
             let width = (to.clone() - from).centred().0;
-            signal.about(from, &width).square_integral(&width)
+            signal.about(from, &width).trimmed().square_integral(&width)
         };
         let sum = self.parts.iter().map(part).fold(self.begin.zero(), |sum, part| sum + part);
         self.slivers.iter().fold(sum, |sum, (area, size)| sum.widened(&(area.clone() * size)))
@@ -315,7 +315,7 @@ impl<N: Bounded> Window<N> {
             let to = if is_own_first { own_end.clone() } else { other_end.clone() };
             let width = (to.clone() - &from).centred().0;
             if width.positive() == Ok(true) {
-                let (p, q) = (p.about(&from, &width), q.about(&mirror(&to), &width));
+                let (p, q) = (p.about(&from, &width).trimmed(), q.about(&mirror(&to), &width).trimmed());
                 let reach = width.clone() / &p.unit;
                 let turned = turned(&q.terms, &reach);
                 let (a, b) = (bound(&p.terms, &reach), bound(&q.terms, &reach));

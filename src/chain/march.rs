@@ -19,7 +19,8 @@ impl<N: Bounded> ChainRun<N> {
     /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bounds* that the numbers
     /// carry.
     ///
-    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance;
+    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance; [`Error::SoftExact`] in
+    /// fractions, and [`Error::NoChains`] without the feature `chain`, for springs, dashpots and masses;
     /// [`Error::TooManyPieces`]; [`Error::Interrupted`].
     ///
     /// ```
@@ -37,10 +38,16 @@ impl<N: Bounded> ChainRun<N> {
         precision: &N::Precision,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
+        if chain.is_soft() && !SOFT {
+            return Err(Error::NoChains);
+        }
         let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(chain, precision)?;
         let mut nodes = match nodes {
             Nodes::Rigid(nodes) => nodes,
             Nodes::Soft(clusters) => {
+                if until.bits().is_none() {
+                    return Err(Error::SoftExact);
+                }
                 let travels = bars.iter().map(|bar| bar.travel.clone()).collect();
                 let limits = (chain.max_pieces(), observe);
                 let Marched { nodes, events, end, ending, doubt } =
@@ -124,6 +131,9 @@ impl<N: Bounded> ChainRun<N> {
     }
 }
 
+/// Whether chains with springs, dashpots and masses are built in.
+pub(super) const SOFT: bool = cfg!(feature = "chain");
+
 /// The nodes of a chain with springs, dashpots or masses, up to the end of its run.
 struct Marched<N> {
     nodes: Vec<Vec<Stage<N>>>,
@@ -165,7 +175,7 @@ fn march<N: Bounded>(
         // A signal is known up to the time that its origin has reached, and the travel time after it.
         let known = |body: usize, side: usize| {
             let origin = &clusters[owner(&clusters, body + side)];
-            origin.reached.at.clone() + &travels[body]
+            origin.reached.time.clone() + &travels[body]
         };
         let sides = clusters[at].interfaces.iter().flat_map(|interface| interface.sides.iter().enumerate());
         let known = sides.filter_map(|(side, input)| match input.source {

@@ -42,7 +42,7 @@ impl<N: Bounded> Cluster<N> {
                     false => before.clone() + input * width * root,
                 };
                 fading = decays.then(|| (before.clone(), upper(held.clone() + &defect)));
-                greater(before, held) + defect
+                if decays { greater(before, held) + defect } else { held + defect }
             }
             _ => self.energy_bound(&dynamic, inputs, step),
         };

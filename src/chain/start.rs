@@ -5,6 +5,7 @@ use super::curve::Signal;
 use super::definition::{Body, Chain, End, Joint, Points, Spring};
 use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
+use super::march::SOFT;
 use super::node::{Node, Source};
 use super::wave::{Piece, Wave};
 use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
@@ -111,7 +112,7 @@ impl<N: Bounded> Start<N> {
         let top = bars.len();
         let springs = (0..=top).map(|node| chain.spring(node).map(|spring| soft(spring, precision)).transpose());
         let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
-        let is_soft = chain.is_soft();
+        let is_soft = SOFT && chain.is_soft();
         let mut masses = 0;
         let mut nodes = Vec::with_capacity(top + 1);
         let mut clusters = Vec::new();

@@ -56,7 +56,7 @@ fn bodies_move_as_in_the_chain() {
 fn contacts_of_bodies_are_those_of_the_joints_below_them() {
     let mut random = Random(99);
     let mut contacts = 0;
-    for _ in 0..40 {
+    for _ in 0..20 {
         let chain = random.chain();
         let listing = |numbers| chain.solve(numbers).unwrap().listing().unwrap();
         let listings = [listing(Numbers::Exact), listing(Numbers::Digits(30))];

@@ -17,6 +17,17 @@ fn first_bounce() {
     assert!(runs("first_bounce").contains("3.5000"));
 }
 
+/// The excess of the duration goes to 1.678347/ω, and the depth and the force to those of a rigid ground.
+#[test]
+fn soft_limit() {
+    let text = runs("soft_limit");
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(rows.len(), 11);
+    for row in &rows[3..10] {
+        assert_eq!((row[2], row[4]), ("1.678346990017", "1.000000000000"), "{text}");
+    }
+}
+
 #[test]
 fn many_bounces() {
     assert!(runs("many_bounces").ends_with("every event returns after 16/3\n"));

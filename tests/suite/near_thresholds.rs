@@ -272,7 +272,7 @@ impl Case {
             }
         };
         let (mut low, mut high) = (t.clone() - self.trip() / 50u32, t.clone());
-        for _ in 0..130 {
+        for _ in 0..80 {
             let middle = Float::with_val(BITS, &low + &high) / 2u32;
             if clear(&middle) { low = middle } else { high = middle }
         }

@@ -77,16 +77,21 @@ fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     Dataset::from_rows(listing.touches.iter().map(row))
 }
 
+/// Relative bound of the time of a peak from which on the peak counts as a plateau.
+const PLATEAU: f64 = 0.01;
+
 fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |contact: &dalembert::chain::ChainContact<Value>| {
         let number = |value: &Value| Cell::Number(value.clone());
+        // The peak of a plateau has no time of its own.
+        let is_told = |time: &&Value| time.bound().to_f64() <= PLATEAU * time.to_f64().abs();
         vec![
             (Column::new("node").text(), place(scene, contact.node)),
             (column("impact"), number(&contact.impact)),
             (column("release"), Cell::number(contact.release.clone())),
             (column("impulse"), number(&contact.impulse)),
             (column("peak_force"), number(&contact.peak)),
-            (column("peak_time"), number(&contact.peak_time)),
+            (column("peak_time"), Cell::number(Some(&contact.peak_time).filter(is_told).cloned())),
         ]
     };
     Dataset::from_rows(listing.contacts.iter().map(row))

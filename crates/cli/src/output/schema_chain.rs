@@ -89,7 +89,8 @@ struct ContactSchema {
     impulse: NumberSchema,
     peak_force: NumberSchema,
     /// The first time of the greatest force.
-    peak_time: NumberSchema,
+    /// The first time of the peak; null where the force is the same, within its bound, over a plateau.
+    peak_time: Option<NumberSchema>,
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }
 
