@@ -459,6 +459,12 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
         if (first.clone() - &rest - &error).positive() == Ok(true) {
             continue;
         }
+        let size = rest + first.magnitude();
+        if halvings == 0 || error.clone().doubled().below(&size) != Ok(true) {
+            // The curve is zero within its bound; a curve that is exactly zero stays there.
+            doubt |= !(is_exact_zero(&size) && is_exact_zero(&error));
+            continue;
+        }
         let slope = terms.get(1).map_or_else(|| width.zero(), N::clone);
         let bend = rough_slope(&terms, &width, 2) * &width;
         if (slope.clone() - &bend).positive() == Ok(true) {
@@ -478,12 +484,6 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
             }
             let root = simple_root(&terms, &width, &error).ok_or(Open)?;
             return Ok((after(from + root), doubt));
-        }
-        let size = rest + first.magnitude();
-        if halvings == 0 || error.clone().doubled().below(&size) != Ok(true) {
-            // The curve is zero within its bound; a curve that is exactly zero stays there.
-            doubt |= !(is_exact_zero(&size) && is_exact_zero(&error));
-            continue;
         }
         let half = width.clone().halved().centred().0;
         let middle = (from.clone() + &half).centred().0;

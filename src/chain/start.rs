@@ -41,9 +41,9 @@ pub(super) struct Start<N> {
 /// The nodes of a chain.
 #[derive(Clone, Debug)]
 pub(super) enum Nodes<N> {
-    /// Those of bars whose joints are rigid.
+    /// Nodes of bars whose joints are rigid.
     Rigid(Vec<Node<N>>),
-    /// Those of a chain with springs, dashpots or masses.
+    /// Clusters of a chain with springs, dashpots or masses.
     Soft(Vec<Cluster<N>>),
 }
 

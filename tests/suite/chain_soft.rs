@@ -284,9 +284,13 @@ fn a_mass_leaves_a_clamped_rod_when_independent_programs_say() {
         near(&contact.peak, peak, 3e-8);
     }
     // A light mass leaves at 2L/c + m/Z, with an error of the size of e^(−2/m).
-    for mass in ["0.01", "0.0001"] {
+    for mass in ["0.1", "0.02", "0.01"] {
         let size: f64 = mass.parse().unwrap();
-        near(listing(&striker(mass, "4"), Numbers::default()).contacts[0].release.as_ref().unwrap(), 2.0 + size, 1e-12);
+        near(
+            listing(&striker(mass, "4"), Numbers::default()).contacts[0].release.as_ref().unwrap(),
+            2.0 + size,
+            1e-8_f64.max(1.1 * (-2.0 / size).exp()),
+        );
     }
     // A heavy one swings with the rod as a spring of a third of its mass.
     for mass in ["100", "1000"] {

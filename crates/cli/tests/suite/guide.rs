@@ -147,6 +147,14 @@ fn a_load_and_its_series() {
     answers("12-end-loads.md", &[format!("{rest:.1e}"), format!("{share:.2} %")]);
 }
 
+/// The first force on a dashpot is `Zdμ/(Z + d)`.
+#[test]
+fn a_soft_ground_and_a_mass() {
+    holds("13-soft-contact.md");
+    let force = |d: f64| d / (1.0 + d);
+    answers("13-soft-contact.md", &["d = Z".to_string(), format!("1/{:.0}", 1.0 / force(0.25))]);
+}
+
 #[test]
 fn pages_show_what_their_commands_print() {
     for page in ["numbers.md", "output.md", "scenes.md", "sweeps.md"] {
