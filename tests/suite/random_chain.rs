@@ -14,11 +14,11 @@ impl Random {
         (self.0 >> 11) % n
     }
 
-    fn positive(&mut self) -> Number {
+    pub(crate) fn positive(&mut self) -> Number {
         format!("{}/{}", 1 + self.below(5), 1 + self.below(4)).parse().unwrap()
     }
 
-    fn signed(&mut self) -> Number {
+    pub(crate) fn signed(&mut self) -> Number {
         format!("{}/{}", self.below(9) as i64 - 4, 1 + self.below(3)).parse().unwrap()
     }
 
@@ -28,7 +28,7 @@ impl Random {
         if self.below(2) == 0 { ramp } else { ramp.into_iter().chain(jump).collect() }
     }
 
-    fn body(&mut self) -> Body {
+    pub(crate) fn body(&mut self) -> Body {
         let body = Body::new(self.positive(), self.positive(), self.positive());
         if self.below(3) > 0 {
             return body.with_velocity(self.signed());
@@ -39,7 +39,7 @@ impl Random {
         body.clone().with_start(velocity, displacement)
     }
 
-    fn end(&mut self) -> End {
+    pub(crate) fn end(&mut self) -> End {
         match self.below(8) {
             0 => End::Free,
             1 => End::Force(self.points()),
