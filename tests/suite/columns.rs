@@ -241,7 +241,7 @@ fn one_march_has_the_values_of_many() {
     for (name, problem) in problems.into_iter().map(|problem| problem.build().unwrap()).enumerate() {
         let history = problem.doubles().unwrap();
         let (end, trip) = (*history.end(), history.scales().time);
-        let mut times: Vec<f64> = (0..60).map(|_| end * random()).collect();
+        let mut times: Vec<f64> = (0..20).map(|_| end * random()).collect();
         times.extend((0..40).map(|k| 0.25 * trip * f64::from(k)));
         times.extend(history.events().iter().flat_map(|event| [event.t, event.t + 0.5 * trip]));
         times.extend([0.0, end, end]);

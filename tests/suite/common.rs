@@ -13,8 +13,8 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::Value;
 
-/// Runs `check` on so many random cases. It says how many numbers of a case it has compared, by one or several routes;
-/// each route must have compared some in at least so many cases.
+/// Runs `check` on so many random cases, or on as many as `PROPTEST_CASES` says if that is more. It says how many numbers
+/// of a case it has compared, by one or several routes; each route must have compared some in at least so many cases.
 #[track_caller]
 pub(crate) fn compares<T: Debug, const N: usize>(
     cases: u32,
@@ -22,6 +22,8 @@ pub(crate) fn compares<T: Debug, const N: usize>(
     strategy: impl Strategy<Value = T>,
     check: impl Fn(T) -> Result<[usize; N], TestCaseError>,
 ) {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
+    let cases = cases.max(asked.unwrap_or(0));
     let config = ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() };
     let compared = Cell::new([0; N]);
     let run = TestRunner::new(config).run(&strategy, |case| {

@@ -11,11 +11,11 @@ use crate::motion::{Motion, Pair, Side, unobserved};
 use crate::number::{Estimate, Number, Scalar};
 use crate::problem::{Problem, Profile, Run, Start};
 
-const BITS: u32 = 190;
+const BITS: u32 = 160;
 
 /// Solves a run whose account begins with these sups and masses.
 fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
-    let effort = Effort { until_lost: false, ..Effort::of(50.0) };
+    let effort = Effort { until_lost: false, ..Effort::of(40.0) };
     let (medium, data) = medium::<Float>(problem, &BITS, effort.digits, 1).unwrap();
     let mut proof = Proof::new(&medium);
     let unit = data.units.velocity.to_f64();

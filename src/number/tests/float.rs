@@ -180,7 +180,7 @@ fn operations_are_those_of_mpfr() {
 
 #[test]
 fn functions_are_those_of_mpfr() {
-    functions(400, 4);
+    functions(160, 4);
 }
 
 #[test]

@@ -451,7 +451,7 @@ fn times_in_another_unit() {
         // A run of impacts ends at one of them.
         fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", "impacts = 1")).unwrap();
         text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 2);
-        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", "time = 4e6")).unwrap();
+        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", &format!("time = 4{scale}"))).unwrap();
         text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
     }
 }

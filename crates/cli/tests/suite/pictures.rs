@@ -282,7 +282,8 @@ fn bessel(n: i32, x: f64) -> f64 {
 /// drawn from: no formula of the contact, no bounce, no energy.
 #[test]
 fn figures_5_to_7_agree_with_cells_from_data() {
-    let folder = figures("5,6,7");
+    let folder = figures("1,5,6,7");
+    sentences_hold_the_numbers_of_the_figures(folder.path());
     let [part, kept, over] = ["figure-5.csv", "figure-6.csv", "figure-7.csv"].map(|name| rows(folder.path(), name));
     assert_eq!(part.len(), 4 * 373);
     for (k, row) in part.iter().enumerate() {
@@ -384,21 +385,19 @@ fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
     }
 }
 
-/// The numbers in the sentences are those of the figures.
-#[test]
-fn sentences_hold_the_numbers_of_the_figures() {
-    let folder = figures("1,5,6,7");
-    let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
+/// The numbers in the sentences are those of Figures 1 and 5–7, which are in `folder`.
+fn sentences_hold_the_numbers_of_the_figures(folder: &std::path::Path) {
+    let index = fs::read_to_string(folder.join("README.md")).unwrap();
     // What the index names is there: of each figure the picture that it shows, and four links.
     let files: Vec<&str> = index.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     assert_eq!(files.len(), 4 * 5);
-    assert!(files.iter().all(|file| folder.path().join(file).is_file()), "{files:?}");
-    assert!(fs::read(folder.path().join("figure-5.pdf")).unwrap().starts_with(b"%PDF-1."));
-    for row in rows(folder.path(), "figure-1.csv") {
+    assert!(files.iter().all(|file| folder.join(file).is_file()), "{files:?}");
+    assert!(fs::read(folder.join("figure-5.pdf")).unwrap().starts_with(b"%PDF-1."));
+    for row in rows(folder, "figure-1.csv") {
         assert!(index.contains(&format!("{:.14}", row[4].unwrap())), "{row:?}");
     }
     for name in ["figure-5.csv", "figure-7.csv"] {
-        for row in rows(folder.path(), name).iter().filter(|row| row[0] != Some(0.0)) {
+        for row in rows(folder, name).iter().filter(|row| row[0] != Some(0.0)) {
             assert!(index.contains(&format!("{:.8}", row[3].unwrap())), "{name} {row:?}");
         }
     }

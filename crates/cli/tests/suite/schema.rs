@@ -1,13 +1,22 @@
 //! The JSON Schema of the outputs: what it says is what is written, at every level.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::fs;
 
+use jsonschema::Validator;
 use serde_json::Value;
 
 use crate::command::{json, quiet};
 
-/// The schema, in which an object with other keys than those that are named is refused.
-fn strict_schema() -> Value {
+/// The schema, in which an object with other keys than those that are named is refused; each form of it is prepared once.
+struct Strict {
+    schema: Value,
+    all: Validator,
+    forms: RefCell<HashMap<String, Validator>>,
+}
+
+fn strict_schema() -> Strict {
     fn refuse_others(schema: &mut Value) {
         match schema {
             Value::Object(object) => {
@@ -22,20 +31,23 @@ fn strict_schema() -> Value {
     }
     let mut schema = serde_json::from_str(&quiet(&["schema"])).unwrap();
     refuse_others(&mut schema);
-    schema
+    Strict { all: jsonschema::validator_for(&schema).unwrap(), schema, forms: RefCell::default() }
 }
 
 /// Holds `value` against the form of this name, and against the whole schema.
 #[track_caller]
-fn holds(schema: &Value, form: &str, value: &Value) -> bool {
-    let mut one = schema.clone();
-    one.as_object_mut().unwrap().remove("anyOf");
-    one["$ref"] = format!("#/$defs/{form}").into();
-    let [one, all] = [&one, schema].map(|schema| jsonschema::validator_for(schema).unwrap());
+fn holds(strict: &Strict, form: &str, value: &Value) -> bool {
+    let mut forms = strict.forms.borrow_mut();
+    let one = forms.entry(form.to_string()).or_insert_with(|| {
+        let mut one = strict.schema.clone();
+        one.as_object_mut().unwrap().remove("anyOf");
+        one["$ref"] = format!("#/$defs/{form}").into();
+        jsonschema::validator_for(&one).unwrap()
+    });
     for error in one.iter_errors(value) {
         eprintln!("{form}: {}: {error}", error.instance_path);
     }
-    one.is_valid(value) && all.is_valid(value)
+    one.is_valid(value) && strict.all.is_valid(value)
 }
 
 #[test]
