@@ -44,6 +44,8 @@ impl<N> Linear<N> {
 /// Greatest product of rate and width for a Taylor step.
 const WIDEST: f64 = 2.0;
 
+/// Share of the greatest width that a step takes.
+const UNEVEN: f64 = 0.971_828_182_845;
 /// Roundings of a state that do not count as a decaying part.
 const NOISE: f64 = 64.0;
 
@@ -172,7 +174,8 @@ impl<N: Bounded> Cluster<N> {
         }
         let mut width = width.clone();
         if product > WIDEST {
-            width = (width / zero.double((product / WIDEST).ceil())).centred().0;
+            // A width that is no simple fraction keeps the ends of steps away from times that are asked for.
+            width = (width * zero.double(UNEVEN / (product / WIDEST).ceil())).centred().0;
         }
         let unit = unit_of(&width);
         let inputs = in_unit(inputs, &unit);

@@ -116,8 +116,13 @@ impl Request {
 
     /// Asks a history for all that the pictures show.
     ///
-    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`] for a
+    /// body of a chain with springs, dashpots or masses.
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
+        // Pictures are drawn from lines between rays.
+        if history.problem().chain().is_some_and(|(chain, _)| chain.is_soft()) {
+            return Err(Error::Curved);
+        }
         let rod = Parameters::<f64>::of(history.problem(), &())?;
         let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];

@@ -120,3 +120,16 @@ fn bodies_that_are_not_there_are_refused() {
         refused(&arguments.split_whitespace().collect::<Vec<_>>(), &[part]);
     }
 }
+
+/// Pictures are drawn from lines between rays, which a soft chain does not have.
+#[test]
+fn pictures_of_soft_chains_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("soft.svg");
+    for scene in ["getfem-penalty", "carpenter-penalty"] {
+        refused(&["plot", scene, "-o", picture.to_str().unwrap()], &["springs, dashpots or masses"]);
+    }
+    assert!(!picture.exists());
+    refused(&["plot", "saint-venant-mass"], &["rigid mass", "the whole chain"]);
+    refused(&["solve", "saint-venant-mass", "--exact"], &["exponentials"]);
+}
