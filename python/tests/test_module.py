@@ -74,6 +74,10 @@ def test_a_parameter_has_its_path_too():
 def test_a_problem_is_a_scene_file():
     compared = 0
     for name in dalembert.scenes():
+        if name == "saint-venant-mass":
+            with pytest.raises(ValueError, match="rigid mass"):
+                dalembert.Problem.bodies(name)
+            continue
         first, *others = dalembert.Problem.bodies(name)
         if others:
             with pytest.raises(ValueError, match="bodies"):
@@ -267,7 +271,8 @@ def test_a_problem_shows_its_values():
         "Problem(length=0.1, modulus=Fraction(1, 3), density=2, damping=0.2, impact_speed=1, time=3.5)"
     )
     named = {"Problem": dalembert.Problem, "Fraction": Fraction}
-    shown = {name: repr(dalembert.Problem.bodies(name)[0]) for name in dalembert.scenes()}
+    names = [name for name in dalembert.scenes() if name != "saint-venant-mass"]
+    shown = {name: repr(dalembert.Problem.bodies(name)[0]) for name in names}
     rods = [name for name, text in shown.items() if text.startswith("Problem(")]
     assert len(rods) > 20 and all(text.startswith("<body of a chain: ") for text in shown.values() if text[0] != "P")
     for name in rods:

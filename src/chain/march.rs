@@ -169,7 +169,8 @@ fn march<N: Bounded>(
     while ending == Ending::Time {
         let time = |k: &usize| clusters[*k].reached.at.to_f64();
         let Some(at) = (0..clusters.len()).min_by(|a, b| time(a).total_cmp(&time(b))) else { break };
-        if clusters[at].reached.at.below(&until.clone().centred().0) != Ok(true) {
+        let is_begun = !clusters[at].interfaces[0].stages.is_empty();
+        if is_begun && clusters[at].reached.at.below(&until.clone().centred().0) != Ok(true) {
             break;
         }
         // A signal is known up to the time that its origin has reached, and the travel time after it.

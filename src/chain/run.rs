@@ -296,7 +296,7 @@ impl<N: Bounded> ChainRun<N> {
         self.check_time(time)?;
         let stages = &self.nodes[node];
         let begun = index_at(stages, |stage| &stage.from, time, side)?;
-        Ok(&stages[begun.max(1) - 1])
+        stages.get(begun.max(1) - 1).ok_or(Error::Open(Open))
     }
 
     /// Refuses times outside of the run.

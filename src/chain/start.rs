@@ -196,7 +196,10 @@ impl<N: Bounded> Start<N> {
             masses = 0;
             let first = at + 1 - interfaces.len();
             let speed = chain.scale(Measure::Velocity);
-            clusters.push(Cluster::new(first, interfaces, own, speed, &number(&chain.until)));
+            // A run that ends at once takes a short step, so that it has a state.
+            let shortest = bars.iter().map(|bar| bar.travel.to_f64()).filter(|t| *t > 0.0).fold(1.0, f64::min);
+            let until = if chain.until.is_zero() { gravity.double(shortest / 1024.0) } else { number(&chain.until) };
+            clusters.push(Cluster::new(first, interfaces, own, speed, &until));
         }
         let nodes = if is_soft { Nodes::Soft(clusters) } else { Nodes::Rigid(nodes) };
         Ok(Start { bars, nodes, springs, waves, gravity, until: number(&chain.until) })

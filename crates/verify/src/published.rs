@@ -49,6 +49,9 @@ impl PublishedScene {
 
     /// Compares the values that `scene` lists of each of its bodies; those of a body are called `NAME body N`.
     pub fn of_bodies(name: &str, scene: &ChainScene) -> Result<Vec<Self>, Error> {
+        if scene.targets.is_empty() {
+            return Ok(Vec::new());
+        }
         let bodies = scene.bodies()?;
         let count = bodies.len();
         let listed = bodies.iter().zip(1..).filter(|(scene, _)| !scene.targets.is_empty());
