@@ -48,7 +48,8 @@ fn breaks(c: &mut Criterion) {
     group.finish();
 }
 
-/// A free rod on a spring of 100 EA/L under gravity, up to its tenth contact, and a mass on a clamped rod up to its release.
+/// A free rod on a spring of 100 EA/L under gravity, up to its tenth contact, and a mass on a clamped rod up to its
+/// release.
 fn soft(c: &mut Criterion) {
     let number = |text: &str| text.parse::<Number>().unwrap();
     let rod = |speed: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(speed.into());

@@ -85,6 +85,7 @@ enum Change {
 
 /// Events at one time after which a cluster is given up.
 const MOST_REPEATED: usize = 16;
+
 impl<N: Bounded> Mass<N> {
     pub(super) fn new(body: usize, velocity: N, inverse: N, root: N) -> Self {
         let (velocity, error) = velocity.centred();
@@ -307,6 +308,7 @@ impl<N: Bounded> Cluster<N> {
         }
     }
 
+    /// Notes that the bounds leave a decision open.
     fn doubts(&mut self) {
         let at = self.reached.at.to_f64();
         self.doubt = Some(self.doubt.map_or(at, |earlier| earlier.min(at)));

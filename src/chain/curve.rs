@@ -240,67 +240,97 @@ impl<N: Bounded> Curve<N> {
         (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
     }
 
-    /// Returns the greatest value between the stored values of two times, and the first time of it. The slope is that of
-    /// the terms, with the bound `slope_error` of its distance from the slope of the true signal if it is known.
-    pub(super) fn greatest(&self, from: &N, to: &N, slope_error: Option<&N>) -> (N, N) {
+    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve and
+    /// a factor whose product is the slope of the signal, if they are known.
+    pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Self, &N)>) -> (N, N) {
         let [begin, end] = [from, to].map(|t| t.clone().centred().0);
         let width = (end.clone() - &begin).centred().0;
         let own = self.about(&begin, &width);
         let mut best = (self.value_at(from), from.clone());
+        let last = (self.value_at(to), to.clone());
         if own.terms.len() < 3 {
-            let last = self.value_at(to);
-            return highest(best, (last, to.clone()));
+            return highest(best, last);
         }
-        let own_unit = own.unit.clone();
-        let slope = Curve { terms: derivative(&own.terms).into(), error: begin.zero(), ..own.clone() };
+        let slopes = match slope {
+            Some((curve, _)) => curve.about(&begin, &width),
+            None => Curve { terms: derivative(&own.terms).into(), error: begin.zero(), ..own.clone() },
+        };
         let mut rest = begin.zero();
-        let mut falls = slope.terms[0].negative() == Ok(true);
+        let mut falls = slopes.terms[0].negative() == Ok(true);
+        // Possible height of maxima that are not found.
+        let mut spare = begin.zero();
         // Maxima and minima of the curve alternate.
         for turn in 0..own.terms.len() {
             let left = (width.clone() - &rest).centred().0;
             if left.positive() != Ok(true) {
                 break;
             }
-            let slope = slope.about(&(begin.clone() + &rest).centred().0, &left);
-            // The slope is one per unit of the whole curve.
-            let slope = if falls { slope.negated() } else { slope };
-            let error = if turn == 0 { begin.zero() } else { upper(slope.terms[0].magnitude()) };
-            let error = slope_error.map_or_else(|| error.clone(), |own| own.clone() * &own_unit + &error);
-            let Ok((Fall::After(at), _)) = first_fall(&Curve { error, ..slope }) else { break };
+            let slopes = slopes.about(&(begin.clone() + &rest).centred().0, &left);
+            let slopes = if falls { slopes.negated() } else { slopes };
+            // A search begins at the zero that the search before has found.
+            let zero = if turn == 0 { begin.zero() } else { upper(slopes.terms[0].magnitude()) };
+            let error = zero + &slopes.error;
+            let Ok((fall, doubt)) = first_fall(&Curve { error: error.clone(), ..slopes.clone() }) else {
+                spare = own.most().doubled();
+                break;
+            };
+            if doubt {
+                // Where the slope is not told from zero, it is below three times its error.
+                let climb = match slope {
+                    Some((_, factor)) => error * factor.magnitude() * &width,
+                    None => error * own.reach(),
+                };
+                spare = spare + climb * begin.int(3);
+            }
+            let Fall::After(at) = fall else { break };
             let (place, late) = at.centred();
             let here = (rest.clone() + &place).centred().0;
             if !falls && !is_exact_zero(&here) {
                 let found = value(&own.terms, &own.in_units(&here)).widened(&own.error);
-                // The true maximum is within twice the error of this one, on a curve that bends down.
-                let bend = bound(&derivative(&derivative(&own.terms)), &own.reach());
-                let found = found.widened(&(bend * own.in_units(&late).square()));
-                let time = match slope_error {
-                    Some(_) => (begin.clone() + &here).widened(&late),
-                    None => self.time_of_maximum(&begin, &here),
+                let (climb, time) = match slope {
+                    // Between the zero of the stored slope and that of the true one.
+                    Some((_, factor)) => {
+                        let bend = rough_slope(&slopes.terms, &slopes.reach(), 1) * slopes.in_units(&late);
+                        let climb = (bend + &slopes.error) * factor.magnitude() * &late;
+                        (climb, (begin.clone() + &here).widened(&late))
+                    }
+                    None => {
+                        let bend = rough_slope(&own.terms, &own.reach(), 2);
+                        (bend * own.in_units(&late).square(), own.time_of_maximum(&here))
+                    }
                 };
-                best = highest(best, (found, time));
+                best = highest(best, (found.widened(&climb), time));
             }
             if is_exact_zero(&place) {
                 break;
             }
             (rest, falls) = (here, !falls);
         }
-        let last = self.value_at(to);
-        highest(best, (last, to.clone()))
+        let (value, time) = highest(best, last);
+        if is_exact_zero(&spare) { (value, time) } else { (value.widened(&spare), time) }
     }
 
-    /// Returns the time of a smooth maximum within its bound: a curve within `e` of this one has its maximum where this
-    /// one is within `2e` of its own.
-    fn time_of_maximum(&self, begin: &N, here: &N) -> N {
-        let time = (begin.clone() + here).centred().0;
-        let about = shifted(&self.terms, &self.in_units(&(time.clone() - &self.origin)));
-        let bend = about.get(2).map_or_else(|| time.zero(), |bend| -bend.clone());
-        let twice = self.error.clone().doubled() + about.get(1).map_or_else(|| time.zero(), N::magnitude);
-        if is_exact_zero(&twice) {
+    /// Returns the time of a smooth maximum, which is near the time `here` after the origin, within its bound.
+    ///
+    /// **Source**: a signal within `e` of the curve has its maximum where the curve is within `2e` of its own. Where the
+    /// curve is `2e` lower on either side, the maximum is between.
+    fn time_of_maximum(&self, here: &N) -> N {
+        let time = (self.origin.clone() + here).centred().0;
+        let about = shifted(&self.terms, &self.in_units(here));
+        let zero = time.zero();
+        let term = |k: usize| about.get(k).map_or_else(|| zero.clone(), N::clone);
+        let (rise, bend, others) = (term(1).magnitude(), -term(2), about.get(3..).unwrap_or_default());
+        let depth = self.error.clone().doubled() + &rise;
+        if is_exact_zero(&depth) {
             return time;
         }
-        let near = (twice / &bend).doubled().try_sqrt().map(|near| near * &self.unit);
-        let near = near.filter(|near| near.below(&self.width) == Ok(true));
+        let near = (depth / &bend).doubled().try_sqrt().map(|near| near.centred().0).filter(|near| {
+            let cube = near.square() * near;
+            let lower = bend.clone() * near.square() - rise.clone() * near - rough_bound(others, near) * cube;
+            let low = lower - self.error.clone().doubled();
+            low.positive() == Ok(true)
+        });
+        let near = near.map(|near| near * &self.unit).filter(|near| near.below(&self.width) == Ok(true));
         time.widened(&near.unwrap_or_else(|| self.width.clone()))
     }
 
@@ -363,17 +393,18 @@ pub(super) fn product<N: Bounded>(a: &[N], b: &[N]) -> Vec<N> {
 
 impl<N: Bounded> Signal<N> {
     /// Returns the line of a chain of bars whose joints are rigid, which has no curves.
-    pub(super) fn line(&self) -> Line<N> {
+    pub(super) fn into_line(self) -> Line<N> {
         match self {
-            Signal::Line(line) => line.clone(),
+            Signal::Line(line) => line,
             Signal::Curve(Curve { terms, .. }) => Line { intercept: terms[0].clone(), slope: terms[0].zero() },
         }
     }
 
-    /// Returns the greatest value between the stored values of two times, and the first time of it.
-    pub(super) fn greatest(&self, from: &N, to: &N, slope_error: Option<&N>) -> (N, N) {
+    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve and
+    /// a factor whose product is the slope of the signal, if they are known.
+    pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Curve<N>, &N)>) -> (N, N) {
         match self {
-            Signal::Curve(curve) => curve.greatest(from, to, slope_error),
+            Signal::Curve(curve) => curve.greatest(from, to, slope),
             Signal::Line(line) => {
                 let [first, last] = [from, to].map(|t| line.value_at(t));
                 if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }

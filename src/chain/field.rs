@@ -86,9 +86,10 @@ impl<N: Bounded> ChainRun<N> {
         let rising = window(up, &earliest, time)?;
         let falling = window(down, &earliest, time)?;
         let place = |from: &N| (time.clone() - from) * wave_speed;
-        let mut rising = rising.iter().rev().map(|piece| (place(&piece.from), piece.signal.line())).peekable();
+        let mut rising =
+            rising.iter().rev().map(|piece| (place(&piece.from), piece.signal.clone().into_line())).peekable();
         let tops = falling.iter().skip(1).map(|piece| length.clone() - place(&piece.from)).map(Some).chain([None]);
-        let mut falling = falling.iter().map(|piece| piece.signal.line()).zip(tops).peekable();
+        let mut falling = falling.iter().map(|piece| piece.signal.clone().into_line()).zip(tops).peekable();
         let mut from = length.zero();
         let mut displacement = self.end_field(body, false, time, Side::Left)?.displacement;
         let fall = self.gravity.clone() * time;

@@ -217,20 +217,9 @@ impl<N: Bounded> Input<N> {
         Input { source, delay, cursor: 0, signal, next: None }
     }
 
-    fn piece(&self, k: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<(N, Signal<N>)> {
-        match (&self.source, &self.delay) {
-            (Source::Wave(body), Some(delay)) => {
-                let piece = waves[*body][side].pieces.get(k)?;
-                Some((piece.from.clone() + delay, piece.signal.delayed(delay)))
-            }
-            (Source::Data(lines), _) => lines.get(k).map(|(from, line)| (from.clone(), Signal::Line(line.clone()))),
-            _ => None,
-        }
-    }
-
     /// Receives the first piece.
     pub(super) fn begin(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
-        if let Some((_, signal)) = self.piece(0, waves, side) {
+        if let Some(signal) = self.source.piece(self.delay.as_ref(), 0, waves, side) {
             self.signal = signal;
         }
     }
@@ -238,21 +227,15 @@ impl<N: Bounded> Input<N> {
     /// Looks up the arrival of the next piece, if it has left its origin.
     pub(super) fn look_up(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         if self.next.is_none() {
-            self.next = match (&self.source, &self.delay) {
-                (Source::Wave(body), Some(delay)) => {
-                    waves[*body][side].pieces.get(self.cursor + 1).map(|piece| piece.from.clone() + delay)
-                }
-                (Source::Data(lines), _) => lines.get(self.cursor + 1).map(|(from, _)| from.clone()),
-                _ => None,
-            }
-            .map(Moment::new);
+            let next = self.source.beginning(self.delay.as_ref(), self.cursor + 1, waves, side);
+            self.next = next.map(Moment::new);
         }
     }
 
     /// Passes on to the next piece.
     pub(super) fn advance(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         self.cursor += 1;
-        if let Some((_, signal)) = self.piece(self.cursor, waves, side) {
+        if let Some(signal) = self.source.piece(self.delay.as_ref(), self.cursor, waves, side) {
             self.signal = signal;
         }
         self.next = None;

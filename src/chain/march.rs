@@ -199,6 +199,8 @@ fn march<N: Bounded>(
             }
         }
     }
+    // A run that ends at once takes one step beyond its end.
+    events.retain(|event| end.below(&event.t) != Ok(true));
     sort(&mut events, |event| (&event.t, event.node));
     let doubt = clusters.iter().filter_map(|cluster| cluster.doubt).min_by(f64::total_cmp);
     let nodes = clusters.into_iter().flat_map(|cluster| cluster.interfaces).map(|interface| interface.stages).collect();

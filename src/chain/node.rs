@@ -23,6 +23,36 @@ pub(super) enum Source<N> {
     Mass(usize),
 }
 
+impl<N: Bounded> Source<N> {
+    /// Returns the time at which a piece of the signal arrives after `delay`, if it has left its origin.
+    pub(super) fn beginning(&self, delay: Option<&N>, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<N> {
+        match (self, delay) {
+            (Source::Wave(body), Some(delay)) => {
+                waves[*body][side].pieces.get(piece).map(|piece| piece.from.clone() + delay)
+            }
+            (Source::Data(lines), _) => lines.get(piece).map(|(from, _)| from.clone()),
+            _ => None,
+        }
+    }
+
+    /// Returns a piece of the signal after `delay`.
+    pub(super) fn piece(
+        &self,
+        delay: Option<&N>,
+        piece: usize,
+        waves: &[[Wave<N>; 2]],
+        side: usize,
+    ) -> Option<Signal<N>> {
+        match (self, delay) {
+            (Source::Wave(body), Some(delay)) => {
+                waves[*body][side].pieces.get(piece).map(|piece| piece.signal.delayed(delay))
+            }
+            (Source::Data(lines), _) => lines.get(piece).map(|(_, line)| Signal::Line(line.clone())),
+            _ => None,
+        }
+    }
+}
+
 /// The signal that arrives from one side.
 #[derive(Clone, Debug)]
 pub(super) struct Arrival<N> {
@@ -129,34 +159,22 @@ impl<N: Bounded> Arrival<N> {
 
     /// Returns the line that arrives at the start.
     fn first(&self, waves: &[[Wave<N>; 2]], side: usize) -> Line<N> {
-        match (&self.source, &self.delay) {
-            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[0].signal.line().delayed(delay),
-            (Source::Data(lines), _) => lines[0].1.clone(),
-            _ => self.line.clone(),
-        }
+        let first = self.source.piece(self.delay.as_ref(), 0, waves, side);
+        first.map_or_else(|| self.line.clone(), Signal::into_line)
     }
 
     /// Looks up the next break, if it has left its origin.
     fn look_up(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         if self.next.is_none() {
-            self.next = match (&self.source, &self.delay) {
-                (Source::Wave(body), Some(delay)) => {
-                    waves[*body][side].pieces.get(self.cursor + 1).map(|piece| piece.from.clone() + delay)
-                }
-                (Source::Data(lines), _) => lines.get(self.cursor + 1).map(|(from, _)| from.clone()),
-                _ => None,
-            };
+            self.next = self.source.beginning(self.delay.as_ref(), self.cursor + 1, waves, side);
         }
     }
 
     /// Passes on to the next piece.
     fn advance(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         self.cursor += 1;
-        self.line = match (&self.source, &self.delay) {
-            (Source::Wave(body), Some(delay)) => waves[*body][side].pieces[self.cursor].signal.line().delayed(delay),
-            (Source::Data(lines), _) => lines[self.cursor].1.clone(),
-            _ => return,
-        };
+        let Some(piece) = self.source.piece(self.delay.as_ref(), self.cursor, waves, side) else { return };
+        self.line = piece.into_line();
         self.next = None;
         self.look_up(waves, side);
     }

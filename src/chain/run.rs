@@ -191,8 +191,8 @@ impl<N: Bounded> ChainRun<N> {
             }
             // The force of a spring alone has the slope −k gap′.
             let spring = self.springs[node].as_ref().filter(|soft| is_exact_zero(&soft.damping));
-            let slope_error = spring.and_then(|soft| Some(stage.softness()?.rate.error.clone() * &soft.stiffness));
-            let found = force.greatest(&stage.from, to, slope_error.as_ref());
+            let slope = spring.and_then(|soft| Some((stage.softness()?.rate.negated(), &soft.stiffness)));
+            let found = force.greatest(&stage.from, to, slope.as_ref().map(|(curve, factor)| (curve, *factor)));
             let (value, at) = match peak {
                 Some(peak) if stage.softness().is_some() => highest((peak, peak_time), found),
                 Some(peak) if peak.below(&found.0) != Ok(true) => (peak, peak_time),

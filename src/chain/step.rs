@@ -46,6 +46,7 @@ const WIDEST: f64 = 2.0;
 
 /// Share of the greatest width that a step takes.
 const UNEVEN: f64 = 0.971_828_182_845;
+
 /// Roundings of a state that do not count as a decaying part.
 const NOISE: f64 = 64.0;
 

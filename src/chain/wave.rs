@@ -84,12 +84,14 @@ impl<N: Bounded> Wave<N> {
     pub(super) fn push(&mut self, time: &N, line: Line<N>, off: N) {
         let last = self.pieces.len() - 1;
         let last = &mut self.pieces[last];
-        let own = last.signal.line();
-        if continues(&own.intercept, &line.intercept) && continues(&own.slope, &line.slope) {
+        if let Signal::Line(own) = &last.signal
+            && continues(&own.intercept, &line.intercept)
+            && continues(&own.slope, &line.slope)
+        {
             last.sum = last.sum.clone() + off;
             return;
         }
-        let sum = (own.integral(&last.from, time) + &last.sum + off).without_exact();
+        let sum = (last.signal.integral(&last.from, time) + &last.sum + off).without_exact();
         self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum });
     }
 
@@ -108,7 +110,11 @@ impl<N: Bounded> Wave<N> {
                 return;
             }
         }
-        let mut sum = last.signal.integral(&last.from, &curve.origin) + &last.sum;
+        let begun = match &last.signal {
+            Signal::Line(_) => &last.from,
+            Signal::Curve(old) => &old.origin,
+        };
+        let mut sum = last.signal.integral(begun, &curve.origin) + &last.sum;
         if !is_exact_zero(late) {
             let jump = last.signal.value_at(&curve.origin) - &curve.terms[0];
             sum = sum.widened(&(jump.magnitude().widened(&curve.error) * late));
@@ -147,7 +153,11 @@ impl<N: Bounded> Wave<N> {
                 let middle = (from.clone().nominal() + time).halved();
                 line.value_at(&middle) * width + sum
             }
-            Signal::Curve(curve) => curve.integral(&curve.origin, time) + sum,
+            Signal::Curve(curve) => {
+                let (stored, late) = time.centred();
+                let off = (curve.value_at(time).magnitude() + curve.value_at(&stored).magnitude()) * late;
+                (curve.integral(&curve.origin, &stored) + sum).widened(&off)
+            }
         }
     }
 }

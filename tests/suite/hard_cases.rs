@@ -29,7 +29,7 @@ fn same(what: &str, a: &Estimate<f64>, b: &Estimate<f64>) {
 #[test]
 fn every_size_of_damping_and_speed() {
     for damping in [0.0, 1e-300, 1e-150, 1e-30, 1e-9, 1e-4, 0.1, 1.0, 3.0, 10.0, 100.0, 1e3, 1e4] {
-        for speed in [1e-8, 1.0, 1e8] {
+        for speed in [1e-8, 1e-4, 1.0, 1e4, 1e8] {
             let rod = rod(damping, 1.0, 0.5, speed);
             let (contact, modal) = (contact(&rod), Modal::new(&rod, 256));
             let scale = speed + 1.0;

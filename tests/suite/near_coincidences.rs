@@ -155,8 +155,8 @@ fn a_landing_next_to_a_ray_is_told_from_it() {
 
 #[test]
 fn random_coincidences_are_told() {
-    let [scenes, whole, enclosed, doubles] = explore(1878, 2);
-    assert!(whole >= 7 && scenes == 8 && enclosed >= 600 && doubles >= 66, "{scenes} {whole} {enclosed} {doubles}");
+    let [scenes, whole, enclosed, doubles] = explore(1878, 3);
+    assert!(whole >= 11 && scenes == 12 && enclosed >= 900 && doubles >= 100, "{scenes} {whole} {enclosed} {doubles}");
 }
 
 #[test]

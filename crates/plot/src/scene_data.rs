@@ -116,8 +116,8 @@ impl Request {
 
     /// Asks a history for all that the pictures show.
     ///
-    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`] for a
-    /// body of a chain with springs, dashpots or masses.
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`] for
+    /// a body of a chain with springs, dashpots or masses.
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
         // Pictures are drawn from lines between rays.
         if history.problem().chain().is_some_and(|(chain, _)| chain.is_soft()) {

@@ -88,8 +88,7 @@ struct ContactSchema {
     release: Option<NumberSchema>,
     impulse: NumberSchema,
     peak_force: NumberSchema,
-    /// The first time of the greatest force.
-    /// The first time of the peak; null where the force is the same, within its bound, over a plateau.
+    /// The first time of the greatest force; null where the force is the same, within its bound, over a plateau.
     peak_time: Option<NumberSchema>,
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }
