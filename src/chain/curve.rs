@@ -270,17 +270,18 @@ impl<N: Bounded> Curve<N> {
             // A search begins at the zero that the search before has found.
             let zero = if turn == 0 { begin.zero() } else { upper(slopes.terms[0].magnitude()) };
             let error = zero + &slopes.error;
+            // The slope of the terms is one per unit of the whole curve.
+            let climb = |most: N| match slope {
+                Some((_, factor)) => most * factor.magnitude() * &left,
+                None => most * own.in_units(&left),
+            };
             let Ok((fall, doubt)) = first_fall(&Curve { error: error.clone(), ..slopes.clone() }) else {
-                spare = own.most().doubled();
+                spare = spare + climb(slopes.most());
                 break;
             };
             if doubt {
                 // Where the slope is not told from zero, it is below three times its error.
-                let climb = match slope {
-                    Some((_, factor)) => error * factor.magnitude() * &width,
-                    None => error * own.reach(),
-                };
-                spare = spare + climb * begin.int(3);
+                spare = spare + climb(error * begin.int(3));
             }
             let Fall::After(at) = fall else { break };
             let (place, late) = at.centred();
