@@ -64,43 +64,6 @@ fn events_are_those_of_twice_the_bits() {
     let float = |bits: u32, digits: f64| march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap());
     agree(&wide::<2>(20.0), &float(256, 30.0), 12.0);
     if cfg!(feature = "mp") {
-        agree(&wide::<3>(30.0), &float(384, 40.0), 22.0);
         agree(&wide::<4>(45.0), &float(512, 55.0), 37.0);
-    }
-}
-
-/// Prints times of a march beside those of long floats: `cargo test --release --lib cells::wide -- --ignored --nocapture`.
-#[test]
-#[ignore = "prints times: cargo test --release --features mp --lib cells::wide -- --ignored --nocapture"]
-fn timings() {
-    use std::time::Instant;
-    fn timed<T>(name: &str, run: impl Fn() -> T) {
-        let least = (0..5).map(|_| {
-            let start = Instant::now();
-            std::hint::black_box(run());
-            start.elapsed().as_secs_f64()
-        });
-        println!("{name}: {:.2} ms", 1e3 * least.fold(f64::INFINITY, f64::min));
-    }
-    for digits in [9.0, 12.0, 15.0] {
-        println!("{digits} digits");
-        timed("f64", || march::<f64>(&(), digits, |x| Rational::try_from(*x).unwrap()));
-        timed("2 limbs", || march::<Wide<2>>(&(), digits, |x| x.to_rational().unwrap()));
-        timed("3 limbs", || march::<Wide<3>>(&(), digits, |x| x.to_rational().unwrap()));
-        timed("4 limbs", || march::<Wide<4>>(&(), digits, |x| x.to_rational().unwrap()));
-        for bits in [128, 192, 256] {
-            timed(&format!("long, {bits}"), || {
-                march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap())
-            });
-        }
-    }
-    println!("digits of the bits");
-    timed("2 limbs", || wide::<2>(38.0));
-    timed("3 limbs", || wide::<3>(57.0));
-    timed("4 limbs", || wide::<4>(77.0));
-    timed("6 limbs", || wide::<6>(115.0));
-    for bits in [128, 192, 256, 384] {
-        let digits = f64::from(bits) * std::f64::consts::LOG10_2;
-        timed(&format!("long, {bits}"), || march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap()));
     }
 }

@@ -11,9 +11,8 @@ use crate::number::{Bounded, Estimate, Interval, IntervalPrecision, Number, Rati
 use crate::solve::Numbers;
 
 fn cases() -> Vec<Value> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/chains.json");
-    let text = std::fs::read_to_string(path).expect("the cases are there");
-    let file: Value = serde_json::from_str(&text).expect("the cases are JSON");
+    let text = include_str!("../../../tests/reference/chains.json");
+    let file: Value = serde_json::from_str(text).expect("the cases are JSON");
     file["cases"].as_array().expect("a list").clone()
 }
 
