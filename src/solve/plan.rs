@@ -205,8 +205,8 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 /// Maximum bits of a damped march that is proved: its error account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
-/// Whether answers in doubles may take longer numbers. The tests inside the library leave them out, which halves the
-/// time of their build; `tests/suite` has them.
+/// Whether answers in doubles may take longer numbers. The tests inside the library leave them out, to shorten their
+/// build; `tests/suite` has them.
 pub(crate) const LONG: bool = cfg!(feature = "long") && !cfg!(test);
 
 /// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.

@@ -56,7 +56,7 @@ fn fifteen_digits_at_t_320() {
     fifteen_digits(320, 51_134, 32.0..48.0);
 }
 
-/// 373,019 impacts lose 48 digits.
+/// The same to t = 400: 373,019 impacts lose 48 digits.
 #[test]
 #[ignore = "half a minute: make explore"]
 fn fifteen_digits_at_t_400() {

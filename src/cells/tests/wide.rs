@@ -64,6 +64,7 @@ fn events_are_those_of_twice_the_bits() {
     let float = |bits: u32, digits: f64| march::<crate::number::Float>(&bits, digits, |x| x.to_rational().unwrap());
     agree(&wide::<2>(20.0), &float(256, 30.0), 12.0);
     if cfg!(feature = "mp") {
+        agree(&wide::<3>(30.0), &float(384, 40.0), 22.0);
         agree(&wide::<4>(45.0), &float(512, 55.0), 37.0);
     }
 }
