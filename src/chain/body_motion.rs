@@ -270,14 +270,15 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
 
     fn may_jump(&self, time: &N) -> Result<bool, Error> {
         self.run.check_time(time)?;
+        if time.positive() != Ok(true) {
+            return Ok(true);
+        }
         let earlier = time.clone() - &self.bar().travel;
-        let breaks = |node: usize| Ok::<_, Error>(self.run.is_break(node, time)?);
-        let passes = |at: &N| -> Result<bool, Open> {
+        let passes = |at: &N| {
             let waves = self.run.waves[self.body].iter();
-            waves
-                .map(|wave| Ok(wave.piece_at(at, Side::Left)? != wave.piece_at(at, Side::Right)?))
-                .try_fold(false, |any, passes: Result<bool, Open>| Ok(any || passes?))
+            waves.map(|wave| wave.may_jump(at)).try_fold(false, |any, jumps| Ok::<_, Open>(any || jumps?))
         };
+        let breaks = |node: usize| self.run.may_jump(node, time);
         Ok(breaks(self.body)? || breaks(self.body + 1)? || passes(time)? || passes(&earlier)?)
     }
 

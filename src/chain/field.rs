@@ -1,5 +1,7 @@
 //! The field along a body of a chain, and the sums over it.
 
+use std::ops::RangeInclusive;
+
 use super::curve::{Signal, bound, greater, primitive, product, turned, value};
 use super::run::ChainRun;
 use super::start::Bar;
@@ -49,8 +51,8 @@ impl<N: Bounded> ChainRun<N> {
         }
         let [up, down] = &self.waves[body];
         let above = length.clone() - point;
-        let rising = wave_at(up, time.clone() - point.clone() / wave_speed, side)?;
-        let falling = wave_at(down, time.clone() - above / wave_speed, side)?;
+        let rising = up.at(&(time.clone() - point.clone() / wave_speed), side)?;
+        let falling = down.at(&(time.clone() - above / wave_speed), side)?;
         let fall = self.gravity.clone() * time;
         Ok(Field {
             displacement: (rising.1 + &falling.1 - fall.clone() * time).halved(),
@@ -242,18 +244,35 @@ struct Window<N> {
 impl<N: Bounded> Window<N> {
     fn new(wave: &Wave<N>, time: &N, travel: &N) -> Result<Self, Error> {
         let earliest = time.clone() - travel;
-        let [first, last] = [wave.piece_at(&earliest, Side::Right)?, wave.piece_at(time, Side::Left)?];
-        let (first, last) = (first.min(last), last);
+        let [firsts, lasts] = [wave.pieces_at(&earliest, Side::Right), wave.pieces_at(time, Side::Left)];
         let [(begin, early), (end, late)] = [&earliest, time].map(N::centred);
+        // Of the pieces that an end may lie in, the one that the stored values tell.
+        let stored = |near: &RangeInclusive<usize>, at: &N| {
+            let begun = |k: &usize| wave.pieces[*k].from.centred().0.below(at) == Ok(true);
+            near.clone().rev().find(begun).unwrap_or(*near.start())
+        };
+        let (first, last) = (stored(&firsts, &begin), stored(&lasts, &end));
+        let first = first.min(last);
         let zero = time.zero();
+        let total = wave.sum_within(lasts.clone(), time) - wave.sum_within(firsts.clone(), &earliest);
         let mut window = Window {
             parts: Vec::new(),
-            total: wave.sum_at(last, time) - wave.sum_at(first, &earliest),
+            total,
             height: zero.clone(),
             slivers: Vec::new(),
             begin: begin.clone(),
             end: end.clone(),
         };
+        for (near, at) in [(&firsts, &begin), (&lasts, &end)] {
+            // Between the stored and the true beginning of a piece either wave may be the true one.
+            for k in near.clone().skip(1) {
+                let sizes = [k - 1, k].map(|k| wave.pieces[k].signal.value_at(at).magnitude());
+                let size = sizes[0].clone() + &sizes[1];
+                let unsure = wave.pieces[k].from.centred().1 + &early + &late;
+                window.height = window.height.widened(&(size.clone() * &unsure * travel));
+                window.slivers.push((size.clone() * unsure, size));
+            }
+        }
         for k in first..=last {
             let piece = &wave.pieces[k];
             let (own, own_late) = piece.from.centred();
@@ -278,7 +297,7 @@ impl<N: Bounded> Window<N> {
             window.parts.push((from, to, piece.signal.clone()));
         }
         // The whole window lies off by the error of its ends.
-        let off = wave.sum_at(last, time).magnitude() + wave.sum_at(first, &earliest).magnitude();
+        let off = wave.sum_within(lasts, time).magnitude() + wave.sum_within(firsts, &earliest).magnitude();
         window.height = window.height.widened(&(off * (early + late)));
         Ok(window)
     }
@@ -346,12 +365,6 @@ fn square<N: Bounded>(stretch: &Stretch<N>, [value, slope]: &[N; 2]) -> N {
     let rise = slope.clone() * &stretch.width;
     let middle = rise.clone().halved() + value;
     (middle.square() + rise.square() / rise.int(12)) * &stretch.width
-}
-
-/// Returns value and integral of a wave at a time.
-fn wave_at<N: Bounded>(wave: &Wave<N>, time: N, side: Side) -> Result<(N, N), Open> {
-    let at = wave.piece_at(&time, side)?;
-    Ok((wave.pieces[at].signal.value_at(&time), wave.sum_at(at, &time)))
 }
 
 /// Returns the pieces of a wave between two times.

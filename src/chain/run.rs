@@ -4,7 +4,7 @@ use super::curve::{Signal, highest};
 use super::interface::Soft;
 use super::node::{Gap, Stage};
 use super::start::Bar;
-use super::wave::{Wave, index_at, is_exact_zero};
+use super::wave::{Wave, either, indices_at, is_exact_zero, may_jump, smooth_value};
 use crate::error::Error;
 use crate::lattice::Line;
 use crate::motion::{Ending, EventKind, Side};
@@ -242,15 +242,15 @@ impl<N: Bounded> ChainRun<N> {
     ///
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn force(&self, node: usize, time: &N, side: Side) -> Result<N, Error> {
-        Ok(self.stage(node, time, side)?.force.value_at(time))
+        let stages = self.stages(node, time, side)?;
+        Ok(smooth_value(stages.iter().map(|stage| (&stage.from, &stage.force)), time)?)
     }
 
     /// Returns the gap of a contact; zero where the node is none.
     ///
-    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    /// **Errors**: [`Error::TimeOutside`].
     pub fn gap(&self, node: usize, time: &N) -> Result<N, Error> {
-        let stage = self.stage(node, time, Side::Right)?;
-        Ok(match &stage.gap {
+        let gap = |stage: &Stage<N>| match &stage.gap {
             Gap::Zero => time.zero(),
             Gap::Open { at, drive } => {
                 let from = stage.from.clone().nominal();
@@ -258,24 +258,29 @@ impl<N: Bounded> ChainRun<N> {
                 drive.value_at(&middle) * (time.clone() - from) + at
             }
             Gap::Soft(softness) => softness.gap.value_at(time),
-        })
+        };
+        either(self.stages(node, time, Side::Right)?.iter().map(gap)).ok_or(Error::Open(Open))
     }
 
     /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up.
     ///
-    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
+    /// **Errors**: [`Error::TimeOutside`].
     pub fn spring_energies(&self, node: usize, time: &N) -> Result<[N; 2], Error> {
-        let stage = self.stage(node, time, Side::Right)?;
-        let (Some(softness), Some(soft)) = (stage.softness(), &self.springs[node]) else {
-            return Ok([time.zero(), time.zero()]);
+        let energies = |stage: &Stage<N>| {
+            let (Some(softness), Some(soft)) = (stage.softness(), &self.springs[node]) else {
+                return [time.zero(), time.zero()];
+            };
+            if !softness.loaded {
+                return [time.zero(), softness.dissipated.clone()];
+            }
+            let stored = softness.gap.value_at(time).square() * &soft.stiffness;
+            let since = time.clone() - &softness.rate.origin;
+            let lost = softness.rate.square_integral(&since) * &soft.damping;
+            [stored.halved(), lost + &softness.dissipated]
         };
-        if !softness.loaded {
-            return Ok([time.zero(), softness.dissipated.clone()]);
-        }
-        let stored = softness.gap.value_at(time).square() * &soft.stiffness;
-        let since = time.clone() - &softness.rate.origin;
-        let lost = softness.rate.square_integral(&since) * &soft.damping;
-        Ok([stored.halved(), lost + &softness.dissipated])
+        let stages = self.stages(node, time, Side::Right)?;
+        let one = |k: usize| either(stages.iter().map(|stage| energies(stage)[k].clone())).ok_or(Error::Open(Open));
+        Ok([one(0)?, one(1)?])
     }
 
     /// Returns whether a contact is closed.
@@ -285,18 +290,23 @@ impl<N: Bounded> ChainRun<N> {
         Ok(self.stage(node, time, side)?.closed)
     }
 
-    /// Returns whether the state of a node changes at a time.
-    pub(super) fn is_break(&self, node: usize, time: &N) -> Result<bool, Open> {
-        let [left, right] =
-            [Side::Left, Side::Right].map(|side| index_at(&self.nodes[node], |stage| &stage.from, time, side));
-        Ok(left? != right?)
+    /// Returns whether the force of a node, or its slope, may have two limits at a time.
+    pub(super) fn may_jump(&self, node: usize, time: &N) -> Result<bool, Open> {
+        may_jump(&self.nodes[node], |stage| (&stage.from, &stage.force), time)
     }
 
     fn stage(&self, node: usize, time: &N, side: Side) -> Result<&Stage<N>, Error> {
+        match self.stages(node, time, side)? {
+            [stage] => Ok(stage),
+            _ => Err(Error::Open(Open)),
+        }
+    }
+
+    /// Returns the stages of a node that a time may lie in.
+    fn stages(&self, node: usize, time: &N, side: Side) -> Result<&[Stage<N>], Error> {
         self.check_time(time)?;
         let stages = &self.nodes[node];
-        let begun = index_at(stages, |stage| &stage.from, time, side)?;
-        stages.get(begun.max(1) - 1).ok_or(Error::Open(Open))
+        stages.get(indices_at(stages, |stage| &stage.from, time, side)).ok_or(Error::Open(Open))
     }
 
     /// Refuses times outside of the run.

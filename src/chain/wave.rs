@@ -1,6 +1,7 @@
 //! Signals that are linear between breaks, and waves with their integral.
 
 use std::cmp::Ordering;
+use std::ops::RangeInclusive;
 
 use super::curve::{Curve, Signal};
 use crate::lattice::{Line, place_to};
@@ -16,6 +17,13 @@ pub(super) struct Piece<N> {
     pub(super) signal: Signal<N>,
     /// Integral of the wave up to the stored beginning.
     pub(super) sum: N,
+}
+
+impl<N> Piece<N> {
+    /// Returns the beginning and the signal.
+    fn begun(&self) -> (&N, &Signal<N>) {
+        (&self.from, &self.signal)
+    }
 }
 
 /// The wave that leaves one end of a body, from one travel time before the start.
@@ -129,8 +137,31 @@ impl<N: Bounded> Wave<N> {
 
     /// Returns the index of the piece at a time, as the limit from `side`.
     pub(super) fn piece_at(&self, time: &N, side: Side) -> Result<usize, Open> {
-        let begun = index_at(&self.pieces, |piece| &piece.from, time, side)?;
-        Ok(begun.max(1) - 1)
+        index_at(&self.pieces, |piece| &piece.from, time, side)
+    }
+
+    /// Returns the indices of the pieces that a time may lie in, as the limit from `side`.
+    pub(super) fn pieces_at(&self, time: &N, side: Side) -> RangeInclusive<usize> {
+        indices_at(&self.pieces, |piece| &piece.from, time, side)
+    }
+
+    /// Returns value and integral of the wave at a time, as the limit from `side`.
+    ///
+    /// **Errors**: [`Open`] if the error of a jump leaves undecided on which side of it the time is.
+    pub(super) fn at(&self, time: &N, side: Side) -> Result<(N, N), Open> {
+        let near = self.pieces_at(time, side);
+        let pieces = &self.pieces[near.clone()];
+        Ok((smooth_value(pieces.iter().map(Piece::begun), time)?, self.sum_within(near, time)))
+    }
+
+    /// Returns whether the wave, or its slope, may have two limits at a time.
+    pub(super) fn may_jump(&self, time: &N) -> Result<bool, Open> {
+        may_jump(&self.pieces, Piece::begun, time)
+    }
+
+    /// Returns the integral of the wave up to a time that lies in one of the pieces with these indices.
+    pub(super) fn sum_within(&self, near: RangeInclusive<usize>, time: &N) -> N {
+        either(near.map(|k| self.sum_at(k, time))).unwrap_or_else(|| time.zero())
     }
 
     /// Returns the value of the wave at a time, as the limit from `side`. Breaks that agree with the time within their
@@ -179,7 +210,26 @@ pub(super) fn order<N: Bounded>(time: &N, from: &N) -> Result<Ordering, Open> {
     }
 }
 
-/// Returns the number of `items` that have begun at a time, as the limit from `side`.
+/// Returns the indices of the items that a time may lie in, as the limit from `side`: several where the errors of
+/// beginnings leave it undecided. Each item lasts until the next begins, and the first has begun.
+pub(super) fn indices_at<T, N: Bounded>(
+    items: &[T],
+    from: impl Fn(&T) -> &N,
+    time: &N,
+    side: Side,
+) -> RangeInclusive<usize> {
+    let last = |undecided: bool| {
+        let begun = items.partition_point(|item| match order(time, from(item)) {
+            Ok(order) if side == Side::Left => order.is_gt(),
+            Ok(order) => order.is_ge(),
+            Err(Open) => undecided,
+        });
+        begun.max(1) - 1
+    };
+    last(false)..=last(true)
+}
+
+/// Returns the index of the item that a time lies in, as the limit from `side`.
 ///
 /// **Errors**: [`Open`] if the error of a beginning leaves it undecided.
 pub(super) fn index_at<T, N: Bounded>(
@@ -188,19 +238,54 @@ pub(super) fn index_at<T, N: Bounded>(
     time: &N,
     side: Side,
 ) -> Result<usize, Open> {
-    let mut undecided = Ok(());
-    let begun = items.partition_point(|item| match order(time, from(item)) {
-        Ok(order) => {
-            if side == Side::Left {
-                order.is_gt()
-            } else {
-                order.is_ge()
-            }
+    let near = indices_at(items, from, time, side);
+    if near.start() == near.end() { Ok(*near.start()) } else { Err(Open) }
+}
+
+/// Returns a number that is one of `values`: the first, widened to the others; `None` if there are none.
+pub(super) fn either<N: Bounded>(mut values: impl Iterator<Item = N>) -> Option<N> {
+    let first = values.next()?;
+    Some(values.fold(first, |sum, value| {
+        let off = (value - &sum).magnitude();
+        sum.widened(&off)
+    }))
+}
+
+/// Returns the value at a time that may lie in each of these signals, which follow each other and come with their
+/// beginnings.
+///
+/// **Errors**: [`Open`] if a signal jumps where the next begins, and the time may lie on either side.
+pub(super) fn smooth_value<'a, N: Bounded + 'a>(
+    signals: impl Iterator<Item = (&'a N, &'a Signal<N>)> + Clone,
+    time: &N,
+) -> Result<N, Open> {
+    for ((_, before), (from, after)) in signals.clone().zip(signals.clone().skip(1)) {
+        let at = from.clone().nominal();
+        if before.value_at(&at).compare(&after.value_at(&at)).is_ok_and(Ordering::is_ne) {
+            return Err(Open);
         }
-        Err(open) => {
-            undecided = Err(open);
-            false
-        }
-    });
-    undecided.map(|()| begun)
+    }
+    either(signals.map(|(_, signal)| signal.value_at(time))).ok_or(Open)
+}
+
+/// Returns whether the signal of `items`, each of which comes with its beginning, may have two limits at a time: whether it
+/// jumps there, or a new line begins.
+///
+/// **Errors**: [`Open`] if the error of a jump leaves undecided whether it is at the time.
+pub(super) fn may_jump<T, N: Bounded>(
+    items: &[T],
+    part: impl for<'a> Fn(&'a T) -> (&'a N, &'a Signal<N>),
+    time: &N,
+) -> Result<bool, Open> {
+    let [before, after] = [Side::Left, Side::Right].map(|side| indices_at(items, |item| part(item).0, time, side));
+    let near = &items[*before.start()..=*after.end()];
+    if near.len() == 1 {
+        return Ok(false);
+    }
+    let parts = near.iter().map(&part);
+    let is_smooth = smooth_value(parts.clone(), time).is_ok();
+    if before.start() == before.end() && after.start() == after.end() {
+        return Ok(!is_smooth || parts.clone().any(|(_, signal)| matches!(signal, Signal::Line(_))));
+    }
+    if is_smooth { Ok(false) } else { Err(Open) }
 }
