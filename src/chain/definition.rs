@@ -491,6 +491,11 @@ impl ChainBuilder {
 }
 
 impl Chain {
+    /// Returns the chain with rigid joints and ends in place of springs and dashpots.
+    pub(crate) fn without_springs(&self) -> Result<Chain, ProblemError> {
+        Chain { springs: Vec::new(), ..self.clone() }.checked()
+    }
+
     /// Checks the springs, and that neighbours without an elastic side between them have one.
     fn check_springs(&self) -> Result<(), ProblemError> {
         let top = self.bodies.len();

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Start, Top};
-use crate::chain::{Body, BodyMaterial, Chain, Runs};
+use super::{
+    Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top,
+};
+use crate::chain::{Body, BodyMaterial, Chain, End, Runs, Spring};
 use crate::number::{Number, Rational};
 
 /// A chain, and the body in it that a problem describes.
@@ -139,6 +141,74 @@ impl Problem {
             Run::Impacts(_) => chain,
         };
         Some((chain, *body))
+    }
+
+    /// Returns the same rod, by itself, on a ground that yields as `spring` does, followed up to the time `until`.
+    ///
+    /// **Errors**: [`ProblemError`] for a damped rod, a drop height whose speed is no fraction, a body of a chain, and for values out of range.
+    ///
+    /// ```
+    /// use dalembert::{Problem, chain::Spring};
+    /// let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).build()?;
+    /// let soft = rod.on_spring(Spring { stiffness: 20.into(), damping: 0.into() }, 3.into())?;
+    /// // The contact lasts longer than 2L/c, by x/20 with eˣ = 2 − e⁻⁴⁰ + 2x.
+    /// let release = soft.doubles()?.contacts()[0].release.ok_or("no release")?;
+    /// assert!((release - 2.0 - 1.678346990016661 / 20.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn on_spring(&self, spring: Spring, until: Number) -> Result<Problem, ProblemError> {
+        let refuse = |path: &str, found: &str, expected: &str| {
+            Err(ProblemError::new(Kind::Contradiction, path, format!("{found} on a spring"), expected.to_string()))
+        };
+        if self.in_chain.is_some() {
+            return refuse("body", "a body of a chain", "a rod by itself on rigid ground");
+        }
+        if self.damping.is_some() {
+            return refuse(Parameter::Damping.path(), "a damped rod", "a rod without damping");
+        }
+        let ends = [Number::from(0), self.length.clone()];
+        let uniform = |value: &Number| ends.iter().map(|x| (x.clone(), value.clone())).collect::<Vec<_>>();
+        let down = |speed: &Number| {
+            let negative = Number::of_rational(&-speed.to_rational());
+            let path = Parameter::ImpactSpeed.path();
+            let refused = || ProblemError::new(Kind::OutOfRange, path, format!("speed = {speed}"), "fewer digits");
+            Ok::<_, ProblemError>(uniform(&negative.ok_or_else(refused)?))
+        };
+        let (gap, displacement, velocity) = match &self.start {
+            Start::Uniform(Speed::Given(speed)) => (0.into(), Vec::new(), down(speed)?),
+            Start::Uniform(Speed::DropHeight(_)) => {
+                let speed = Parameters::<Rational>::of(self, &()).ok().and_then(|rod| Number::of_rational(&rod.speed));
+                let Some(speed) = speed else {
+                    let found = "a drop height whose speed √(2gh) is no fraction";
+                    return refuse(Parameter::DropHeight.path(), found, "the speed of the impact");
+                };
+                (0.into(), Vec::new(), down(&speed)?)
+            }
+            Start::Above { gap, speed } => (gap.clone(), uniform(gap), down(speed)?),
+            Start::Profile(Profile { displacement, velocity }) => {
+                let gap = displacement.first().map_or_else(|| 0.into(), |(_, gap)| gap.clone());
+                (gap, displacement.clone(), velocity.clone())
+            }
+        };
+        let top = if self.top == Top::Fixed { End::Velocity(vec![(0.into(), 0.into())]) } else { End::Free };
+        let body = Body::new(self.length.clone(), 1.into(), 1.into()).with_start(velocity, displacement);
+        let chain = Chain::builder(body_of(&self.material, &body))
+            .bottom(End::Ground { gap, velocity: Vec::new() })
+            .top(top)
+            .spring(0, spring)
+            .gravity(self.gravity.clone().unwrap_or_else(|| 0.into()))
+            .until(until)
+            .build()?;
+        Ok(chain.problems()?.swap_remove(0))
+    }
+
+    /// Returns the same body of its chain with rigid joints and ends in place of springs and dashpots; `None` for a rod by
+    /// itself, and in a chain without them.
+    ///
+    /// **Errors**: [`ProblemError`] if rigid masses would touch.
+    pub fn rigid_contact(&self) -> Result<Option<Problem>, ProblemError> {
+        let Some((chain, body)) = self.chain().filter(|(chain, _)| chain.is_soft()) else { return Ok(None) };
+        Ok(Some(chain.without_springs()?.problems()?.swap_remove(body)))
     }
 
     /// Returns the problem itself if it describes a rod by itself, or a valid body of its chain.

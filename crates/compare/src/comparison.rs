@@ -10,7 +10,9 @@ use super::map::{ColumnMap, Conversions, MapError};
 use super::options::Options;
 use super::reference::Reference;
 use super::samples::Samples;
+use super::softness::{self, SoftColumn};
 use dalembert::Error;
+use dalembert::chain::Spring;
 use dalembert::number::Number;
 use dalembert::problem::{Parameters, Problem, Run};
 use dalembert::quantity::{Quantity, Units};
@@ -125,6 +127,8 @@ pub struct Prepared {
     problem: Problem,
     /// The plan of the run.
     pub plan: Plan,
+    /// The same problem with rigid contact, where the contact yields.
+    rigid: Option<(Plan, Problem)>,
     data: Vec<NamedSamples>,
     /// The time to which the data should go.
     until: Option<f64>,
@@ -155,6 +159,8 @@ pub struct ComparedFile {
     pub file: String,
     /// The samples beside the exact values.
     pub agreement: Agreement,
+    /// The parts of the difference from rigid contact; empty where the exact contact is rigid.
+    pub(crate) softness: Vec<SoftColumn>,
     pub(crate) diagnosis: Diagnosis,
     pub(crate) fit: Option<FittedFile>,
 }
@@ -182,6 +188,11 @@ fn own_end(problem: &Problem, trip: f64, last: f64) -> Option<f64> {
         Run::Impacts(count) if last <= FAR * trip * f64::from(*count) => None,
         Run::Impacts(_) => problem.doubles().ok().map(|history| *history.end()),
     }
+}
+
+/// Returns the number that a double spells.
+fn written(time: f64) -> Result<Number, Error> {
+    format!("{time:e}").parse().map_err(|_| Error::TimeOutside { found: time.to_string(), end: time.to_string() })
 }
 
 /// Returns the unit in which times may be that go `times` as far as the run.
@@ -229,21 +240,48 @@ impl Prepared {
             Some(time) if time >= last => problem.clone(),
             _ => problem.to_builder().time(last).build().map_err(Error::from)?,
         };
-        let plan = Plan::of(&problem, &Question::run(Numbers::Double(accuracy)))?;
-        Ok(Prepared { problem, plan, data, until, options: options.clone() })
+        let (problem, rigid) = match &options.contact_stiffness {
+            None => {
+                let rigid = problem.rigid_contact().map_err(Error::from)?;
+                (problem, rigid)
+            }
+            Some(stiffness) => {
+                let spring = Spring { stiffness: stiffness.clone(), damping: 0.into() };
+                let end = match problem.run() {
+                    Run::Time(end) => end.clone(),
+                    Run::Impacts(_) => written(last)?,
+                };
+                (problem.on_spring(spring, end).map_err(Error::from)?, Some(problem))
+            }
+        };
+        let numbers = Numbers::Double(accuracy);
+        let plan = Plan::of(&problem, &Question::run(numbers))?;
+        let rigid =
+            rigid.map(|rigid| Ok::<_, Error>((Plan::of(&rigid, &Question::run(numbers))?, rigid))).transpose()?;
+        Ok(Prepared { problem, plan, rigid, data, until, options: options.clone() })
     }
 
     /// Solves the run and compares.
     ///
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
-        let Prepared { problem, plan, data, until, options } = self;
-        let history = TypedHistory::<f64>::solve(&problem, &plan, observer)?;
+        let Prepared { problem, plan, rigid, data, until, options } = self;
+        let history = TypedHistory::<f64>::solve(&problem, &plan, observer.clone())?;
+        let solve = |(plan, problem): (Plan, Problem)| TypedHistory::<f64>::solve(&problem, &plan, observer);
+        let rigid = rigid.map(solve).transpose()?;
         let mut files = Vec::new();
         for NamedSamples { file, samples } in data {
             let reference = Reference::new(&history)?;
             let again = (!options.fit.is_empty()).then(|| samples.clone());
+            let beside_rigid = rigid.as_ref().map(|rigid| (rigid, samples.clone()));
             let agreement = Agreement::new(&reference, samples, &options, until)?;
+            let softness = match beside_rigid {
+                None => Vec::new(),
+                Some((rigid, samples)) => {
+                    let rigid = Agreement::new(&Reference::new(rigid)?, samples, &options, until)?;
+                    softness::parts(&agreement, &rigid)
+                }
+            };
             let diagnosis = Diagnosis::new(&reference, &agreement)?;
             let mut fit = None;
             if let Some(samples) = again {
@@ -252,7 +290,7 @@ impl Prepared {
                 let agreement = Agreement::new(&Reference::new(&found.history)?, samples, &options, until)?;
                 fit = Some(FittedFile { fit: found, agreement });
             }
-            files.push(ComparedFile { file, agreement, diagnosis, fit });
+            files.push(ComparedFile { file, agreement, softness, diagnosis, fit });
         }
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
         let widths: Vec<f64> = match options.widths.as_slice() {

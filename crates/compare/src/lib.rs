@@ -44,6 +44,7 @@ mod options;
 mod reference;
 mod report;
 mod samples;
+mod softness;
 mod spring;
 mod symptoms;
 mod wording;

@@ -75,6 +75,10 @@ pub struct Options {
     /// gap
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub fit: Vec<Parameter>,
+    /// Stiffness of the contact of the data, of the whole cross-section: ours then yields alike, and the report says what
+    /// the stiffness explains
+    #[arg(long, value_name = "K")]
+    pub contact_stiffness: Option<Number>,
     /// Time to which the data are to go; by default the end of the run of the scene
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub to: Option<Number>,

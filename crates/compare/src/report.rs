@@ -15,6 +15,7 @@ use super::fit::FittedValue;
 use super::hint::{Detectable, Hint};
 use super::limit::Order;
 use super::norms::{ComparedColumn, NORMS, Norm, Norms};
+use super::softness::SoftColumn;
 use crate::aligned::table;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Quantity, Units};
@@ -88,7 +89,7 @@ fn share(x: Option<f64>) -> String {
 }
 
 fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> String {
-    let ComparedFile { file, agreement, diagnosis, fit } = compared;
+    let ComparedFile { file, agreement, softness, diagnosis, fit } = compared;
     let times = &agreement.grid.times;
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
     let mut out = title.map_or_else(String::new, |title| format!("{title}\n"));
@@ -103,6 +104,9 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
     }
     out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
+    if !softness.is_empty() {
+        out += &format!("\n{}\n", softness_table(softness));
+    }
     if !agreement.contacts.is_empty() {
         out += &format!("\n{}\n", contacts_table(&agreement.contacts, units));
     }
@@ -130,6 +134,20 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         out += &format!("\n{}\n", fit_table(fit, agreement));
     }
     out
+}
+
+/// Returns the table of the parts of the difference from rigid contact.
+fn softness_table(columns: &[SoftColumn]) -> String {
+    let cell = |norm: &Norm| match norm.relative {
+        Some(relative) => format!("{} ({})", size(Some(norm.absolute)), share(Some(relative))),
+        None => size(Some(norm.absolute)),
+    };
+    let row = |column: &SoftColumn| {
+        let SoftColumn { name, from_rigid, contact, scheme } = column;
+        vec![(*name).into(), cell(from_rigid), cell(contact), cell(scheme)]
+    };
+    let header = ["L2 of", "theirs − rigid", "their contact: soft − rigid", "their scheme: theirs − soft"];
+    format!("ours yields as their contact does\n{}", table(&header, columns.iter().map(row).collect(), 1))
 }
 
 /// Returns the hints, those that explain the data about equally well below each other.
@@ -366,6 +384,8 @@ struct ComparedReport<'a> {
     spread: Option<f64>,
     /// The values of the scene that explain the data best, where some are asked for.
     fit: Option<FitReport<'a>>,
+    /// The parts of the difference from rigid contact; empty where the exact contact is rigid.
+    softness: &'a [SoftColumn],
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -417,7 +437,7 @@ impl<'a> FitReport<'a> {
 }
 
 impl<'a> ComparedReport<'a> {
-    fn new(ComparedFile { file, agreement, diagnosis, fit }: &'a ComparedFile, units: &Units) -> Self {
+    fn new(ComparedFile { file, agreement, softness, diagnosis, fit }: &'a ComparedFile, units: &Units) -> Self {
         let quantity = |ComparedColumn { what, norms, .. }: &'a ComparedColumn| QuantityReport {
             name: what.name(),
             unit: what.unit(units),
@@ -438,6 +458,7 @@ impl<'a> ComparedReport<'a> {
             told_from: &diagnosis.detectable,
             spread: diagnosis.spread,
             fit: fit.as_ref().map(FitReport::new),
+            softness,
         }
     }
 }

@@ -1,0 +1,93 @@
+//! `compare` with a contact that yields.
+
+use crate::command::{json, quiet, refused};
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// Samples of the exact soft solution have no error of a scheme: all that they differ from rigid contact is the contact.
+#[test]
+fn the_contact_explains_what_a_penalty_does() {
+    let folder = TempDir::new().unwrap();
+    let data = folder.path().join("run.csv").display().to_string();
+    // Times of rays are among the samples, where pieces of the exact signals meet.
+    let args = ["sample", "getfem-penalty", "--times", "0..3:301", "--quantity", "u_end,force,E_total"];
+    quiet(&[&args[..], &["--format", "csv", "-o", &data]].concat());
+    let soft = json(&["compare", "getfem-penalty", &data, "--format", "json"]);
+    let given = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "20", "--to", "3"];
+    let given = json(&[&given[..], &["--format", "json"]].concat());
+    for report in [&soft, &given] {
+        let parts = report["softness"].as_array().unwrap();
+        assert_eq!(parts.len(), 3);
+        for part in parts {
+            let norm = |which: &str| part[which]["absolute"].as_f64().unwrap();
+            assert!(norm("scheme") < 1e-9, "{part}");
+            assert!((norm("from_rigid") - norm("contact")).abs() < 1e-9, "{part}");
+        }
+        // The end goes (1 − e⁻²⁰)/40 deep, for two travel times: an L² norm between those of a part and of all of them.
+        let depth = parts[0]["contact"]["absolute"].as_f64().unwrap();
+        assert!((0.02..0.04).contains(&depth), "{depth}");
+    }
+    let table = quiet(&["compare", "getfem-penalty", &data]);
+    assert!(table.contains("theirs − rigid   their contact: soft − rigid   their scheme: theirs − soft"), "{table}");
+    // A stiffer spring is not that of the data.
+    let stiff = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "200", "--to", "3"];
+    let stiff = json(&[&stiff[..], &["--format", "json"]].concat());
+    let scheme = |report: &Value| report["softness"][0]["scheme"]["absolute"].as_f64().unwrap();
+    assert!(scheme(&stiff) > 0.01, "{}", scheme(&stiff));
+    // Rigid contact has no such parts.
+    let rigid = json(&["compare", "getfem-dynamic-contact", &data, "--to", "3", "--format", "json"]);
+    assert_eq!(rigid["softness"], serde_json::json!([]));
+    for (scene, said) in [
+        ("figure-4-r01", "found a damped rod on a spring, expected a rod without damping"),
+        ("getfem-penalty", "found a body of a chain on a spring, expected a rod by itself on rigid ground"),
+    ] {
+        refused(&["compare", scene, &data, "--contact-stiffness", "20"], &[said]);
+    }
+    refused(&["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "-1"], &["stiffness = -1"]);
+}
+
+/// A free rod on a penalty, by central differences with lumped masses: `t,u_end,force`.
+fn penalty_run(elements: usize, stiffness: f64) -> String {
+    let h = 1.0 / elements as f64;
+    let step = 0.5 * h;
+    let (mut u, mut v) = (vec![0.0f64; elements + 1], vec![-1.0; elements + 1]);
+    let mass = |k: usize| if k == 0 || k == elements { 0.5 * h } else { h };
+    let force = |u: &[f64], k: usize| {
+        let below = if k > 0 { (u[k] - u[k - 1]) / h } else { stiffness * u[0].min(0.0) };
+        let above = if k < elements { (u[k + 1] - u[k]) / h } else { 0.0 };
+        above - below
+    };
+    let mut out = String::from("t,u_end,force\n");
+    let steps = (3.0 / step).round() as usize;
+    for n in 0..=steps {
+        out += &format!("{},{},{}\n", n as f64 * step, u[0], -stiffness * u[0].min(0.0));
+        for k in 0..=elements {
+            v[k] += step * if n == 0 { 0.5 } else { 1.0 } * force(&u, k) / mass(k);
+        }
+        for k in 0..=elements {
+            u[k] += step * v[k];
+        }
+    }
+    out
+}
+
+/// On finer meshes the part of the scheme falls, and that of the contact stays.
+#[test]
+fn finer_meshes_leave_the_part_of_the_contact() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\nrun.time = 3\n";
+    std::fs::write(path("rod.toml"), scene).unwrap();
+    let parts: Vec<[f64; 2]> = [50, 200]
+        .iter()
+        .map(|elements| {
+            let data = path(&format!("{elements}.csv"));
+            std::fs::write(&data, penalty_run(*elements, 20.0)).unwrap();
+            let report = json(&["compare", &path("rod.toml"), &data, "--contact-stiffness", "20", "--format", "json"]);
+            ["contact", "scheme"].map(|which| report["softness"][0][which]["absolute"].as_f64().unwrap())
+        })
+        .collect();
+    let [[coarse_contact, coarse], [fine_contact, fine]] = parts[..] else { panic!("{parts:?}") };
+    assert!((coarse_contact - fine_contact).abs() < 0.01 * fine_contact, "{parts:?}");
+    assert!(fine < 0.5 * coarse && fine < 0.1 * fine_contact, "{parts:?}");
+}
