@@ -23,7 +23,7 @@ help:
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
 	@echo "make site         build the site of these pages: target/site/index.html, opens from disk; needs Python 3.10"
 	@echo "make release      binary, wheel, crate and page in target/dist, each tried; half an hour where nothing is built"
-	@echo "make docs         write the outputs and pictures of docs/guide anew"
+	@echo "make docs         write the outputs and pictures of docs/guide, and docs/benchmarks.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"
 
 demo:
@@ -38,7 +38,7 @@ test: m4
 	$(CARGO) test --no-fail-fast
 
 docs: m4
-	REBUILD_GUIDE=1 $(CARGO) test --package dalembert-cli --test suite guide::
+	REBUILD_GUIDE=1 $(CARGO) test --package dalembert-cli --test suite -- guide:: benchmarks::
 
 explore: m4
 	PROPTEST_RNG_SEED=$$(date +%s) $(CARGO) test --no-fail-fast --test suite -- properties first_contact_bounce

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parent.parent
 # Files of the repository that pages link to.
 FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.cff", "LICENSE-*", "crates/plot/src/draw/font/LICENSE"]
 COMMAND = ROOT / "target/debug/dalembert"
-COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes".split()
+COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes cite".split()
 GALLERY = {
     "A periodic rod": "plot doyen-ern-piperno -o periodic.svg",
     "Damping": "plot figure-4-r01 figure-4-r03 --quantity stress,h -o damping.svg",

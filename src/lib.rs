@@ -87,7 +87,10 @@ pub use quantity::{Quantity, Units};
 pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
-pub use scene::{ChainEffect, ChainScene, Effect, EffectUse, Scene, SceneError, Target, builtin};
+pub use scene::{
+    ChainEffect, ChainScene, ChainTarget, ChainTargetQuantity, Effect, EffectUse, Publication, Published, Scene,
+    SceneError, Target, builtin,
+};
 pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, TypedHistory};
 
 #[cfg(doctest)]

@@ -1,9 +1,9 @@
 //! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
 
 use std::fmt;
-use std::str::FromStr;
 use std::sync::{Arc, OnceLock};
 
+use super::column::{ChainColumn, ChainQuantity};
 use super::definition::{Body, Chain};
 use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
@@ -17,135 +17,6 @@ use crate::quantity::Measure;
 use crate::reason::Warning;
 use crate::solve::chain::{EXACT_PIECES, rungs};
 use crate::solve::{DEFAULT_ACCURACY, LONG, MAX_DIGITS, Numbers, Observer, Rung};
-
-/// A quantity of a chain over time.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray,
-)]
-pub enum ChainQuantity {
-    /// Displacement of the lower end of a body.
-    #[strum(serialize = "u_end")]
-    EndDisplacement,
-    /// Velocity of the lower end of a body.
-    #[strum(serialize = "v_end")]
-    EndVelocity,
-    /// Displacement of the upper end of a body.
-    #[strum(serialize = "u_top")]
-    TopDisplacement,
-    /// Velocity of the upper end of a body.
-    #[strum(serialize = "v_top")]
-    TopVelocity,
-    /// Displacement of the centre of mass of a body.
-    #[strum(serialize = "h")]
-    Centre,
-    /// Velocity of the centre of mass of a body.
-    #[strum(serialize = "h_rate")]
-    CentreVelocity,
-    /// Kinetic energy of a body.
-    #[strum(serialize = "kinetic")]
-    Kinetic,
-    /// Strain energy of a body.
-    #[strum(serialize = "strain_energy")]
-    StrainEnergy,
-    /// Kinetic and strain energy of a body, and its weight times the displacement of its centre.
-    #[strum(serialize = "E_total")]
-    Energy,
-    /// Compressive force of a node.
-    #[strum(serialize = "force")]
-    Force,
-    /// Gap of a node; the depth of a spring is its negative.
-    #[strum(serialize = "gap")]
-    Gap,
-    /// Energy that the spring of a node holds.
-    #[strum(serialize = "spring_energy")]
-    SpringEnergy,
-    /// Energy that the dashpot of a node has taken up, and that a released spring has lost.
-    #[strum(serialize = "dissipated")]
-    Dissipated,
-}
-
-impl ChainQuantity {
-    /// Returns whether the quantity belongs to a node, and not to a body.
-    pub fn is_of_node(self) -> bool {
-        use ChainQuantity::{Dissipated, Force, Gap, SpringEnergy};
-        matches!(self, Force | Gap | SpringEnergy | Dissipated)
-    }
-
-    /// Returns the measure of the quantity.
-    pub fn measure(self) -> Measure {
-        match self {
-            ChainQuantity::Force => Measure::Force,
-            ChainQuantity::EndVelocity | ChainQuantity::TopVelocity | ChainQuantity::CentreVelocity => {
-                Measure::Velocity
-            }
-            ChainQuantity::Kinetic
-            | ChainQuantity::StrainEnergy
-            | ChainQuantity::Energy
-            | ChainQuantity::SpringEnergy
-            | ChainQuantity::Dissipated => Measure::Energy,
-            _ => Measure::Length,
-        }
-    }
-}
-
-/// A quantity of one body or node: `u_top.2` for the second body, `force.bottom`, `force.1` for the joint above the
-/// first body, `force.top`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ChainColumn {
-    /// The quantity.
-    pub quantity: ChainQuantity,
-    /// The index of the body, from 0, or of the node, 0 at the bottom.
-    pub place: usize,
-}
-
-impl ChainColumn {
-    /// Reads the column `name` of `chain`; `None` if the chain has no such quantity or place.
-    ///
-    /// ```
-    /// use dalembert::chain::{Body, Chain, ChainColumn};
-    /// let bar = || Body::new(1.into(), 1.into(), 1.into());
-    /// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
-    /// assert_eq!(ChainColumn::read("u_top.2", &chain).map(|column| column.place), Some(1));
-    /// assert_eq!(ChainColumn::read("force.top", &chain).map(|column| column.place), Some(2));
-    /// assert_eq!(ChainColumn::read("u_top.3", &chain), None);
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
-    /// ```
-    pub fn read(name: &str, chain: &Chain) -> Option<Self> {
-        let (quantity, place) = name.split_once('.')?;
-        let (quantity, bodies) = (ChainQuantity::from_str(quantity).ok()?, chain.bodies().len());
-        let number = |most: usize| place.parse().ok().filter(|n| (1..=most).contains(n));
-        let place = match (quantity.is_of_node(), place) {
-            (true, "bottom") => 0,
-            (true, "top") => bodies,
-            (true, _) => number(bodies - 1)?,
-            (false, _) => number(bodies)? - 1,
-        };
-        Some(ChainColumn { quantity, place })
-    }
-
-    /// Returns the name of the column, which [`ChainColumn::read`] reads.
-    pub fn name(self, chain: &Chain) -> String {
-        let place = match (self.quantity.is_of_node(), self.place) {
-            (false, place) => (place + 1).to_string(),
-            (true, 0) => "bottom".into(),
-            (true, place) if place == chain.bodies().len() => "top".into(),
-            (true, place) => place.to_string(),
-        };
-        format!("{}.{place}", self.quantity)
-    }
-
-    /// Returns every column of `chain`; those of springs at nodes that have one.
-    pub fn all(chain: &Chain) -> Vec<Self> {
-        let bodies = chain.bodies().len();
-        let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
-        let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
-        let columns =
-            quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));
-        let is_of_spring =
-            |column: &Self| matches!(column.quantity, ChainQuantity::SpringEnergy | ChainQuantity::Dissipated);
-        columns.filter(|column| !is_of_spring(column) || chain.spring(column.place).is_some()).collect()
-    }
-}
 
 /// Events, contacts and forces of a chain.
 #[derive(Clone, Debug)]

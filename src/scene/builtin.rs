@@ -27,6 +27,7 @@ pub const ALL: &[Builtin] = &[
     scene!("ansys-vm265", "an elastic rod against a rigid wall after a gap, in inches and pounds"),
     scene!("ansys-vm85", "a long bar whose front end is suddenly stopped after a gap, in inches and pounds"),
     scene!("code-aster-sdnv100", "a beam against a rigid wall after a gap, as the decks have it"),
+    scene!("ansys-copper-rod", "a copper rod against a rigid wall, whose energy others do not keep"),
     scene!("two-equal-bars", "two equal bars collide: one of them, and the mirror plane"),
     scene!("paper-weak", "Corollary 1 below the critical speed: contact outlasts the round trip"),
     scene!("paper-strong", "Corollary 1 above the critical speed: contact for one round trip"),
@@ -72,6 +73,12 @@ pub const CHAINS: &[Builtin] = &[
     scene!("code-aster-sdnl111-a-spring", "a bar against a clamped one, on its spring and dashpot"),
     scene!("ansys-vm85-spring", "a long bar stopped by its gap element, in inches and pounds"),
     scene!("saint-venant-mass", "a mass of six rods strikes a clamped rod: released at 7.4076 L/c"),
+    scene!("saint-venant-mass-1", "the same with one rod: released at 3.0677 L/c"),
+    scene!("saint-venant-mass-2", "the same with two rods: released at 4.7086 L/c"),
+    scene!("saint-venant-mass-4", "the same with four rods: released at 5.8996 L/c"),
+    scene!("impact-enforced-velocity", "a free rod whose end moves at a given velocity"),
+    scene!("kratos-absorbing-column", "a soil column on an absorbing base under a sudden load"),
+    scene!("stem-absorbing-column", "the same with the numbers of STEM, whose values are not converged"),
     scene!("yoong-legrand-spring-bar", "a bar on a spring before a stop"),
 ];
 

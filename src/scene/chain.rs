@@ -7,9 +7,10 @@ use toml::de::DeTable;
 
 use super::chain_ends::SPRING_KEYS;
 use super::error::{SceneError, position};
+use super::publication::Publication;
 use super::read::Scene;
 use super::reader::{Reader, Value};
-use super::target::Target;
+use super::target::{ChainTarget, Target};
 use crate::chain::{Body, BodyMaterial, Chain, Joint, MAX_PIECES, Points, Spring};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
@@ -18,8 +19,9 @@ use crate::problem::Problem;
 use crate::problem::written::short;
 use crate::quantity::{Measure, UnitSystem};
 
-const TOP_KEYS: &[&str] = &["title", "units", "body", "ends", "ground", "gravity", "run", "target"];
-const ROD_TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "start", "ground", "gravity", "run", "target"];
+const TOP_KEYS: &[&str] = &["title", "units", "body", "ends", "ground", "gravity", "run", "publication", "target"];
+const ROD_TOP_KEYS: &[&str] =
+    &["title", "units", "rod", "impact", "start", "ground", "gravity", "run", "publication", "target"];
 const BODY_KEYS: &[&str] = &[
     "name",
     "length",
@@ -112,7 +114,8 @@ const TABLES: [(&str, &[&str]); 6] = [
 /// ```
 ///
 /// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among several
-/// bodies each has the number of its `body`, from 1.
+/// bodies each has the number of its `body`, from 1. Those of the whole chain are called as `sample` and `solve` call them:
+/// `u_top.2` and `force.1` at a `time`, and `impact.1`, `release.top`, `impulse.bottom`, `peak_force.1` of a `contact`.
 ///
 /// A body under uniaxial strain has `poisson = 0.3` and `state = "uniaxial strain"`: the modulus of its waves is
 /// `E(1 − ν)/((1 + ν)(1 − 2ν))`. A force pulls where it is positive.
@@ -137,8 +140,12 @@ pub struct ChainScene {
     pub chain: Chain,
     /// `run.accuracy`: the requested relative accuracy.
     pub accuracy: Option<f64>,
-    /// `[[target]]`: published values, each with its body, from 0.
+    /// `[publication]`: where the scene comes from.
+    pub publication: Option<Publication>,
+    /// `[[target]]`: published values of bodies, each with its body, from 0.
     pub targets: Vec<(usize, Target)>,
+    /// `[[target]]`: published values of the whole chain.
+    pub chain_targets: Vec<ChainTarget>,
     source: String,
     lines: Vec<(String, usize)>,
 }
@@ -189,6 +196,7 @@ impl ChainScene {
             units: self.units,
             problem,
             accuracy: self.accuracy,
+            publication: self.publication.clone(),
             targets: self.targets.iter().filter(|(of, _)| *of == body).map(|(_, target)| target.clone()).collect(),
             source: self.source.clone(),
             lines: self.lines.iter().map(line).collect(),
@@ -293,11 +301,14 @@ impl<'a> Reader<'a> {
         let chain = builder.build().map_err(|error| self.placed(error))?;
         let is_elastic = |body: &Body| matches!(body.material(), BodyMaterial::Elastic { .. });
         let materials: Vec<bool> = chain.bodies().iter().map(is_elastic).collect();
+        let (targets, chain_targets) = self.targets(&materials, Some(&chain))?;
         Ok(ChainScene {
             title: self.text("title")?.map(|(text, _)| text.to_string()),
             units: self.units()?,
             chain,
-            targets: self.targets(&materials)?,
+            publication: self.publication()?,
+            targets,
+            chain_targets,
             accuracy: self.accuracy()?,
             source: self.source.to_string(),
             lines,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use super::error::{SceneError, position};
+use super::publication::Publication;
 use super::reader::{Key, Reader, Value};
 use super::suggest;
 use super::target::Target;
@@ -18,7 +19,7 @@ use crate::problem::{Material, Parameter, Problem, ProblemError, ProblemErrorKin
 use crate::quantity::UnitSystem;
 
 /// The keys of the scene itself.
-const TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "gravity", "start", "run", "target"];
+const TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "gravity", "start", "run", "publication", "target"];
 
 /// The tables whose keys are parameters.
 const TABLES: [&str; 5] = ["rod", "impact", "gravity", "start", "run"];
@@ -98,12 +99,17 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 /// published = -4.0e-3
 /// within = 1e-9         # how far it may be off; absent: half a unit of its last digit
 /// source = "deck sdnv100a"
+/// note = "printed with two digits"   # optional
+/// expected = "differs"  # optional: the number is known to be off by more than that
 /// [[target]]
 /// quantity = "release"
 /// contact = 2           # absent: the first
 /// published = 3.3333
 /// source = "by hand"
 /// ```
+///
+/// Where the scene itself comes from stands in `[publication]`, which `dalembert cite NAME` prints: `author`, `title`,
+/// `journal`, `volume`, `pages`, `publisher`, `year`, `doi`, `url`, all of them texts, and a `verdict` on its values.
 ///
 /// # Limits
 /// Those of a [problem](crate::Problem#limits), an accuracy of 1e-300 … 0.1, and at most 16 MiB of text.
@@ -117,6 +123,8 @@ pub struct Scene {
     pub problem: Problem,
     /// `run.accuracy`: the relative accuracy asked for.
     pub accuracy: Option<f64>,
+    /// `[publication]`: where the scene comes from.
+    pub publication: Option<Publication>,
     /// `[[target]]`: what others have published of this scene.
     pub targets: Vec<Target>,
     pub(super) source: String,
@@ -189,13 +197,14 @@ impl<'a> Reader<'a> {
         let title = self.text("title")?.map(|(text, _)| text.to_string());
         let problem = self.draft()?.check().map_err(|error| self.located(error))?;
         let accuracy = self.accuracy()?;
-        let targets = self.targets(&[matches!(problem.material(), Material::Elastic { .. })])?;
+        let (targets, _) = self.targets(&[matches!(problem.material(), Material::Elastic { .. })], None)?;
         let targets = targets.into_iter().map(|(_, target)| target).collect();
         Ok(Scene {
             title,
             units: self.units()?,
             problem,
             accuracy,
+            publication: self.publication()?,
             targets,
             source: self.source.to_string(),
             lines: self.lines(),

@@ -56,16 +56,18 @@ fn spell_plainly(value: &mut Value) {
 }
 
 fn target_table(target: &Target) -> Table {
-    let is_over_time = target.quantity.needs() == Needs::Time;
+    let (is_over_time, published) = (target.quantity.needs() == Needs::Time, &target.published);
     let entries = [
         ("quantity", Some(target.quantity.name().into())),
         ("time", target.time.as_ref().map(text)),
         ("side", is_over_time.then(|| target.side.name().into())),
         ("contact", (!is_over_time).then(|| Value::from(target.contact as i64))),
         ("origin", target.from_start.then(|| "start".into())),
-        ("published", Some(text(&target.published))),
-        ("within", target.within.as_ref().map(text)),
-        ("source", Some(target.source.as_str().into())),
+        ("published", Some(text(&published.value))),
+        ("within", published.within.as_ref().map(text)),
+        ("source", Some(published.source.as_str().into())),
+        ("note", published.note.as_deref().map(Value::from)),
+        ("expected", published.differs.then(|| "differs".into())),
     ];
     entries.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?))).collect()
 }
@@ -106,6 +108,9 @@ impl Serialize for Scene {
         if let Some((accuracy, run)) = self.accuracy.zip(table.get_mut("run").and_then(Value::as_table_mut)) {
             run.insert("accuracy".into(), accuracy.into());
         }
+        if let Some(publication) = &self.publication {
+            table.insert("publication".into(), Table::try_from(publication).unwrap_or_default().into());
+        }
         if !self.targets.is_empty() {
             let targets: Vec<Value> = self.targets.iter().map(|target| target_table(target).into()).collect();
             table.insert("target".into(), targets.into());
@@ -119,7 +124,8 @@ impl From<Problem> for Scene {
     fn from(problem: Problem) -> Self {
         let source = toml::to_string(&problem).unwrap_or_default();
         let (title, units, accuracy) = (None, UnitSystem::default(), None);
-        Scene { title, units, problem, accuracy, targets: Vec::new(), source, lines: Vec::new() }
+        let (publication, targets, lines) = (None, Vec::new(), Vec::new());
+        Scene { title, units, problem, accuracy, publication, targets, source, lines }
     }
 }
 

@@ -19,7 +19,9 @@ use std::process::ExitCode;
 
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use commands::{check, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command};
+use commands::{
+    check, cite, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command,
+};
 use failure::Failure;
 
 const VERSION: &str = match (cfg!(feature = "mp"), cfg!(feature = "raster")) {
@@ -79,6 +81,8 @@ enum Command {
     Check(check::Check),
     /// List the built-in scenes, print one, or hold it against what others have published
     Scenes(scenes::Scenes),
+    /// The references of a run, in words and as BibTeX: the program, the paper, and the sources of the scene
+    Cite(cite::Cite),
     /// Print the manual page, for `man -l -`
     Man,
     /// Print the JSON Schema of the output that `solve`, `sample`, `reference`, `compare` and `sweep` write with
@@ -166,6 +170,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => return command.run(),
+        Command::Cite(command) => command.run(),
         Command::Man => {
             let mut page = Vec::new();
             let done = clap_mangen::Man::new(command()).render(&mut page);

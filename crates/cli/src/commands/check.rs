@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::file::{Format, write_all};
 use crate::output::{check_json, check_page, check_summary, check_table, json_bytes};
 use crate::{source, terminal};
+use dalembert::solve::Numbers;
 use dalembert_verify::check::{CATALOGUE, Case, CheckedCase, Group, UnknownName, Verdict, select};
 use dalembert_verify::published::PublishedScene;
 
@@ -52,7 +53,11 @@ impl Check {
             groups.into_iter().map(|selection| (selection.group, selection.cases.into_iter().map(run).collect()));
         let checked: Vec<(Group, Vec<CheckedCase>)> = groups.collect();
         bar.finish_and_clear();
-        let published = if is_everything || !targets.is_empty() { PublishedScene::builtin()? } else { Vec::new() };
+        let published = if is_everything || !targets.is_empty() {
+            PublishedScene::builtin(Numbers::default())?
+        } else {
+            Vec::new()
+        };
         write_all(&destinations, |format| {
             Ok(match format {
                 Format::Table if self.summary => check_summary(&checked, &published).into_bytes(),

@@ -7,20 +7,21 @@ use clap::Args;
 
 use crate::args::{OutputArgs, known_formats};
 use crate::failure::{Failure, cannot};
-use crate::file::{Format, ROWS, write_all};
-use crate::output::{rows_bytes, targets_data};
+use crate::file::{Format, write_all};
+use crate::output::{PAGE_DIGITS, benchmarks_page, rows_bytes, targets_data};
 use crate::source::{self, AnyScene};
 use crate::terminal;
 use dalembert::builtin;
+use dalembert::solve::Numbers;
 use dalembert_compare::aligned::table;
 use dalembert_verify::published::PublishedScene;
 
 #[derive(Args, Debug)]
-#[command(mut_arg("format", known_formats(ROWS)))]
+#[command(mut_arg("format", known_formats(FORMATS)))]
 #[command(
     after_help = "Examples:\n  dalembert scenes ansys-vm265\n  dalembert scenes ansys-vm265 --targets --format json\n  \
-    dalembert scenes my_scenes/ --targets\n\nWith --targets the exit code is 1 where a value differs by more than \
-    its `within`, or by more than half a unit of its last digit."
+    dalembert scenes my_scenes/ --targets\n  dalembert scenes --targets --format markdown\n\nWith --targets the exit code is 1 where a value differs by more than \
+    its `within`, or by more than half a unit of its last digit, and its scene does not expect it to."
 )]
 pub(crate) struct Scenes {
     /// The scene to print; with --targets also a scene file, `-`, or a folder with scene files
@@ -62,23 +63,27 @@ impl Scenes {
                 }
             },
         };
-        write_all(&self.output.destinations(ROWS)?, |_| Ok(text.clone().into_bytes()))?;
+        write_all(&self.output.destinations(FORMATS)?, |_| Ok(text.clone().into_bytes()))?;
         Ok(ExitCode::SUCCESS)
     }
 
     /// Writes the published values of a scene, of the scenes in a folder, or of all built-in scenes. The exit code is 1
-    /// if one differs.
+    /// if one differs that its scene does not expect to.
     fn published(&self) -> Result<ExitCode, Failure> {
+        let destinations = self.output.destinations(FORMATS)?;
+        // A page shows fractions and proved digits.
+        let is_page = destinations.iter().any(|destination| destination.format == Format::Markdown);
+        let numbers = if is_page { Numbers::ExactThenDigits(PAGE_DIGITS) } else { Numbers::default() };
         let all = match &self.name {
-            None => PublishedScene::builtin()?,
+            None => PublishedScene::builtin(numbers)?,
             Some(name) => {
                 let mut all = Vec::new();
                 for name in scene_files(name)? {
                     let found = match source::read(&name)? {
-                        AnyScene::Rod(scene) => PublishedScene::new(&name, &scene).map(|scene| vec![scene]),
-                        AnyScene::Chain(scene) => PublishedScene::of_bodies(&name, &scene),
+                        AnyScene::Rod(scene) => PublishedScene::new(&name, &scene, numbers),
+                        AnyScene::Chain(scene) => PublishedScene::of_chain(&name, &scene, numbers),
                     };
-                    all.extend(found.map_err(|error| failure!("{name}: {error}"))?);
+                    all.push(found.map_err(|error| failure!("{name}: {error}"))?);
                 }
                 all
             }
@@ -89,11 +94,16 @@ impl Scenes {
             }
         }
         let data = targets_data(&all, self.wide);
-        write_all(&self.output.destinations(ROWS)?, |format| rows_bytes(&data, format))?;
-        let (count, agreed) = PublishedScene::count(&all);
-        Ok(ExitCode::from(u8::from(agreed < count)))
+        write_all(&destinations, |format| match format {
+            Format::Markdown => Ok(benchmarks_page(&all).into_bytes()),
+            format => rows_bytes(&data, format),
+        })?;
+        let (count, expected) = PublishedScene::count(&all);
+        Ok(ExitCode::from(u8::from(expected < count)))
     }
 }
+
+const FORMATS: &[Format] = &[Format::Table, Format::Json, Format::Csv, Format::Markdown];
 
 /// Returns the scene itself, or the scene files of a folder in the order of their names.
 fn scene_files(name: &str) -> Result<Vec<String>, Failure> {

@@ -1,6 +1,7 @@
 //! Tables, JSON, CSV and pictures. Output computes no physics: it asks the history and the quantities.
 
 mod check;
+mod citation;
 mod code;
 mod column;
 mod compare;
@@ -24,6 +25,7 @@ mod target;
 mod writer;
 
 pub(crate) use check::{check_json, check_page, check_summary, check_table};
+pub(crate) use citation::Reference;
 pub(crate) use code::{Language, code};
 pub(crate) use column::Column;
 pub(crate) use compare::{compare_data, compare_svg};
@@ -40,5 +42,5 @@ pub(crate) use schema::schema;
 pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, STRAIGHT_ERROR};
 pub(crate) use sweep::sweep_data;
 pub(crate) use table::wrapped;
-pub(crate) use target::targets_data;
+pub(crate) use target::{PAGE_DIGITS, benchmarks_page, targets_data};
 pub(crate) use writer::{json_bytes, rows_bytes};

@@ -4,9 +4,10 @@ use serde_json::{Value as Json, json};
 
 use super::column::Column;
 use super::dataset::{Cell, Dataset};
-use dalembert::Target;
 use dalembert::number::{Estimate, Scalar, show};
-use dalembert_verify::published::PublishedScene;
+use dalembert_verify::published::{ComparedValue, PublishedScene};
+
+use super::citation::plain_text;
 
 /// Significant digits of a difference in a table.
 const DIFFERENCE_DIGITS: u32 = 3;
@@ -19,13 +20,13 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
     for (published, reached) in
         all.iter().flat_map(|published| published.values.iter().map(move |value| (published, value)))
     {
-        let (target, unit) = (&reached.target, reached.target.quantity.unit(&published.units));
-        let place = sources.iter().position(|source| *source == target.source).unwrap_or_else(|| {
-            sources.push(&target.source);
+        let (theirs, unit) = (&reached.published, reached.unit);
+        let place = sources.iter().position(|source| *source == theirs.source).unwrap_or_else(|| {
+            sources.push(&theirs.source);
             sources.len() - 1
         });
-        let time = target.time.as_ref().map(|time| Estimate::<f64>::from_number(time, &()));
-        let (label, spelled) = (target.label(), target.time.as_ref().map(ToString::to_string));
+        let time = reached.time.as_ref().map(|time| Estimate::<f64>::from_number(time, &()));
+        let (label, spelled) = (reached.label.clone(), reached.time.as_ref().map(ToString::to_string));
         let mut row: Vec<Cell> = if several { vec![published.name.clone().into()] } else { Vec::new() };
         row.extend([
             if unit.is_empty() { label.clone() } else { format!("{label}, {unit}") }.into(),
@@ -33,24 +34,29 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
             unit.into(),
             spelled.into(),
             Cell::number(time),
-            target.published.to_string().into(),
-            Cell::number(Some(reached.published.clone())),
-            Cell::number(Some(reached.ours.clone())),
+            theirs.value.to_string().into(),
+            Cell::number(Some(reached.theirs())),
+            Cell::Number(reached.ours.clone()),
             show(&reached.difference(), DIFFERENCE_DIGITS).into(),
             Cell::number(Some(reached.difference())),
-            target.tolerance().into(),
-            format!("{} ({})", if reached.agrees() { "yes" } else { "NO" }, place + 1).into(),
+            theirs.tolerance().into(),
+            format!("{} ({})", verdict(reached), place + 1).into(),
             reached.agrees().into(),
-            target.source.clone().into(),
+            if theirs.differs { "differs" } else { "agrees" }.into(),
+            theirs.source.clone().into(),
+            theirs.note.clone().into(),
         ]);
         rows.push(row);
     }
     let listed: String = sources.iter().enumerate().map(|(k, source)| format!("({}) {source}\n", k + 1)).collect();
     let title = all.first().filter(|_| !several).and_then(|published| published.title.as_ref());
-    let (count, agreed) = PublishedScene::count(all);
+    let values = || all.iter().flat_map(|published| &published.values);
+    let (count, agreed) = (values().count(), values().filter(|value| value.agrees()).count());
+    let known = values().filter(|value| !value.agrees() && value.is_expected()).count();
+    let known = if known > 0 { format!(", {known} of them as the scene expects") } else { String::new() };
     let below = match count {
         0 => "the scene lists no published value: it has no [[target]]\n".into(),
-        _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ\n", count - agreed),
+        _ => format!("\n\n{listed}\n{count} published values: {agreed} agree, {} differ{known}\n", count - agreed),
     };
     let above = title.map_or_else(String::new, |title| format!("{title}\n\n"));
     let keys = (!wide && !several).then_some(1);
@@ -74,28 +80,88 @@ fn columns(several: bool) -> Vec<Column> {
         Column::data("within"),
         Column::table("agrees").text(),
         Column::data("agrees"),
+        Column::data("expected"),
         Column::data("source"),
+        Column::data("note"),
     ]);
     columns
 }
 
-/// Returns the published values as a section of a page.
-pub(crate) fn published_page(published: &[PublishedScene]) -> String {
-    let mut out = String::from(
-        "## Published values of other programs\n\nEach value that a built-in scene lists as published, \
-         and whether ours rounds to it (or is within what the scene says it may be off).\n\n\
-         | scene | quantity | t | published | | source |\n|---|---|---|---|---|---|\n",
+/// Returns the word for whether a value agrees: `yes`, `no` where that is known, or `NO`.
+fn verdict(value: &ComparedValue) -> &'static str {
+    match (value.agrees(), value.is_expected()) {
+        (true, true) => "yes",
+        (true, false) => "YES",
+        (false, true) => "no",
+        (false, false) => "NO",
+    }
+}
+
+/// Most characters of a fraction in a table; a longer one is printed in digits.
+const FRACTION: usize = 20;
+/// Digits of numbers that are not fractions.
+pub(crate) const PAGE_DIGITS: u32 = 15;
+
+/// Returns the published values of the scenes as a page: a row for each scene, and a section for each with its values.
+pub(crate) fn benchmarks_page(all: &[PublishedScene]) -> String {
+    let (count, _) = PublishedScene::count(all);
+    let differ = all.iter().flat_map(|scene| &scene.values).filter(|value| !value.agrees()).count();
+    let mut out = format!(
+        "# Published tests beside the exact answer\n\n\
+         {} tests with {count} published numbers, of which {differ} differ from the exact answer by more than half a unit \
+         of their last digit, or than what their source allows. A number is exact where it is a fraction; otherwise its \
+         {PAGE_DIGITS} digits are right. `dalembert scenes --targets --format markdown` writes this page, and the tests of \
+         the project hold it against the scenes.\n\n\
+         Parameters are those that the source gives. What is inferred from other numbers of the source is said to be so \
+         in the section of the test.\n\n\
+         | test | agree | verdict |\n|---|---|---|\n",
+        all.len()
     );
-    for PublishedScene { name: scene, values, .. } in published {
-        for reached in values {
-            let Target { time, published, source, .. } = &reached.target;
-            let time = time.as_ref().map_or_else(|| "–".into(), ToString::to_string);
-            let verdict = if reached.agrees() { "agrees" } else { "DIFFERS" };
-            let label = reached.target.label();
-            out += &format!("| `{scene}` | {label} | {time} | {published} | {verdict} | {source} |\n");
+    for scene in all {
+        let agree = scene.values.iter().filter(|value| value.agrees()).count();
+        let verdict = scene.publication.as_ref().and_then(|publication| publication.verdict.as_deref());
+        let title = scene.title.as_deref().unwrap_or(&scene.name);
+        let (name, of) = (&scene.name, scene.values.len());
+        out += &format!("| [{title}](#{name}) | {agree} of {of} | {} |\n", verdict.unwrap_or_default());
+    }
+    for scene in all {
+        let title = scene.title.as_deref().unwrap_or(&scene.name);
+        out += &format!("\n<a id=\"{}\"></a>\n\n## {title}\n\n", scene.name);
+        if let Some(publication) = &scene.publication {
+            out += &format!("*Source*: {}\n\n", escaped(&plain_text(publication)));
+        }
+        for paragraph in &scene.comment {
+            out += &format!("{}\n\n", escaped(paragraph));
+        }
+        out += &format!("```sh\ndalembert scenes {} --targets\n```\n\n", scene.name);
+        out += "| quantity | t | published | exact | exact − published | agrees | source |\n|---|---|---|---|---|---|---|\n";
+        for value in &scene.values {
+            out += &page_row(value);
         }
     }
     out
+}
+
+fn page_row(value: &ComparedValue) -> String {
+    let ComparedValue { label, unit, time, published, ours } = value;
+    let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
+    let time = time.as_ref().map_or_else(|| "–".into(), ToString::to_string);
+    let exact = ours.to_string();
+    let exact = if exact.chars().count() > FRACTION { ours.to_digits(PAGE_DIGITS) } else { exact };
+    let difference = value.difference();
+    let difference = match difference.value().abs() <= difference.bound() {
+        true => "0".into(),
+        false => show(&difference, DIFFERENCE_DIGITS),
+    };
+    let agrees = if value.agrees() { "yes" } else { "no" };
+    let note = published.note.as_ref().map_or_else(String::new, |note| format!(". {note}"));
+    let source = escaped(&(published.source.clone() + &note));
+    format!("| {label}{unit} | {time} | {} | {exact} | {difference} | {agrees} | {source} |\n", published.value)
+}
+
+/// Escapes what Markdown would take for emphasis or a column.
+fn escaped(text: &str) -> String {
+    text.replace('|', "\\|").replace('*', "\\*").replace('_', "\\_")
 }
 
 pub(crate) fn published_json(published: &[PublishedScene]) -> Json {

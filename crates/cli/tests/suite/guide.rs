@@ -8,7 +8,7 @@ use std::process::Command;
 use dalembert::rug::Rational;
 use dalembert::{Problem, Side, TypedHistory};
 
-fn docs() -> PathBuf {
+pub(crate) fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }
 
@@ -55,7 +55,7 @@ fn rebuilt(text: &str, work: &Path) -> String {
     out
 }
 
-fn rebuilds() -> bool {
+pub(crate) fn rebuilds() -> bool {
     std::env::var_os("REBUILD_GUIDE").is_some()
 }
 

@@ -3,6 +3,8 @@
 //! `cargo test -p dalembert-cli --test suite compare` runs the tests whose path holds that word.
 #![allow(clippy::approx_constant, clippy::expect_used, clippy::panic, clippy::unwrap_used, clippy::useless_conversion)]
 
+#[cfg(target_os = "linux")]
+mod benchmarks;
 mod chain_bodies;
 mod check_catalogue;
 mod command;
@@ -16,6 +18,7 @@ mod compare_command;
 mod compare_contacts;
 mod compare_fits;
 mod compare_reading;
+mod compare_soft;
 mod cost_measured;
 #[path = "../../../../tests/suite/cuts.rs"]
 mod cuts;

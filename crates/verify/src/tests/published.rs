@@ -17,7 +17,7 @@ fn a_value_agrees_to_its_last_digit_and_no_further() {
              published = {published}\n{within}\nsource = 'by hand'\n"
         );
         let scene = Scene::parse(&text).unwrap();
-        let found = PublishedScene::new("it", &scene).unwrap();
+        let found = PublishedScene::new("it", &scene, dalembert::Numbers::default()).unwrap();
         assert_eq!(PublishedScene::count(&[found]), (1, usize::from(agrees)), "{published} {within}");
     }
 }

@@ -1,0 +1,196 @@
+//! Names of the numbers of a chain: quantities over time, and those of contacts.
+
+use std::str::FromStr;
+
+use super::definition::Chain;
+use super::run::ChainContact;
+use crate::quantity::Measure;
+
+/// Returns the index of the node with this name: `bottom`, the number of a joint, from 1, or `top`.
+fn node(name: &str, chain: &Chain) -> Option<usize> {
+    match (name, chain.bodies().len()) {
+        ("bottom", _) => Some(0),
+        ("top", bodies) => Some(bodies),
+        (number, bodies) => number.parse().ok().filter(|n| (1..bodies).contains(n)),
+    }
+}
+
+fn node_name(node: usize, chain: &Chain) -> String {
+    match node {
+        0 => "bottom".into(),
+        node if node == chain.bodies().len() => "top".into(),
+        node => node.to_string(),
+    }
+}
+
+/// A quantity of a chain over time.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray,
+)]
+pub enum ChainQuantity {
+    /// Displacement of the lower end of a body.
+    #[strum(serialize = "u_end")]
+    EndDisplacement,
+    /// Velocity of the lower end of a body.
+    #[strum(serialize = "v_end")]
+    EndVelocity,
+    /// Displacement of the upper end of a body.
+    #[strum(serialize = "u_top")]
+    TopDisplacement,
+    /// Velocity of the upper end of a body.
+    #[strum(serialize = "v_top")]
+    TopVelocity,
+    /// Displacement of the centre of mass of a body.
+    #[strum(serialize = "h")]
+    Centre,
+    /// Velocity of the centre of mass of a body.
+    #[strum(serialize = "h_rate")]
+    CentreVelocity,
+    /// Kinetic energy of a body.
+    #[strum(serialize = "kinetic")]
+    Kinetic,
+    /// Strain energy of a body.
+    #[strum(serialize = "strain_energy")]
+    StrainEnergy,
+    /// Kinetic and strain energy of a body, and its weight times the displacement of its centre.
+    #[strum(serialize = "E_total")]
+    Energy,
+    /// Compressive force of a node.
+    #[strum(serialize = "force")]
+    Force,
+    /// Gap of a node; the depth of a spring is its negative.
+    #[strum(serialize = "gap")]
+    Gap,
+    /// Energy that the spring of a node holds.
+    #[strum(serialize = "spring_energy")]
+    SpringEnergy,
+    /// Energy that the dashpot of a node has taken up, and that a released spring has lost.
+    #[strum(serialize = "dissipated")]
+    Dissipated,
+}
+
+impl ChainQuantity {
+    /// Returns whether the quantity belongs to a node, and not to a body.
+    pub fn is_of_node(self) -> bool {
+        use ChainQuantity::{Dissipated, Force, Gap, SpringEnergy};
+        matches!(self, Force | Gap | SpringEnergy | Dissipated)
+    }
+
+    /// Returns the measure of the quantity.
+    pub fn measure(self) -> Measure {
+        match self {
+            ChainQuantity::Force => Measure::Force,
+            ChainQuantity::EndVelocity | ChainQuantity::TopVelocity | ChainQuantity::CentreVelocity => {
+                Measure::Velocity
+            }
+            ChainQuantity::Kinetic
+            | ChainQuantity::StrainEnergy
+            | ChainQuantity::Energy
+            | ChainQuantity::SpringEnergy
+            | ChainQuantity::Dissipated => Measure::Energy,
+            _ => Measure::Length,
+        }
+    }
+}
+
+/// A quantity of one body or node: `u_top.2` for the second body, `force.bottom`, `force.1` for the joint above the
+/// first body, `force.top`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChainColumn {
+    /// The quantity.
+    pub quantity: ChainQuantity,
+    /// The index of the body, from 0, or of the node, 0 at the bottom.
+    pub place: usize,
+}
+
+impl ChainColumn {
+    /// Reads the column `name` of `chain`; `None` if the chain has no such quantity or place.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn};
+    /// let bar = || Body::new(1.into(), 1.into(), 1.into());
+    /// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
+    /// assert_eq!(ChainColumn::read("u_top.2", &chain).map(|column| column.place), Some(1));
+    /// assert_eq!(ChainColumn::read("force.top", &chain).map(|column| column.place), Some(2));
+    /// assert_eq!(ChainColumn::read("u_top.3", &chain), None);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn read(name: &str, chain: &Chain) -> Option<Self> {
+        let (quantity, place) = name.split_once('.')?;
+        let quantity = ChainQuantity::from_str(quantity).ok()?;
+        let body = || place.parse::<usize>().ok().filter(|n| (1..=chain.bodies().len()).contains(n));
+        let place = if quantity.is_of_node() { node(place, chain)? } else { body()? - 1 };
+        Some(ChainColumn { quantity, place })
+    }
+
+    /// Returns the name of the column, which [`ChainColumn::read`] reads.
+    pub fn name(self, chain: &Chain) -> String {
+        let of_node = self.quantity.is_of_node();
+        let place = if of_node { node_name(self.place, chain) } else { (self.place + 1).to_string() };
+        format!("{}.{place}", self.quantity)
+    }
+
+    /// Returns every column of `chain`; those of springs at nodes that have one.
+    pub fn all(chain: &Chain) -> Vec<Self> {
+        let bodies = chain.bodies().len();
+        let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
+        let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
+        let columns =
+            quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));
+        let is_of_spring =
+            |column: &Self| matches!(column.quantity, ChainQuantity::SpringEnergy | ChainQuantity::Dissipated);
+        columns.filter(|column| !is_of_spring(column) || chain.spring(column.place).is_some()).collect()
+    }
+}
+
+/// A number of a contact at a node of a chain.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray,
+)]
+#[strum(serialize_all = "snake_case")]
+pub enum ChainContactQuantity {
+    /// Its beginning.
+    Impact,
+    /// Its end.
+    Release,
+    /// Integral of the force.
+    Impulse,
+    /// Greatest force.
+    PeakForce,
+}
+
+impl ChainContactQuantity {
+    /// Reads `release.1` or `impulse.top`; `None` if the chain has no such quantity or node.
+    pub fn read(name: &str, chain: &Chain) -> Option<(usize, Self)> {
+        let (quantity, place) = name.split_once('.')?;
+        Some((node(place, chain)?, ChainContactQuantity::from_str(quantity).ok()?))
+    }
+
+    /// Returns the names of all numbers of the contacts of `chain`.
+    pub fn names(chain: &Chain) -> impl Iterator<Item = String> {
+        let contacts = (0..=chain.bodies().len()).filter(|node| chain.is_contact(*node));
+        contacts.flat_map(move |node| {
+            let all = <Self as strum::VariantArray>::VARIANTS.iter();
+            all.map(move |quantity| format!("{quantity}.{}", node_name(node, chain)))
+        })
+    }
+
+    /// Returns the measure of the number.
+    pub fn measure(self) -> Measure {
+        match self {
+            ChainContactQuantity::Impact | ChainContactQuantity::Release => Measure::Time,
+            ChainContactQuantity::Impulse => Measure::Impulse,
+            ChainContactQuantity::PeakForce => Measure::Force,
+        }
+    }
+
+    /// Returns the number of a contact; `None` for the end of one that lasts.
+    pub fn of<N>(self, contact: &ChainContact<N>) -> Option<&N> {
+        match self {
+            ChainContactQuantity::Impact => Some(&contact.impact),
+            ChainContactQuantity::Release => contact.release.as_ref(),
+            ChainContactQuantity::Impulse => Some(&contact.impulse),
+            ChainContactQuantity::PeakForce => Some(&contact.peak),
+        }
+    }
+}
