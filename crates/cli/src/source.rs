@@ -88,7 +88,8 @@ pub(crate) fn nearest_scene(name: &str) -> Option<String> {
         let is_scene = path.extension().is_some_and(|extension| extension == "toml");
         Some(path.display().to_string()).filter(|_| is_scene)
     });
-    let mut known: Vec<String> = builtin::names().map(str::to_string).chain(files).collect();
+    let builtin = builtin::ALL.iter().chain(builtin::CHAINS).map(|scene| scene.name.to_string());
+    let mut known: Vec<String> = builtin.chain(files).collect();
     known.sort();
     nearest(name, known.iter().map(String::as_str)).map(str::to_string)
 }

@@ -11,7 +11,7 @@ pub(crate) struct Reference {
     pub(crate) kind: &'static str,
     /// The entries.
     pub(crate) publication: Publication,
-    /// What the run took from it.
+    /// The part of it in the run.
     pub(crate) note: String,
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn plain_text(publication: &Publication) -> String {
     let journal = journal.as_ref().map(|journal| format!("{journal}{volume}"));
     let pages = pages.as_ref().map(|pages| format!("pages {}", pages.replace("--", "–")));
     let doi = doi.as_ref().map(|doi| format!("https://doi.org/{doi}"));
-    let parts = [&author, &title, &journal, &pages, publisher, year, &doi, url];
+    let parts = [&author, title, &journal, &pages, publisher, year, &doi, url];
     let parts: Vec<&str> = parts.into_iter().filter_map(|part| part.as_deref()).collect();
     parts.join(", ") + "."
 }

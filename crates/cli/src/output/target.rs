@@ -40,7 +40,7 @@ pub(crate) fn targets_data(all: &[PublishedScene], wide: bool) -> Dataset {
             show(&reached.difference(), DIFFERENCE_DIGITS).into(),
             Cell::number(Some(reached.difference())),
             theirs.tolerance().into(),
-            format!("{} ({})", verdict(reached), place + 1).into(),
+            format!("{} to {} ({})", verdict(reached), tolerance(theirs.tolerance()), place + 1).into(),
             reached.agrees().into(),
             if theirs.differs { "differs" } else { "agrees" }.into(),
             theirs.source.clone().into(),
@@ -85,6 +85,11 @@ fn columns(several: bool) -> Vec<Column> {
         Column::data("note"),
     ]);
     columns
+}
+
+/// Returns a tolerance in words: `5e-5`, or `all digits` for none.
+fn tolerance(tolerance: f64) -> String {
+    if tolerance == 0.0 { "all digits".into() } else { format!("{tolerance:e}") }
 }
 
 /// Returns the word for whether a value agrees: `yes`, `no` where that is known, or `NO`.

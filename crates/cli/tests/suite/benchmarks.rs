@@ -63,14 +63,14 @@ fn known_differences_are_expected() {
     let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[[target]]\nquantity = 'release'\n\
                  published = 2.5\nexpected = 'differs'\nnote = 'a slip'\nsource = 'nowhere'\n";
     let run = run_with(&["scenes", "-", "--targets"], scene);
-    assert!(run.code == Some(0) && run.out.contains("no (1)"), "{}", run.out);
+    assert!(run.code == Some(0) && run.out.contains("no to 5e-2 (1)"), "{}", run.out);
     assert!(
         run.out.ends_with("1 published values: 0 agree, 1 differ, 1 of them as the scene expects\n"),
         "{}",
         run.out
     );
     let run = run_with(&["scenes", "-", "--targets"], &scene.replace("2.5", "2.0"));
-    assert!(run.code == Some(1) && run.out.contains("YES (1)"), "{}", run.out);
+    assert!(run.code == Some(1) && run.out.contains("YES to 5e-2 (1)"), "{}", run.out);
     let page = run_with(&["scenes", "-", "--targets", "--format", "markdown"], scene).out;
     assert!(page.contains("| release | – | 2.5 | 2 | -0.5 | no | nowhere. a slip |"), "{page}");
 }

@@ -61,12 +61,11 @@ fn penalty_run(elements: usize, stiffness: f64) -> String {
     let steps = (3.0 / step).round() as usize;
     for n in 0..=steps {
         out += &format!("{},{},{}\n", n as f64 * step, u[0], -stiffness * u[0].min(0.0));
-        for k in 0..=elements {
-            v[k] += step * if n == 0 { 0.5 } else { 1.0 } * force(&u, k) / mass(k);
+        let push = step * if n == 0 { 0.5 } else { 1.0 };
+        for (k, speed) in v.iter_mut().enumerate() {
+            *speed += push * force(&u, k) / mass(k);
         }
-        for k in 0..=elements {
-            u[k] += step * v[k];
-        }
+        u.iter_mut().zip(&v).for_each(|(place, speed)| *place += step * speed);
     }
     out
 }
