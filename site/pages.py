@@ -2,6 +2,7 @@
 examples, the library's front page, pictures with their commands, the catalogue of hard cases, and the page of the
 classroom."""
 
+import html
 import json
 import re
 import subprocess
@@ -14,6 +15,8 @@ ROOT = Path(__file__).parent.parent
 # Files of the repository that pages link to.
 FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.cff", "LICENSE-*", "crates/plot/src/draw/font/LICENSE"]
 COMMAND = ROOT / "target/debug/dalembert"
+KATEX = ROOT / "web/test/node_modules/katex/dist"
+FORMULA = re.compile(r'(?s)<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>')
 COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes cite".split()
 GALLERY = {
     "A periodic rod": "plot doyen-ern-piperno -o periodic.svg",
@@ -21,7 +24,7 @@ GALLERY = {
     "Restitution": "plot figure-4-r01 figure-4-r02 figure-4-r03 --quantity restitution -o restitution.svg",
     "A landing without speed": "plot mu-1-period-36 --quantity xt --to 36 -o tangential.svg",
     "Velocity along the rod": "plot paper-strong --quantity xt --field velocity -o velocity.svg",
-    "Chaos": "plot mu-3-2-chaotic --quantity xt --to 40 -o chaos.svg",
+    "Rays that multiply": "plot mu-3-2-chaotic --quantity xt --to 40 -o rays.svg",
     "A fixed top": "plot getfem-dynamic-contact -o fixed.svg",
     "A real rod": "plot steel-bar -o steel.svg",
     "When and whether a rod bounces": "regimes -o regimes.svg",
@@ -119,6 +122,8 @@ def on_files(files, config):
         files.append(File.generated(config, name, content=text))
     kept = {f"files/{path.name}": path for pattern in FILES for path in ROOT.glob(pattern)}
     kept |= {"live.html": ROOT / "target/page/dalembert.html", "assets/search.js": ROOT / "site/search.js"}
+    kept |= {"assets/site.css": ROOT / "site/site.css", "assets/katex.css": KATEX / "katex.min.css"}
+    kept |= {f"assets/fonts/{path.name}": path for path in KATEX.glob("fonts/*.woff2")}
     for name, path in kept.items():
         files.append(File.generated(config, name, content=path.read_bytes()))
     return files
@@ -144,6 +149,28 @@ def on_page_markdown(markdown, page, **_):
         markdown = re.sub(rf"\]\((?:\.\./)*{link}\)", rf"]({here}{target})", markdown)
     markdown = re.sub(r"\]\((?:\.\./)+README\.md\)", f"]({here}start.md)", markdown)
     return re.sub(r"\[([^\]]*)\]\((?:\.\./)*CONTRIBUTING\.md\)", r"`\1`", markdown)
+
+
+def with_formulas(content):
+    """Draws the formulas of a page: its readers need no script, and no net. The search does not see them."""
+    found = [[html.unescape(text).strip(), bracket == "["] for _, bracket, text in FORMULA.findall(content)]
+    node = ["node", ROOT / "site/formulas.mjs"]
+    drawn = iter(json.loads(subprocess.run(node, check=True, capture_output=True, input=json.dumps(found), text=True).stdout))
+    content = FORMULA.sub(lambda match: f"<{match[1]} data-search-exclude>{next(drawn)}</{match[1]}>", content)
+    assert "arithmatex" not in content, "a formula is left: see with_formulas"
+    return content
+
+
+def console(found):
+    """Marks a block of commands and outputs so that its button copies the commands alone."""
+    lines = html.unescape(re.sub(r"<[^>]+>", "", found[0])).splitlines()
+    commands = "\n".join(line[2:] for line in lines if line.startswith("$ "))
+    return found[0].replace("<div ", f'<div data-copy="{html.escape(commands)}" ', 1)
+
+
+def on_page_content(content, **_):
+    content = with_formulas(content) if "arithmatex" in content else content
+    return re.sub(r'(?s)<div class="language-console highlight">.*?</div>', console, content)
 
 
 def on_post_page(output, page, **_):

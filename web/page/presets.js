@@ -24,7 +24,7 @@ export const PRESETS = [
       + "closer you come.",
   },
   {
-    name: "Chaos at μ = 3/2",
+    name: "Rays that multiply",
     scene: { L: "1", c: "1", mu: "1.5", r: "0", g: "1", top: "free", n: 20 },
     story: "Here every bounce starts new rays, none of which ever ends, and so the x–t picture breaks into finer and "
       + "finer pieces. The impacts multiply with them, 373 019 up to t = 400, and by then a change of μ in its tenth "

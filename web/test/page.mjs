@@ -140,6 +140,9 @@ for (const [width, height] of [[1920, 1080], [1280, 720]]) {
   assert.ok(lowest <= height, `${lowest} of ${height}`);
   const letters = await page.$eval("#diagram .axis-x text", (text) => text.getBoundingClientRect().height / 1.2);
   assert.ok(letters >= height / 50, `letters of ${letters} in ${height}`);
+  // All columns of the contacts are seen without scrolling.
+  const [needed, wide] = await page.$eval("#all .wide", (place) => [place.scrollWidth, place.clientWidth]);
+  assert.ok(needed <= wide, `contacts: ${needed} of ${wide}`);
 }
 
 // The numbers are those of the command, undamped and damped, with a free and a held top, and between events.
@@ -405,10 +408,13 @@ assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 36
 await page.screenshot({ path: join(ROOT, "target/page/phone.png"), fullPage: true });
 await page.setViewportSize({ width: 390, height: 844 });
 await settled();
-const boxes = await page.evaluate(() => Object.fromEntries(["pictures", "side", "time", "sliders"].map((id) => {
+const boxes = await page.evaluate(() => Object.fromEntries([
+  "presets", "story", "pictures", "side", "time", "sliders",
+].map((id) => {
   const { top, bottom, left, right } = document.getElementById(id).getBoundingClientRect();
   return [id, { top, bottom, left, right }];
 })));
+assert.ok(boxes.presets.bottom <= boxes.story.top && boxes.story.bottom <= boxes.pictures.top, JSON.stringify(boxes));
 assert.ok(boxes.pictures.bottom <= boxes.time.top && boxes.time.bottom <= boxes.sliders.top, JSON.stringify(boxes));
 assert.ok(boxes.sliders.bottom <= 844, `the sliders end at ${boxes.sliders.bottom}`);
 assert.ok(boxes.side.right <= boxes.pictures.left && boxes.pictures.right <= 390, JSON.stringify(boxes));

@@ -125,8 +125,8 @@ fn dots(panel: &mut Panel, points: Vec<DVec2>, color: &'static str) {
 }
 
 fn kernel(rows: &[Row]) -> Panel {
-    let y = Axis::new("Ψ_r(t)", "", Axis::range(rows.iter().filter_map(|row| row[3]), true));
-    let title = "the stress of a rod that is held: g = 0, t₁ = μ = c = 1";
+    let y = Axis::new("Ψ_r(t) = e^(rt) v_x(0,t)", "", Axis::range(rows.iter().filter_map(|row| row[3]), true));
+    let title = "strain at the ground times e^(rt) of a rod that is held: g = 0, t₁ = μ = c = 1";
     let mut panel = Panel::new(title, Axis::new("t", "", [0.0, 4.0]), y);
     panel.level("limit", 0.0, Stroke::new("#808080", THIN));
     for (k, damping) in HELD_DAMPINGS.into_iter().enumerate() {

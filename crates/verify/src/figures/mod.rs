@@ -47,8 +47,8 @@ pub const FIGURES: [Figure; 10] = [
     Figure {
         name: "1",
         kind: FigureKind::HeldStress,
-        shown: "Ψ_r(t) for r = 2.6, 2.9, 3.0 with g = 0 and t₁ = μ = c = 1, the stress at the ground if the end were \
-                held for ever.",
+        shown: "Ψ_r(t) = e^(rt) v_x(0,t) for r = 2.6, 2.9, 3.0 with g = 0 and t₁ = μ = c = 1: the strain at the ground, \
+                were the end held for ever, times e^(rt).",
         corrected: "The bounce times are numbers: t_b = 1.78848103329888, 2.55302249931324 and 3.29902605144577.",
     },
     Figure {
