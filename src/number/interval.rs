@@ -117,8 +117,8 @@ impl Interval {
     /// let history = rod.certified(20)?;
     /// // t_b = 2L/c = 2/3, which no binary number is.
     /// let end = history.contacts()[0].release.clone().unwrap();
-    /// let exact = |end: &dalembert::rug::Float| end.to_rational().unwrap();
-    /// assert!(exact(end.lo()) * 3 < 2 && exact(end.hi()) * 3 > 2);
+    /// let truth = dalembert::Rational::from(2) / dalembert::Rational::from(3);
+    /// assert!(*end.lo() < truth && *end.hi() > truth);
     /// assert_eq!(format!("{end:.20}"), "0.66666666666666666667");
     /// # Ok::<(), dalembert::Error>(())
     /// ```
