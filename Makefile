@@ -5,7 +5,8 @@
 #   make page         builds the page, one HTML file that opens from disk, and make page-test tries it in Chromium
 #   make site         builds the site of docs/, with the page, the commands' help and the gallery in it
 #   make docs         works out docs/guide anew
-# GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test and site need Node 20 with npm too.
+# GMP needs m4, and page-test Chromium; both are installed where they are missing. page-test and site need Node 20 with
+# npm too.
 
 CARGO ?= cargo
 # What builds the command for the page's test and the site.
@@ -21,7 +22,7 @@ help:
 	@echo "make test         run all tests, those of the documentation included"
 	@echo "make page         build the page: target/page/dalembert.html, one file that opens from disk"
 	@echo "make page-test    try the page in Chromium; needs Node 20 and npm"
-	@echo "make site         build the site of these pages: target/site/index.html, opens from disk; needs Python 3.10, Node 20"
+	@echo "make site         build the site, target/site/index.html, opens from disk; needs Python 3.10 and Node 20 with npm"
 	@echo "make release      binary, wheel, crate and page in target/dist, each tried; half an hour where nothing is built"
 	@echo "make docs         write the outputs and pictures of docs/guide, and docs/benchmarks.md, anew"
 	@echo "make explore      run the random tests on cases never tried before"

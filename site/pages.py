@@ -152,25 +152,27 @@ def on_page_markdown(markdown, page, **_):
 
 
 def with_formulas(content):
-    """Draws the formulas of a page: its readers need no script, and no net. The search does not see them."""
+    """Returns a page with its formulas drawn, so that readers need neither script nor net. The search skips them."""
     found = [[html.unescape(text).strip(), bracket == "["] for _, bracket, text in FORMULA.findall(content)]
     node = ["node", ROOT / "site/formulas.mjs"]
-    drawn = iter(json.loads(subprocess.run(node, check=True, capture_output=True, input=json.dumps(found), text=True).stdout))
+    done = subprocess.run(node, check=True, stdout=subprocess.PIPE, input=json.dumps(found), text=True)
+    drawn = iter(json.loads(done.stdout))
     content = FORMULA.sub(lambda match: f"<{match[1]} data-search-exclude>{next(drawn)}</{match[1]}>", content)
     assert "arithmatex" not in content, "a formula is left: see with_formulas"
     return content
 
 
-def console(found):
-    """Marks a block of commands and outputs so that its button copies the commands alone."""
+def with_copied_commands(found):
+    """Returns a block of commands and outputs whose button copies the commands alone."""
     lines = html.unescape(re.sub(r"<[^>]+>", "", found[0])).splitlines()
     commands = "\n".join(line[2:] for line in lines if line.startswith("$ "))
     return found[0].replace("<div ", f'<div data-copy="{html.escape(commands)}" ', 1)
 
 
 def on_page_content(content, **_):
+    """Formulas are drawn, and what the buttons of blocks copy is set."""
     content = with_formulas(content) if "arithmatex" in content else content
-    return re.sub(r'(?s)<div class="language-console highlight">.*?</div>', console, content)
+    return re.sub(r'(?s)<div class="language-console highlight">.*?</div>', with_copied_commands, content)
 
 
 def on_post_page(output, page, **_):

@@ -20,7 +20,7 @@ pub struct Figure {
 /// The subject of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureKind {
-    /// Figure 1: the stress at the ground if the end were held.
+    /// Figure 1: the strain at the ground times e^(rt), if the end were held.
     HeldStress,
     /// Figure 2: the vibrational energy at the bounce.
     VibrationalEnergy,
