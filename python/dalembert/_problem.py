@@ -76,6 +76,8 @@ class Problem(Frozen):
         Height of an undamped fall from rest that ends at ``t = 0``, at the touch.
     displacement, velocity : points, optional
         In place of an impact: pairs ``(x, value)`` from ``x = 0`` to ``x = length``, linear between them.
+    strain : points, optional
+        In place of a displacement; the lower end touches the ground. It may jump, as a velocity may: one x twice.
     time : number, optional
         Last time of the motion.
     impacts : int, optional
@@ -132,6 +134,7 @@ class Problem(Frozen):
     gap: int | float | Fraction | None = None
     drop_height: int | float | Fraction | None = None
     displacement: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None
+    strain: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None
     velocity: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None
     time: int | float | Fraction | None = None
     impacts: int | None = None
@@ -143,7 +146,7 @@ class Problem(Frozen):
         length: Number, wave_speed: Maybe = None, modulus: Maybe = None, density: Maybe = None, area: Maybe = None,
         damping: Maybe = None, gravity: Maybe = None, top: Literal["free", "fixed", None] = None,
         impact_speed: Maybe = None, gap: Maybe = None, drop_height: Maybe = None,
-        displacement: Points | None = None, velocity: Points | None = None,
+        displacement: Points | None = None, strain: Points | None = None, velocity: Points | None = None,
         time: Maybe = None, impacts: int | None = None,
     ) -> None:
         self._make({name: value for name, value in locals().items() if name != "self" and value is not None})

@@ -39,7 +39,7 @@ class Sweep:
         return f"<dalembert.Sweep: {', '.join(self.values)} of shape {shape}, notes on {len(self.notes)}>"
 
 
-_PROFILES = ("displacement", "velocity")
+_PROFILES = ("displacement", "strain", "velocity")
 
 
 def _points(name: str, values: Any) -> NDArray[np.object_]:
@@ -81,8 +81,8 @@ def sweep(
     accuracy : float, optional
         As in :func:`solve`.
     **varied : array_like
-        Values of :class:`Problem` by name, broadcast against each other. The points of a `displacement` or `velocity`
-        are the last two axes, of shape ``(..., n, 2)``; in a list each profile may have points of its own number.
+        Values of :class:`Problem` by name, broadcast against each other. The points of a `displacement`, `strain` or
+        `velocity` are the last two axes, of shape ``(..., n, 2)``; in a list each profile may have points of its own number.
 
     Returns
     -------

@@ -177,6 +177,7 @@ impl Problem {
 pub(crate) enum Setting {
     Number(Parameter, Written),
     Displacement(Vec<(Written, Written)>),
+    Strain(Vec<(Written, Written)>),
     Velocity(Vec<(Written, Written)>),
     Top(Top),
 }
@@ -187,9 +188,10 @@ impl Setting {
         let parameter = name.parse().map_err(|error: UnknownName| PyTypeError::new_err(error.to_string()))?;
         Ok(match parameter {
             Parameter::Displacement(None) => Setting::Displacement(points(name, value)?),
+            Parameter::Strain(None) => Setting::Strain(points(name, value)?),
             Parameter::Velocity(None) => Setting::Velocity(points(name, value)?),
             Parameter::Top => Setting::Top(one_of(name, value, &[("free", Top::Free), ("fixed", Top::Fixed)])?),
-            Parameter::Displacement(Some(_)) | Parameter::Velocity(Some(_)) => {
+            Parameter::Displacement(Some(_)) | Parameter::Strain(Some(_)) | Parameter::Velocity(Some(_)) => {
                 return Err(PyTypeError::new_err(format!("found {name}, expected all points of {}", parameter.name())));
             }
             _ => Setting::Number(parameter, written(name, value)?),
@@ -200,6 +202,7 @@ impl Setting {
         match self {
             Setting::Number(parameter, number) => builder.set(parameter, number),
             Setting::Displacement(points) => builder.displacement(points),
+            Setting::Strain(points) => builder.strain(points),
             Setting::Velocity(points) => builder.velocity(points),
             Setting::Top(top) => builder.top(top),
         }

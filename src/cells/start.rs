@@ -149,9 +149,9 @@ impl<S: Rounded> Data<S> {
                 scale = candidate;
             }
         };
-        for Segment { velocities: [low, high], strain, .. } in &given.segments {
-            [low.magnitude(), high.magnitude()].into_iter().for_each(&mut raise);
-            raise((strain.clone() * &parameters.wave_speed).magnitude());
+        for Segment { velocities, strains, .. } in &given.segments {
+            velocities.iter().for_each(|velocity| raise(velocity.magnitude()));
+            strains.iter().for_each(|strain| raise((strain.clone() * &parameters.wave_speed).magnitude()));
         }
         if let Some((_, v)) = given.displacement.first() {
             raise((v.clone() / &time).magnitude());
@@ -162,20 +162,21 @@ impl<S: Rounded> Data<S> {
         let gravity = gravity_speed / &scale;
         let displacement = scale.clone() * &time;
         // The static state is v_s = g x²/2 + slope·x, stress-free or at its given height at x = ½.
-        let scaled = |end: Option<&(S, S)>| end.map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement);
-        let (ground, last) = (scaled(given.displacement.first()), scaled(given.displacement.last()));
+        let ground = given.displacement.first().map_or_else(|| zero.clone(), |(_, v)| v.clone() / &displacement);
+        let last = given.top() / &displacement;
         let slope = if free_top {
             gravity.clone() * zero.ratio(-1, 2)
         } else {
             last * zero.int(2) - gravity.clone() * zero.ratio(1, 4)
         };
         let reach = parameters.length.int(2) * &parameters.length;
-        let piece = |Segment { ends, velocities, strain }: &Segment<S>| {
+        let piece = |Segment { ends, velocities, strains }: &Segment<S>| {
             let [from, to] = ends.each_ref().map(|x| x.clone() / &reach);
             let ([left, right], len) = (velocities.each_ref().map(|v| v.clone() / &scale), to - &from);
+            let [low, high] = strains.each_ref().map(|strain| strain.clone() * &reach / &displacement);
             Linear {
-                strain: strain.clone() * &reach / &displacement - &slope - gravity.clone() * &from,
-                strain_slope: -gravity.clone(),
+                strain_slope: (high - &low) / &len - &gravity,
+                strain: low - &slope - gravity.clone() * &from,
                 velocity_slope: (right - &left) / &len,
                 velocity: left,
                 from,
@@ -187,7 +188,9 @@ impl<S: Rounded> Data<S> {
         let greatest = |list: &[(S, S)]| list.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
         let far = greatest(&given.displacement) / displacement.to_f64();
         let fast = greatest(&given.velocity) / scale.to_f64();
-        let most = 2.0 * far / shortest + 2.0 * fast / shortest + gravity.to_f64() + slope.to_f64().abs();
+        // Strains are at most 1 in these units. Their slopes are differences, and the top is the sum of their areas.
+        let strained = if given.is_strained() { 2.0 / shortest + given.segments.len() as f64 } else { 0.0 };
+        let most = 2.0 * far / shortest + 2.0 * fast / shortest + strained + gravity.to_f64() + slope.to_f64().abs();
         let damping = parameters.damping.clone() * &time;
         let units = Scales { time, velocity: scale, ..Scales::of(parameters) };
         let rigid = !matches!(problem.start(), Start::Profile(_));

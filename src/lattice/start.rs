@@ -88,9 +88,10 @@ impl<N: Bounded> Scaled<N> {
 /// Returns the greatest of `|v_t|` and `c |v_x|`, or `c` if all are zero.
 fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result<N, Open> {
     let mut greatest = wave_speed.zero();
-    for Segment { velocities: [va, vb], strain, .. } in segments {
-        for candidate in [va.magnitude(), vb.magnitude(), (strain.clone() * wave_speed).magnitude()] {
-            greatest = greatest.larger(candidate);
+    for Segment { velocities, strains, .. } in segments {
+        let stretches = strains.iter().map(|strain| strain.clone() * wave_speed);
+        for candidate in velocities.iter().cloned().chain(stretches) {
+            greatest = greatest.larger(candidate.magnitude());
         }
     }
     Ok(if greatest.vanishes()? { wave_speed.clone() } else { greatest })
@@ -100,12 +101,15 @@ fn greatest_speed<N: Bounded>(segments: &[Segment<N>], wave_speed: &N) -> Result
 fn before<N: Bounded>(segments: &[Segment<N>], units: &Units<N>, gravity: &N, top: Top) -> Vec<(N, N, N)> {
     let one = units.length.one();
     let twice = units.length.clone().doubled();
-    let piece = |(up, Segment { ends: [a, b], velocities: [va, vb], strain }): (bool, &Segment<N>)| {
+    let piece = |(up, Segment { ends: [a, b], velocities: [va, vb], strains: [ea, eb] }): (bool, &Segment<N>)| {
         // q₀ arrives at f = x/2L; p₀ arrives at f = 1 − x/2L, from the top downwards.
-        let stretch = strain.clone() * &units.wave_speed;
         let place = |x: &N| if up { one.clone() - x.clone() / &twice } else { x.clone() / &twice };
-        let wave = |v: &N| if up { v.clone() - &stretch } else { v.clone() + &stretch } / &units.velocity;
-        let ends = [(place(a), wave(va)), (place(b), wave(vb))];
+        let wave = |v: &N, strain: &N| {
+            let stretch = strain.clone() * &units.wave_speed;
+            let wave = if up { v.clone() - stretch } else { v.clone() + stretch };
+            wave / &units.velocity
+        };
+        let ends = [(place(a), wave(va, ea)), (place(b), wave(vb, eb))];
         let [first, second] = ends;
         let ((from, value), (to, last)) = if up { (second, first) } else { (first, second) };
         let slope = (last - &value) / (to - &from);

@@ -76,10 +76,13 @@ impl Builder {
             Start::Uniform(Speed::Given(speed)) => self.impact_speed(speed),
             Start::Uniform(Speed::DropHeight(height)) => self.drop_height(height),
             Start::Above { gap, speed } => self.gap(gap).impact_speed(speed),
-            Start::Profile(Profile { displacement, velocity }) => {
+            Start::Profile(Profile { displacement, strain, velocity }) => {
                 let mut builder = self;
                 if !displacement.is_empty() {
                     builder = builder.displacement(displacement);
+                }
+                if !strain.is_empty() {
+                    builder = builder.strain(strain);
                 }
                 if velocity.is_empty() { builder } else { builder.velocity(velocity) }
             }
@@ -111,6 +114,23 @@ impl Builder {
         points: impl IntoIterator<Item = (X, V)>,
     ) -> Self {
         self.draft.profiles.insert(Parameter::Displacement(None), written(points));
+        self
+    }
+
+    /// Sets the strain at `t = 0` as points `(x, v_x)`, linear between them, in place of the displacement; the lower end
+    /// touches the ground. It may jump: the same `x` twice.
+    ///
+    /// ```
+    /// use dalembert::{Problem, Side};
+    /// // A rod that stands on the ground under its own weight stays at rest.
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(2);
+    /// let standing = rod.strain([(0, -2), (1, 0)]).time(9).build()?.solve()?;
+    /// assert_eq!(standing.strain(7, Side::Right)?, -2.0);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    #[must_use]
+    pub fn strain<X: Into<Written>, V: Into<Written>>(mut self, points: impl IntoIterator<Item = (X, V)>) -> Self {
+        self.draft.profiles.insert(Parameter::Strain(None), written(points));
         self
     }
 
@@ -157,6 +177,12 @@ impl Builder {
             base.numbers.retain(|parameter, _| !IMPACT.contains(parameter));
         }
         base.numbers.extend(draft.numbers);
+        let [displacement, strain, _] = Parameter::LISTS;
+        for (set, other) in [(displacement, strain), (strain, displacement)] {
+            if draft.profiles.contains_key(&set) {
+                base.profiles.remove(&other);
+            }
+        }
         base.profiles.extend(draft.profiles);
         base.top = draft.top.or(base.top);
         base.check()

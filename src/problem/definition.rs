@@ -101,11 +101,14 @@ pub enum Speed {
 }
 
 /// A start that is not uniform: values at points `x` in increasing order from `0` to `L`, linear between them.
-/// An empty list means zero. The velocity may jump: the same `x` twice.
+/// An empty list means zero. Strain and velocity may jump: the same `x` twice. Of displacement and strain one at most is
+/// given; with a strain the lower end touches the ground.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Pairs `(x, v)`.
     pub displacement: Vec<(Number, Number)>,
+    /// Pairs `(x, v_x)`.
+    pub strain: Vec<(Number, Number)>,
     /// Pairs `(x, v_t)`.
     pub velocity: Vec<(Number, Number)>,
 }

@@ -70,6 +70,7 @@ impl Chain {
                 gravity: Some(self.gravity().clone()).filter(|g| !g.is_zero()),
                 start: Start::Profile(Profile {
                     displacement: profile.displacement().to_vec(),
+                    strain: Vec::new(),
                     velocity: profile.velocity().to_vec(),
                 }),
                 run: Run::Time(self.until().clone()),
@@ -130,7 +131,7 @@ impl Problem {
         let InChain { chain, body, .. } = self.in_chain.as_ref()?;
         let original = &chain.bodies()[*body];
         let (velocity, displacement) = match &self.start {
-            Start::Profile(Profile { displacement, velocity }) => (velocity.clone(), displacement.clone()),
+            Start::Profile(Profile { displacement, velocity, .. }) => (velocity.clone(), displacement.clone()),
             _ => Default::default(),
         };
         let original = original.clone().with_length(self.length.clone()).with_start(velocity, displacement);
@@ -185,7 +186,10 @@ impl Problem {
                 (0.into(), Vec::new(), down(&speed)?)
             }
             Start::Above { gap, speed } => (gap.clone(), uniform(gap), down(speed)?),
-            Start::Profile(Profile { displacement, velocity }) => {
+            Start::Profile(Profile { strain, .. }) if !strain.is_empty() => {
+                return refuse(Parameter::Strain(None).path(), "a start by its strain", "its displacement");
+            }
+            Start::Profile(Profile { displacement, velocity, .. }) => {
                 let gap = displacement.first().map_or_else(|| 0.into(), |(_, gap)| gap.clone());
                 (gap, displacement.clone(), velocity.clone())
             }

@@ -42,14 +42,18 @@ macro_rules! parameters {
             /// `v(x,0)`, a list of points: a factor of all values, 1 as they are, or the value at one point, counted
             /// from 0.
             Displacement(Option<usize>),
+            /// `v_x(x,0)`, as the displacement.
+            Strain(Option<usize>),
             /// `v_t(x,0)`, as the displacement.
             Velocity(Option<usize>),
         }
 
         impl Parameter {
             /// All parameters, in the order of messages.
-            pub const ALL: &'static [Parameter] =
-                &[$(Parameter::$parameter,)+ Parameter::Displacement(None), Parameter::Velocity(None)];
+            pub const ALL: &'static [Parameter] = &[
+                $(Parameter::$parameter,)+
+                Parameter::Displacement(None), Parameter::Strain(None), Parameter::Velocity(None),
+            ];
 
             const fn names(self) -> Names {
                 match self {
@@ -61,6 +65,12 @@ macro_rules! parameters {
                         field: "displacement",
                         noun: "a displacement",
                         synonyms: &["u", "v", "deformation", "position"],
+                    },
+                    Parameter::Strain(_) => Names {
+                        path: "start.strain",
+                        field: "strain",
+                        noun: "a strain",
+                        synonyms: &["prestrain", "initial_strain", "v_x", "u_x"],
                     },
                     Parameter::Velocity(_) => {
                         Names { path: "start.velocity", field: "velocity", noun: "a velocity", synonyms: &[] }
@@ -147,7 +157,21 @@ impl Parameter {
 
     /// Returns whether it is one number: no list of points, and no choice.
     pub fn is_number(self) -> bool {
-        !matches!(self, Parameter::Top | Parameter::Displacement(_) | Parameter::Velocity(_))
+        !matches!(self, Parameter::Top) && !Parameter::LISTS.contains(&self.whole())
+    }
+
+    /// The parameters that are lists of points.
+    pub(crate) const LISTS: [Parameter; 3] =
+        [Parameter::Displacement(None), Parameter::Strain(None), Parameter::Velocity(None)];
+
+    /// Returns the list that a point of the start is of; any other parameter as it is.
+    fn whole(self) -> Self {
+        match self {
+            Parameter::Displacement(_) => Parameter::Displacement(None),
+            Parameter::Strain(_) => Parameter::Strain(None),
+            Parameter::Velocity(_) => Parameter::Velocity(None),
+            _ => self,
+        }
     }
 
     /// Returns the parameters that are one number.
@@ -161,6 +185,7 @@ impl Parameter {
         let Start::Profile(profile) = &problem.start else { return None };
         match self {
             Parameter::Displacement(_) => Some(&profile.displacement),
+            Parameter::Strain(_) => Some(&profile.strain),
             Parameter::Velocity(_) => Some(&profile.velocity),
             _ => None,
         }
@@ -169,7 +194,7 @@ impl Parameter {
     /// Returns the place of the point in its list, for a point of the start.
     pub(super) fn point(self) -> Option<usize> {
         match self {
-            Parameter::Displacement(point) | Parameter::Velocity(point) => point,
+            Parameter::Displacement(point) | Parameter::Strain(point) | Parameter::Velocity(point) => point,
             _ => None,
         }
     }
@@ -203,6 +228,7 @@ impl FromStr for Parameter {
         let found = match (Parameter::named(name), point) {
             (found, None) => found,
             (Some(Parameter::Displacement(_)), Some(Some(k))) => Some(Parameter::Displacement(Some(k))),
+            (Some(Parameter::Strain(_)), Some(Some(k))) => Some(Parameter::Strain(Some(k))),
             (Some(Parameter::Velocity(_)), Some(Some(k))) => Some(Parameter::Velocity(Some(k))),
             _ => None,
         };

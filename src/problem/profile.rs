@@ -18,13 +18,18 @@ pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such
 /// A list of points `(x, value)` that is not checked.
 pub(crate) type Points = Vec<(Written, Written)>;
 
-/// The profile of a rod of this length, from the points of `start.displacement` and `start.velocity`; what is not given
-/// is zero. `over_ground` states whether the ground at zero limits the displacement.
+/// The profile of a rod of this length, from the points of the lists of the start; what is not given is zero. `over_ground` states whether the ground at zero limits the displacement.
 pub(super) fn check(given: &ByParameter<Points>, length: &Number, over_ground: bool) -> Result<Profile, ProblemError> {
     let read = |parameter: Parameter| {
         given.get(&parameter).map_or(Ok(Vec::new()), |points| read(parameter.name(), points, length, over_ground))
     };
-    Ok(Profile { displacement: read(Parameter::Displacement(None))?, velocity: read(Parameter::Velocity(None))? })
+    let [displacement, strain, velocity] = Parameter::LISTS;
+    if given.contains_key(&displacement) && given.contains_key(&strain) {
+        let (found, expected) =
+            ("strain as well as displacement", "one of them: the strain is the displacement's slope");
+        return Err(ProblemError::new(Kind::Contradiction, strain.path(), found, expected));
+    }
+    Ok(Profile { displacement: read(displacement)?, strain: read(strain)?, velocity: read(velocity)? })
 }
 
 /// The points of one function on the whole rod.
@@ -45,7 +50,7 @@ fn read(key: &str, points: &Points, length: &Number, over_ground: bool) -> Resul
             let misplaced = |expected: Cow<'static, str>| {
                 ProblemError::new(Kind::Profile, "x", format!("the point x = {} of the {key}", x.shown), expected)
             };
-            let place = place(&kept, number, before, key == "velocity", length).map_err(misplaced)?;
+            let place = place(&kept, number, before, key != "displacement", length).map_err(misplaced)?;
             if i + 1 == points.len() && place.compare(length).is_ne() {
                 return Err(misplaced(format!("the last point at the length {}", short(&length.to_string())).into()));
             }

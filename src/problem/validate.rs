@@ -23,7 +23,7 @@ pub(crate) struct Draft {
     pub(crate) from_scene: bool,
     /// Parameters that are one number.
     pub(crate) numbers: ByParameter<Written>,
-    /// Displacement and velocity at the start.
+    /// Displacement, strain and velocity at the start.
     pub(crate) profiles: ByParameter<Points>,
     pub(crate) top: Option<Top>,
     /// The chain that the body is part of.
@@ -57,6 +57,10 @@ impl Draft {
             let expected = "a velocity and a displacement of the start";
             return Err(ProblemError::new(Kind::Contradiction, impact.path(), found, expected));
         }
+        if self.profiles.contains_key(&Parameter::Strain(None)) {
+            let (found, expected) = ("a strain of a body of a chain", "a velocity and a displacement of the start");
+            return Err(ProblemError::new(Kind::Contradiction, Parameter::Strain(None).path(), found, expected));
+        }
         profile::check(&self.profiles, length, false)
     }
 
@@ -70,10 +74,11 @@ impl Draft {
             },
             (false, true) => profile::check(&self.profiles, length, true).map(Start::Profile),
             (true, true) => {
-                let found = self.word("start as well as [impact]", "a displacement or velocity as well as an impact");
+                let found =
+                    self.word("start as well as [impact]", "a displacement, strain or velocity as well as an impact");
                 let expected = self.word(
                     "either [impact], for a uniform start, or [start]",
-                    "either impact_speed or drop_height, for a uniform start, or displacement and velocity",
+                    "either impact_speed or drop_height, for a uniform start, or displacement or strain, and velocity",
                 );
                 Err(ProblemError::new(Kind::Contradiction, "start", found, expected))
             }
@@ -81,7 +86,7 @@ impl Draft {
                 let found = self.word("neither [impact] nor [start]", "no start");
                 let expected = self.word(
                     "[impact] with speed or drop_height, or [start]",
-                    "impact_speed, drop_height, displacement or velocity",
+                    "impact_speed, drop_height, displacement, strain or velocity",
                 );
                 Err(ProblemError::new(Kind::Missing, "", found, expected))
             }

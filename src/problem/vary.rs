@@ -32,13 +32,15 @@ impl Parameter {
     /// **Errors**: [`Error::Derivative`] where `problem` has no such value.
     pub(crate) fn value_in<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<S, Error> {
         let expected = match self {
-            Parameter::Displacement(_) | Parameter::Velocity(_) => {
+            Parameter::Displacement(_) | Parameter::Strain(_) | Parameter::Velocity(_) => {
                 "a start that has it, and no more points than there are"
             }
             Parameter::Modulus | Parameter::Density => "a material: modulus and density",
             Parameter::ImpactSpeed => "an impact, or a start above the ground",
             Parameter::Gap => "a start above the ground",
-            _ => "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, displacement or velocity",
+            _ => {
+                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, displacement, strain or velocity"
+            }
         };
         self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })
     }
@@ -53,7 +55,7 @@ impl Parameter {
         Ok(match (self, &problem.start) {
             (Parameter::WaveSpeed, _) => Some(rod.wave_speed),
             (Parameter::ImpactSpeed, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
-            (Parameter::Displacement(None) | Parameter::Velocity(None), _) => {
+            (Parameter::Displacement(None) | Parameter::Strain(None) | Parameter::Velocity(None), _) => {
                 self.list(problem).filter(|list| !list.is_empty()).map(|_| rod.length.one())
             }
             _ => self.number(&mut problem.clone()).map(|number| S::from_number(number, precision)),
@@ -73,12 +75,21 @@ impl Parameter {
         match self {
             Parameter::Damping => Some(problem.damping.get_or_insert(0.into())),
             Parameter::Gravity => Some(problem.gravity.get_or_insert(0.into())),
-            Parameter::Displacement(Some(k)) | Parameter::Velocity(Some(k)) => {
-                let Start::Profile(Profile { displacement, velocity }) = &mut problem.start else { return None };
-                let list = if matches!(self, Parameter::Displacement(_)) { displacement } else { velocity };
-                list.get_mut(k).map(|(_, value)| value)
+            Parameter::Displacement(Some(k)) | Parameter::Strain(Some(k)) | Parameter::Velocity(Some(k)) => {
+                self.list_mut(&mut problem.start)?.get_mut(k).map(|(_, value)| value)
             }
             _ => held.given_mut(problem),
+        }
+    }
+
+    /// The points of the list that it is, or is a point of, to be replaced.
+    fn list_mut(self, start: &mut Start) -> Option<&mut Vec<(Number, Number)>> {
+        let Start::Profile(Profile { displacement, strain, velocity }) = start else { return None };
+        match self {
+            Parameter::Displacement(_) => Some(displacement),
+            Parameter::Strain(_) => Some(strain),
+            Parameter::Velocity(_) => Some(velocity),
+            _ => None,
         }
     }
 
@@ -91,12 +102,11 @@ impl Parameter {
         let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
         let mut moved = problem.clone();
         match (self, &mut moved.start) {
-            (Parameter::Length, Start::Profile(Profile { displacement, velocity })) => {
-                displacement.iter_mut().chain(velocity).try_for_each(|(x, _)| grow(x))?;
+            (Parameter::Length, Start::Profile(Profile { displacement, strain, velocity })) => {
+                displacement.iter_mut().chain(strain).chain(velocity).try_for_each(|(x, _)| grow(x))?;
             }
-            (Parameter::Displacement(None), Start::Profile(Profile { displacement: list, .. }))
-            | (Parameter::Velocity(None), Start::Profile(Profile { velocity: list, .. })) => {
-                return list.iter_mut().try_for_each(|(_, value)| grow(value)).map(|()| moved);
+            (Parameter::Displacement(None) | Parameter::Strain(None) | Parameter::Velocity(None), start) => {
+                return self.list_mut(start)?.iter_mut().try_for_each(|(_, value)| grow(value)).map(|()| moved);
             }
             // The speed that a fall from a height gives stays as it is.
             (Parameter::Gravity, Start::Uniform(Speed::DropHeight(height))) => {
@@ -127,18 +137,22 @@ impl Parameter {
     }
 
     /// Returns the scale of a step from zero: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
-    /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000` or `c/1000`.
+    /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000`, 1/1000 or `c/1000`.
     pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
         let rod = Parameters::<f64>::of(problem, &());
         let scale = rod.map_or(1.0, |rod| match self {
             Parameter::Gravity if rod.speed > 0.0 => rod.speed / rod.round_trip(),
             Parameter::Gravity => rod.wave_speed / rod.round_trip() / 1000.0,
             Parameter::ImpactSpeed => (2.0 * rod.gravity * problem.gap().map_or(0.0, Number::to_f64)).sqrt(),
-            Parameter::Displacement(_) | Parameter::Velocity(_) => {
+            Parameter::Displacement(_) | Parameter::Strain(_) | Parameter::Velocity(_) => {
                 let list = self.list(problem).unwrap_or_default();
                 let most = list.iter().map(|(_, value)| value.to_f64().abs()).fold(0.0, f64::max);
-                let length = matches!(self, Parameter::Displacement(_));
-                let least = if length { rod.length } else { rod.wave_speed } / 1000.0;
+                let natural = match self {
+                    Parameter::Displacement(_) => rod.length,
+                    Parameter::Strain(_) => 1.0,
+                    _ => rod.wave_speed,
+                };
+                let least = natural / 1000.0;
                 if most > 0.0 { most } else { least }
             }
             _ => rod.round_trip().recip(),

@@ -1,7 +1,7 @@
 //! Warnings that follow from a problem before it is solved.
 
 use super::parameters::touch_speed;
-use super::{Material, Parameters, Problem, Run, Speed, Start};
+use super::{Material, Parameter, Parameters, Problem, Run, Speed, Start};
 use crate::number::Number;
 use crate::reason::Warning;
 
@@ -63,7 +63,9 @@ impl Problem {
             let (x, v) = (pair[1].0.to_f64() - pair[0].0.to_f64(), pair[1].1.to_f64() - pair[0].1.to_f64());
             (v / x).abs()
         };
-        let strain = slopes.windows(2).map(slope).fold(known.max(impact), f64::max);
+        let given =
+            Parameter::Strain(None).list(self).unwrap_or_default().iter().map(|(_, strain)| strain.to_f64().abs());
+        let strain = slopes.windows(2).map(slope).chain(given).fold(known.max(impact), f64::max);
         (strain > 1.0).then_some(Warning::StrainAboveOne { strain })
     }
 

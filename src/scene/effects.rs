@@ -110,6 +110,7 @@ impl Scene {
             Start::Profile(profile) => Some(profile),
             Start::Uniform(_) | Start::Above { .. } => None,
         };
+        let is_strained = profile.is_some_and(|profile| !profile.strain.is_empty());
         let points = |name: &str, points: Option<&Vec<(Number, Number)>>| {
             let points = points.filter(|points| points.iter().any(|(_, v)| !v.is_zero()))?;
             Some(format!("the {name} has {} points", points.len()))
@@ -146,8 +147,11 @@ impl Scene {
                 ("impact.gap", self.problem.gap().map(above), otherwise)
             }
             Effect::InitialStrain => (
-                "start.displacement",
-                points("displacement", profile.map(|profile| &profile.displacement)),
+                if is_strained { "start.strain" } else { "start.displacement" },
+                match is_strained {
+                    true => points("strain", profile.map(|profile| &profile.strain)),
+                    false => points("displacement", profile.map(|profile| &profile.displacement)),
+                },
                 "the rod starts undeformed: no initial strain is carried",
             ),
             Effect::InitialVelocity => (

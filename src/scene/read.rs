@@ -251,7 +251,7 @@ impl<'a> Reader<'a> {
                 draft.numbers.insert(parameter, number);
             }
         }
-        for list in [Parameter::Displacement(None), Parameter::Velocity(None)] {
+        for list in Parameter::LISTS {
             if let Some(points) = self.points(list.path())? {
                 draft.profiles.insert(list, points);
             }

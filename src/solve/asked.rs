@@ -61,7 +61,8 @@ impl StartRays {
         let length = problem.length().to_rational();
         let mut corners = vec![length.zero(), length.clone()];
         if let Start::Profile(profile) = problem.start() {
-            corners.extend(profile.displacement.iter().chain(&profile.velocity).map(|(x, _)| x.to_rational()));
+            let lists = [&profile.displacement, &profile.strain, &profile.velocity];
+            corners.extend(lists.into_iter().flatten().map(|(x, _)| x.to_rational()));
         }
         let wave_speed = match problem.material() {
             Material::WaveSpeed(speed) => Some(speed.to_rational()),

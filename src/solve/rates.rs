@@ -167,8 +167,10 @@ fn with_rates<S: Bounded>(
             (Datum::Point, Parameter::Length) => number.clone() / value,
             (Datum::Displacement(_), Parameter::Gap) => number.one(),
             (Datum::Displacement(_), Parameter::Displacement(None)) => number.clone(),
+            (Datum::Strain(_), Parameter::Strain(None)) => number.clone(),
             (Datum::Velocity(_), Parameter::Velocity(None)) => number.clone(),
             (Datum::Displacement(k), Parameter::Displacement(Some(node)))
+            | (Datum::Strain(k), Parameter::Strain(Some(node)))
             | (Datum::Velocity(k), Parameter::Velocity(Some(node))) => number.int(i64::from(k == node)),
             _ => number.zero(),
         };

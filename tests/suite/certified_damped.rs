@@ -311,7 +311,11 @@ pub(crate) fn any_rod(dice: &mut Random) -> Problem {
             if kind < 0.35 { 0.into() } else { number_of(&format!("{:.4e}", strain * dice.between(0.1, 0.5))) };
         let displacement = vec![(0.into(), ground), (length.clone(), any(dice, 0.2 * strain))];
         let velocity = vec![(0.into(), number_of(&format!("-{speed}"))), (length, any(dice, critical))];
-        rod = rod.to_builder().displacement(displacement).velocity(velocity).build().unwrap();
+        let slope = |dice: &mut Random| any(dice, critical / parameters.wave_speed);
+        let strain = [(0.into(), slope(dice)), (rod.length().clone(), slope(dice))];
+        let moving = rod.to_builder().velocity(velocity);
+        let moving = if kind < 0.3 { moving.strain(strain) } else { moving.displacement(displacement) };
+        rod = moving.build().unwrap();
     }
     rod = rod.with_run(Run::Time(number_of(&format!("{:.4e}", trip * dice.between(2.0, 7.0))))).unwrap();
     rod

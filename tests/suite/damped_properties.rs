@@ -34,14 +34,18 @@ pub(crate) fn scene(low: f64, high: f64) -> impl Strategy<Value = Problem> {
             Some(speed) => Start::Uniform(Speed::Given(number(speed * (g * t1).max(c / 10.0)))),
             None => {
                 let height = f64::from(lift) * length / 8.0;
-                let displacement = list(&shape, height, height, length / 16.0);
+                // On the ground it is the strain that is linear.
+                let (displacement, strain) = match lift {
+                    0 => (Vec::new(), list(&shape, -0.3, 0.2, 0.25)),
+                    _ => (list(&shape, height, height, length / 16.0), Vec::new()),
+                };
                 let top = if fixed { 0.0 } else { -c / 4.0 };
                 let mut velocity = list(&speeds, -c / 8.0, top, c / 8.0);
                 if jump && velocity.len() > 2 {
                     let (x, _) = velocity[1].clone();
                     velocity.insert(2, (x, number(c / 3.0)));
                 }
-                Start::Profile(Profile { displacement, velocity })
+                Start::Profile(Profile { displacement, strain, velocity })
             }
         };
         let top = if fixed { Top::Fixed } else { Top::Free };

@@ -51,6 +51,7 @@ mod slices_properties;
 mod snapshots_stress;
 mod spelled_times;
 mod start_above;
+mod strained;
 mod stripped;
 mod three_routes;
 mod undamped_bounds;

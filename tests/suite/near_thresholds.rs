@@ -238,6 +238,7 @@ impl Case {
             Profile {
                 displacement: vec![(rod.0.clone(), text(0.0)), (rod.1.clone(), number(&bottom))],
                 velocity: vec![(rod.0, text(0.0)), (place, number(&speed)), (rod.1, text(0.0))],
+                strain: Vec::new(),
             }
         } else {
             let height = number(&(-at.clone() * (float(1.0) - float(past))));
@@ -246,7 +247,7 @@ impl Case {
             } else {
                 vec![(rod.0.clone(), low), (rod.1.clone(), high)]
             };
-            Profile { displacement: vec![(rod.0, height.clone()), (rod.1, height)], velocity }
+            Profile { displacement: vec![(rod.0, height.clone()), (rod.1, height)], strain: Vec::new(), velocity }
         };
         let end = t.clone() + self.trip() / 50u32;
         Problem::builder()

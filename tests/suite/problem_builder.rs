@@ -149,7 +149,7 @@ fn every_mistake_is_answered_with_its_value() {
             Problem::builder().length(1).wave_speed(1),
             Kind::Missing,
             "",
-            "found no start, expected impact_speed, drop_height, displacement or velocity".into(),
+            "found no start, expected impact_speed, drop_height, displacement, strain or velocity".into(),
         ),
         (
             Problem::builder().length(1).wave_speed(1).drop_height(1),
@@ -231,8 +231,8 @@ fn every_mistake_is_answered_with_its_value() {
             rod().velocity([(0, 1), (1, 1)]),
             Kind::Contradiction,
             "start",
-            "found a displacement or velocity as well as an impact, expected either impact_speed or drop_height, for a \
-             uniform start, or displacement and velocity"
+            "found a displacement, strain or velocity as well as an impact, expected either impact_speed or drop_height, \
+             for a uniform start, or displacement or strain, and velocity"
                 .into(),
         ),
         (
@@ -439,12 +439,12 @@ impl Draft {
 
 /// The words in which the two doors differ, the builder's first.
 const WORDS: [(&str, &str); 7] = [
-    ("impact_speed, drop_height, displacement or velocity", "[impact] with speed or drop_height, or [start]"),
+    ("impact_speed, drop_height, displacement, strain or velocity", "[impact] with speed or drop_height, or [start]"),
     (
-        "either impact_speed or drop_height, for a uniform start, or displacement and velocity",
+        "either impact_speed or drop_height, for a uniform start, or displacement or strain, and velocity",
         "either [impact], for a uniform start, or [start]",
     ),
-    ("a displacement or velocity as well as an impact", "start as well as [impact]"),
+    ("a displacement, strain or velocity as well as an impact", "start as well as [impact]"),
     ("a gravity above zero", "[gravity] with an acceleration above zero"),
     ("found no start", "found neither [impact] nor [start]"),
     ("found gravity = ", "found acceleration = "),

@@ -50,7 +50,11 @@ fn profile() -> impl Strategy<Value = Problem> {
             list.push((x(12), Number::from(to)));
             list
         };
-        let displacement = list(&shape, lift, 1);
+        // On the ground it is the strain that is linear.
+        let (displacement, strain) = match lift {
+            0 => (Vec::new(), list(&shape, -1, 1)),
+            _ => (list(&shape, lift, 1), Vec::new()),
+        };
         // A fixed top stands still.
         let top_speed = if problem.top() == Top::Fixed { 0 } else { -2 };
         let mut velocity = list(&speeds, -1, top_speed);
@@ -58,7 +62,7 @@ fn profile() -> impl Strategy<Value = Problem> {
             let (x, _) = velocity[1].clone();
             velocity.insert(2, (x, Number::from(2)));
         }
-        problem.to_builder().start(Start::Profile(Profile { displacement, velocity })).build().unwrap()
+        problem.to_builder().start(Start::Profile(Profile { displacement, strain, velocity })).build().unwrap()
     })
 }
 
@@ -246,7 +250,7 @@ proptest! {
             }
         }
         if let Start::Profile(profile) = problem.start() {
-            for (point, _) in profile.displacement.iter().chain(&profile.velocity) {
+            for (point, _) in profile.displacement.iter().chain(&profile.strain).chain(&profile.velocity) {
                 for sign in [-1i64, 1] {
                     let way: Rational = rod.wave_speed.clone() * &time * sign + point.to_rational();
                     cuts.extend([way.clone(), -way.clone(), rod.length.clone() * 2 - way]);
@@ -280,9 +284,15 @@ proptest! {
         }
         let rounded = undamped::<f64>(&problem, &()).unwrap();
         let rod = Parameters::<Rational>::of(&problem, &()).unwrap();
-        let kinds = |events: &[dalembert::Event<f64>]| events.iter().map(|e| e.kind).collect::<Vec<_>>();
-        prop_assert_eq!(kinds(rounded.events()), exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
-        for (ours, truth) in rounded.events().iter().zip(exact.events()) {
+        // Fractions may end so shortly before an event that doubles place it before their end.
+        let mut events = rounded.events().to_vec();
+        let is_cut_off = matches!(exact.ending(), Ending::ExactnessEnds { .. });
+        if is_cut_off && events.last().is_some_and(|last| last.t + last.t_error >= exact.end().to_f64()) {
+            events.truncate(exact.events().len());
+        }
+        let kinds = events.iter().map(|e| e.kind).collect::<Vec<_>>();
+        prop_assert_eq!(kinds, exact.events().iter().map(|e| e.kind).collect::<Vec<_>>());
+        for (ours, truth) in events.iter().zip(exact.events()) {
             let error = (Rational::from_f64(ours.t).unwrap() - &truth.t).abs().to_f64();
             let bound = ours.t_error.max(4.0 * f64::EPSILON * ours.t);
             prop_assert!(error <= bound, "{} > {}", error, ours.t_error);

@@ -91,7 +91,7 @@ fn a_start_with_another_velocity_is_within_what_is_proved() {
         for speed in ["0.3", "3", "10", "100"] {
             let start = |speed: Number| {
                 let velocity = vec![(0.into(), speed.clone()), (1.into(), speed)];
-                let profile = Profile { displacement: Vec::new(), velocity };
+                let profile = Profile { velocity, ..Profile::default() };
                 rod(damping, 4).to_builder().start(Start::Profile(profile)).build().unwrap()
             };
             // Initial speed greater by 1e-30.

@@ -126,6 +126,7 @@ pub(crate) fn linear_starts() -> impl Strategy<Value = Problem> {
         let gravity = || number(c.to_rational() * c.to_rational() / &length);
         let start = Start::Profile(dalembert::Profile {
             displacement: list(displacement, small, Some(first)),
+            strain: Vec::new(),
             velocity: list(velocity, c.to_rational() / 6, None),
         });
         let gravity = problem.gravity().cloned().unwrap_or_else(gravity);

@@ -161,6 +161,13 @@ const CASES: &[Case] = &[
         "[[0, 1]]",
     ),
     case(
+        "start_strain_and_displacement",
+        "rod = { length = 1, wave_speed = 1 }\nstart = { strain = [[0, 1], [1, 1]], displacement = [[0, 0], [1, 1]] }\n",
+        Kind::Contradiction,
+        (2, 11),
+        "strain",
+    ),
+    case(
         "start_triple",
         "rod = { length = 1, wave_speed = 1 }\nstart.velocity = [[0, 1], [1, 2, 3]]\n",
         Kind::WrongType,

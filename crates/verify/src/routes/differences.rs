@@ -159,7 +159,8 @@ impl Grid {
         };
         let (mut displacement, velocity) = (lift(&profile.displacement), lift(&profile.velocity));
         displacement.extend(problem.gap().map(|gap| DVec2::new(0.0, gap.to_f64())));
-        let place = |x: f64| between(&displacement, x);
+        let strain = lift(&profile.strain);
+        let place = |x: f64| if strain.is_empty() { between(&displacement, x) } else { area(&strain, x) };
         let wave = |k: usize| {
             let x = (k as f64 + 0.5) * width;
             let strain = (place(x + 0.5 * width) - place(x - 0.5 * width)) * rod.wave_speed / width;
@@ -235,6 +236,16 @@ fn between(points: &[DVec2], x: f64) -> f64 {
         (Some(end), None) | (None, Some(end)) => end.y,
         (None, None) => 0.0,
     }
+}
+
+/// Computes the integral from 0 to `x` of the piecewise linear function through `points`.
+fn area(points: &[DVec2], x: f64) -> f64 {
+    let part = |pair: &[DVec2]| {
+        let end = x.clamp(pair[0].x, pair[1].x);
+        let share = if pair[1].x > pair[0].x { (end - pair[0].x) / (pair[1].x - pair[0].x) } else { 0.0 };
+        (end - pair[0].x) * (pair[0].y + (pair[1].y - pair[0].y) * share / 2.0)
+    };
+    points.windows(2).map(part).sum()
 }
 
 #[cfg(test)]
