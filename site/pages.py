@@ -17,7 +17,7 @@ FILES = ["examples/*.csv", "examples/*.toml", "python/examples/*.py", "CITATION.
 COMMAND = ROOT / "target/debug/dalembert"
 KATEX = ROOT / "web/test/node_modules/katex/dist"
 FORMULA = re.compile(r'(?s)<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1>')
-COMMANDS = "solve sample plot reference explain cost compare sweep regimes figures check scenes cite".split()
+COMMANDS = "solve sample plot reference explain cost compare sweep regimes orbits figures check scenes cite".split()
 GALLERY = {
     "A periodic rod": "plot doyen-ern-piperno -o periodic.svg",
     "Damping": "plot figure-4-r01 figure-4-r03 --quantity stress,h -o damping.svg",
@@ -25,6 +25,7 @@ GALLERY = {
     "A landing without speed": "plot mu-1-period-36 --quantity xt --to 36 -o tangential.svg",
     "Velocity along the rod": "plot paper-strong --quantity xt --field velocity -o velocity.svg",
     "Rays that multiply": "plot mu-3-2-chaotic --quantity xt --to 40 -o rays.svg",
+    "Motions that repeat themselves": "orbits first-nonsmooth-mode --finest 30 -o backbone.svg",
     "A fixed top": "plot getfem-dynamic-contact -o fixed.svg",
     "A real rod": "plot steel-bar -o steel.svg",
     "When and whether a rod bounces": "regimes -o regimes.svg",

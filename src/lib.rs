@@ -69,6 +69,7 @@ mod lattice;
 mod motion;
 mod names;
 pub mod number;
+pub mod orbits;
 pub mod problem;
 pub mod quantity;
 pub mod reason;

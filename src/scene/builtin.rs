@@ -22,6 +22,8 @@ macro_rules! scene {
 pub const ALL: &[Builtin] = &[
     scene!("doyen-ern-piperno", "periodic bounces: every second contact undoes the vibration of the one before"),
     scene!("getfem-dynamic-contact", "a compressed rod under a fixed top, released at rest: period 3"),
+    scene!("periodic-free-rod", "a free rod that returns to its impact every 5 L/c"),
+    scene!("first-nonsmooth-mode", "a held bar before a stop: the first nonsmooth mode of the period 3.5"),
     scene!("siconos-impacting-bar", "a steel bar falls 0.05 mm on a wall: one contact of 2L/c, 1270.8 N"),
     scene!("siconos-impacting-bar-as-run", "the same with 0.99 m, which is what its reference file has"),
     scene!("ansys-vm265", "an elastic rod against a rigid wall after a gap, in inches and pounds"),

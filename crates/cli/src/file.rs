@@ -21,19 +21,21 @@ pub(crate) enum Format {
     Npz,
     Markdown,
     Bibtex,
+    Toml,
     Svg,
     Png,
     Pdf,
 }
 
 /// Each format with its word after `--format`, the ending of its files, and its purpose.
-const FORMATS: [(Format, &str, &str, &str); 9] = [
+const FORMATS: [(Format, &str, &str, &str); 10] = [
     (Format::Table, "table", "txt", "For a person"),
     (Format::Json, "json", "json", "For a program"),
     (Format::Csv, "csv", "csv", "For a spreadsheet"),
     (Format::Npz, "npz", "npz", "For NumPy: an array for each column"),
     (Format::Markdown, "markdown", "md", "For a page: nothing that depends on the machine"),
     (Format::Bibtex, "bibtex", "bib", "For a list of references"),
+    (Format::Toml, "toml", "toml", "A scene"),
     (Format::Svg, "svg", "svg", "A picture"),
     (Format::Png, "png", "png", "A picture"),
     (Format::Pdf, "pdf", "pdf", "A picture"),

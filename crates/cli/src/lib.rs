@@ -20,7 +20,7 @@ use std::process::ExitCode;
 use clap::{ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use commands::{
-    check, cite, compare, cost, explain, figures, plot, regimes, sample, scenes, solve, sweep as sweep_command,
+    check, cite, compare, cost, explain, figures, orbits, plot, regimes, sample, scenes, solve, sweep as sweep_command,
 };
 use failure::Failure;
 
@@ -75,6 +75,8 @@ enum Command {
     Sweep(sweep_command::Sweep),
     /// The end of the first contact, over all dampings and impact speeds
     Regimes(regimes::Regimes),
+    /// Periodic orbits of an undamped rod with one contact in each period: their period against their energy
+    Orbits(orbits::Orbits),
     /// The figures of the paper from its parameters, and two more: SVG, PNG, PDF and CSV, with an index
     Figures(figures::Figures),
     /// Hard cases and the paper's claims, worked out by every route and held against the truth
@@ -167,6 +169,7 @@ fn run(cli: Cli) -> Result<ExitCode, Failure> {
         Command::Compare(command) => return command.run(),
         Command::Sweep(command) => return command.run(),
         Command::Regimes(command) => command.run(),
+        Command::Orbits(command) => command.run(),
         Command::Figures(command) => command.run(),
         Command::Check(command) => return command.run(),
         Command::Scenes(command) => return command.run(),

@@ -7,6 +7,7 @@ pub(crate) mod compare;
 pub(crate) mod cost;
 pub(crate) mod explain;
 pub(crate) mod figures;
+pub(crate) mod orbits;
 pub(crate) mod plot;
 pub(crate) mod regimes;
 pub(crate) mod sample;

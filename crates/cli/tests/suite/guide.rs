@@ -155,6 +155,15 @@ fn a_soft_ground_and_a_mass() {
     answers("13-soft-contact.md", &["d = Z".to_string(), format!("1/{:.0}", 1.0 / force(0.25))]);
 }
 
+/// The first branch of a free rod ends at `T = 3t₁`, where the lower end rises to `g t₁²/2`.
+#[test]
+fn motions_that_repeat_themselves() {
+    holds("14-orbits.md");
+    let trip = 2.0 / 5000.0_f64;
+    let parts = [format!("{:.1} ms", 3e3 * trip), format!("{:.2} µm", 1e6 * 9.81 * trip * trip / 2.0)];
+    answers("14-orbits.md", &parts);
+}
+
 #[test]
 fn pages_show_what_their_commands_print() {
     for page in ["numbers.md", "output.md", "scenes.md", "sweeps.md"] {

@@ -27,6 +27,7 @@ mod derivatives_at;
 mod endings;
 #[cfg(target_os = "linux")]
 mod guide;
+mod orbits;
 mod pictures;
 mod reference;
 mod scene_errors;
