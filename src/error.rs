@@ -276,4 +276,10 @@ impl ProblemError {
     ) -> Self {
         ProblemError { kind, path: path.into(), found: found.into(), expected: expected.into() }
     }
+
+    /// Builds the error of a start that has a strain at `path` and a displacement too.
+    pub(crate) fn strain_and_displacement(path: &str) -> Self {
+        let expected = "one of them: the strain is the displacement's slope";
+        ProblemError::new(ProblemErrorKind::Contradiction, path, "strain as well as displacement", expected)
+    }
 }

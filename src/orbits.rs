@@ -355,7 +355,7 @@ impl Orbit {
             .map_err(Box::new)?
             .iter()
             .filter_map(|row| row[0].as_ref())
-            .map(|found| found.sides().map(|side| side.ok().map(|rate| rate.to_f64().abs())))
+            .map(|found| found.sides().map(|side| side.ok().map(|rate| Scalar::to_f64(rate).abs())))
             .collect();
         // Disturbances that come and go are compared at their greatest.
         let part = sizes.len() / 2;

@@ -270,8 +270,8 @@ class History(Frozen):
         Parameters
         ----------
         by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap"} or str
-            The value; of a start that is not uniform ``"displacement"`` and ``"velocity"`` as a whole, or at a point:
-            ``"velocity[0]"``.
+            The value; of a start that is not uniform ``"displacement"``, ``"strain"`` or ``"velocity"`` as a whole,
+            or at a point: ``"velocity[0]"``.
         table : {"events", "contacts", "flights", "stress_history"}, optional
             The array of that name.
 

@@ -283,6 +283,9 @@ def test_a_problem_shows_its_values():
         assert again == problem and hash(again) == hash(problem) and again.replace(time=77) != problem
     held = dalembert.Problem.from_scene("getfem-dynamic-contact")
     assert held.top == "fixed" and held.displacement[-1][1] == 0 and "top='fixed'" in repr(held)
+    standing = dalembert.Problem(length=1, wave_speed=1, gravity=2, strain=[(0, -2), (1, 0)], time=9)
+    assert standing.strain == ((0, -2), (1, 0)) and standing.displacement is None
+    assert standing.solve(exact=True).strain(7) == -2 and standing.replace(strain=[(0, 0), (1, 0)]) != standing
 
 
 def test_frames_and_datasets():

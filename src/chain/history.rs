@@ -3,8 +3,9 @@
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
+use super::body::Body;
 use super::column::{ChainColumn, ChainQuantity};
-use super::definition::{Body, Chain};
+use super::definition::Chain;
 use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 use crate::error::Error;
@@ -253,7 +254,7 @@ impl Chain {
             let [z, c] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
             let strained = match body.rigid_mass() {
                 Some(_) => 0.0,
-                None => size(&body.displacement) / body.length.to_f64() * c,
+                None => (size(&body.displacement) / body.length.to_f64()).max(size(&body.strain)) * c,
             };
             velocity = velocity.max(size(&body.velocity)).max(strained);
             (impedance, length) = (impedance.max(z), length.max(body.length.to_f64()));

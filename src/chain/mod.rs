@@ -14,11 +14,12 @@
 //!
 //! The code is generic over [`crate::number::Bounded`]: estimates, fractions and enclosures.
 //!
-//! Reading order: `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers and initial
-//! waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop), `run`
-//! (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod),
+//! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
+//! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
+//! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod),
 //! `history` (answers in numbers that are long enough), `column` (names of the numbers of a chain).
 
+mod body;
 mod body_motion;
 mod cluster;
 mod column;
@@ -36,9 +37,10 @@ mod start;
 mod step;
 mod wave;
 
+pub use body::{Body, BodyMaterial, Points};
 pub(crate) use body_motion::{BodyMotion, Runs};
 pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity};
-pub use definition::{Body, BodyMaterial, Chain, ChainBuilder, End, Joint, MAX_PIECES, Points, Spring};
+pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use history::{ChainHistory, ChainListing};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};

@@ -1,8 +1,9 @@
 //! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
 
+use super::body::{Body, Points};
 use super::cluster::{Cluster, Mass};
 use super::curve::Signal;
-use super::definition::{Body, Chain, End, Joint, Points, Spring};
+use super::definition::{Chain, End, Joint, Spring};
 use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
 use super::march::SOFT;
@@ -261,14 +262,15 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Res
     let fraction = |x: &Number| x.to_rational();
     // Places at which the start has a break, in exact order.
     let mut places: Vec<Rational> = vec![Rational::default(), fraction(&body.length)];
-    places.extend(body.velocity.iter().chain(&body.displacement).map(|(x, _)| fraction(x)));
+    places.extend(body.velocity.iter().chain(&body.displacement).chain(&body.strain).map(|(x, _)| fraction(x)));
     places.sort();
     places.dedup();
     let mut up = Vec::new();
     let mut down = Vec::new();
     for pair in places.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
-        let [(speed, rise), (_, strain)] = [&body.velocity, &body.displacement].map(|points| {
+        let lists = [&body.velocity, &body.displacement, &body.strain];
+        let [(speed, rise), (_, stretch), (strain, bend)] = lists.map(|points| {
             let within = |pair: &&[(Number, Number)]| {
                 fraction(&pair[0].0) <= *from && *to <= fraction(&pair[1].0) && pair[0].0.compare(&pair[1].0).is_lt()
             };
@@ -278,21 +280,24 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Res
                 (v - slope.clone() * x, slope)
             })
         });
-        // v_t = speed + rise·x, the first of which is extrapolated to either end.
+        // v_t = speed + rise·x and v_x = strain + bend·x, each extrapolated to either end.
+        let strain = strain + stretch;
         let numbers = [
             speed.clone(),
             speed + rise.clone() * fraction(&body.length),
             rise,
-            strain,
+            strain.clone(),
+            strain + bend.clone() * fraction(&body.length),
+            bend,
             from.clone(),
             fraction(&body.length) - to,
         ]
         .map(|x| lift::<N>(&x, precision));
-        let [speed, at_top, rise, strain, from, to] = numbers;
-        let [speed, at_top, rise, strain, from, to] = [speed?, at_top?, rise?, strain?, from?, to?];
-        let (rate, stretch) = (rise * wave_speed, strain * wave_speed);
-        let up_line = Line { intercept: speed - &stretch, slope: -rate.clone() };
-        let down_line = Line { intercept: at_top + &stretch, slope: rate };
+        let [speed, at_top, rise, strain, top_strain, bend, from, to] = numbers;
+        let (rate, bend) = (rise? * wave_speed, bend? * wave_speed * wave_speed);
+        let up_line = Line { intercept: speed? - strain? * wave_speed, slope: bend.clone() - &rate };
+        let down_line = Line { intercept: at_top? + top_strain? * wave_speed, slope: rate + bend };
+        let [from, to] = [from?, to?];
         // A piece begins where its stretch of the body ends: at −to/c upward, at −(L − from)/c downward.
         let up_from = if to.vanishes() == Ok(true) { -travel.clone() } else { (to - length) / wave_speed };
         let down_from = if from.vanishes() == Ok(true) { -travel.clone() } else { (from - length) / wave_speed };

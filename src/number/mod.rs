@@ -68,7 +68,7 @@ pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;
 pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
-pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, shown_bound};
+pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, show_beside, shown_bound};
 pub use value::{Bound, IntoValue, Value};
 pub use wide::Wide;
 pub(crate) use wide::guarded;

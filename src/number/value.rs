@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use serde::{Serialize, Serializer};
 
-use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, shown_bound};
+use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, show_beside, shown_bound};
 use super::{Bounded, Estimate, Float, Interval, Number, Rational, Reads, Scalar};
 
 /// A number of an answer, with its bound, its digits and its unit.
@@ -107,6 +107,19 @@ impl Value {
     /// Returns the number to at most `digits` significant digits, and none beyond its bound.
     pub fn to_digits(&self, digits: u32) -> String {
         stored!(self, number => show(number, digits))
+    }
+
+    /// Returns [`Value::to_digits`] beside numbers up to `greatest`: `below 3.1e-6` in place of a `0` that could be a
+    /// digit of these.
+    ///
+    /// ```
+    /// use dalembert::{Estimate, Value};
+    /// let value = Value::from(Estimate::new(1e-7, 1e10)); // within 1e10 roundings of 1
+    /// assert_eq!(value.to_digits(12), "0");
+    /// assert_eq!((value.to_digits_beside(12, 1.0), value.to_digits_beside(3, 1.0)), ("below 1.3e-6".into(), "0".into()));
+    /// ```
+    pub fn to_digits_beside(&self, digits: u32, greatest: f64) -> String {
+        stored!(self, number => show_beside(number, digits, greatest))
     }
 
     /// Returns the bound of the error of the number as it is serialized: of the double, or of the printed digits.

@@ -70,7 +70,7 @@ impl Chain {
                 gravity: Some(self.gravity().clone()).filter(|g| !g.is_zero()),
                 start: Start::Profile(Profile {
                     displacement: profile.displacement().to_vec(),
-                    strain: Vec::new(),
+                    strain: profile.strain().to_vec(),
                     velocity: profile.velocity().to_vec(),
                 }),
                 run: Run::Time(self.until().clone()),
@@ -92,7 +92,7 @@ fn body_of(material: &Material, body: &Body) -> Body {
         }
         Material::WaveSpeed(speed) => Body::new(length, speed.clone(), speed.clone()),
     };
-    let new = new.with_start(velocity, displacement);
+    let new = new.with_start(velocity, displacement).with_strain(body.strain().to_vec());
     match body.name() {
         Some(name) => new.named(name),
         None => new,
@@ -130,11 +130,12 @@ impl Problem {
     pub fn chain(&self) -> Option<(Chain, usize)> {
         let InChain { chain, body, .. } = self.in_chain.as_ref()?;
         let original = &chain.bodies()[*body];
-        let (velocity, displacement) = match &self.start {
-            Start::Profile(Profile { displacement, velocity, .. }) => (velocity.clone(), displacement.clone()),
-            _ => Default::default(),
+        let Profile { displacement, strain, velocity } = match &self.start {
+            Start::Profile(profile) => profile.clone(),
+            _ => Profile::default(),
         };
-        let original = original.clone().with_length(self.length.clone()).with_start(velocity, displacement);
+        let original = original.clone().with_length(self.length.clone());
+        let original = original.with_start(velocity, displacement).with_strain(strain);
         let gravity = self.gravity.clone().unwrap_or_else(|| 0.into());
         let chain = chain.with_body(*body, body_of(&self.material, &original)).with_gravity(gravity);
         let chain = match &self.run {
@@ -175,6 +176,7 @@ impl Problem {
             let refused = || ProblemError::new(Kind::OutOfRange, path, format!("speed = {speed}"), "fewer digits");
             Ok::<_, ProblemError>(uniform(&negative.ok_or_else(refused)?))
         };
+        let mut strain = Vec::new();
         let (gap, displacement, velocity) = match &self.start {
             Start::Uniform(Speed::Given(speed)) => (0.into(), Vec::new(), down(speed)?),
             Start::Uniform(Speed::DropHeight(_)) => {
@@ -186,16 +188,15 @@ impl Problem {
                 (0.into(), Vec::new(), down(&speed)?)
             }
             Start::Above { gap, speed } => (gap.clone(), uniform(gap), down(speed)?),
-            Start::Profile(Profile { strain, .. }) if !strain.is_empty() => {
-                return refuse(Parameter::Strain(None).path(), "a start by its strain", "its displacement");
-            }
-            Start::Profile(Profile { displacement, velocity, .. }) => {
+            Start::Profile(Profile { displacement, strain: points, velocity }) => {
+                strain.clone_from(points);
                 let gap = displacement.first().map_or_else(|| 0.into(), |(_, gap)| gap.clone());
                 (gap, displacement.clone(), velocity.clone())
             }
         };
         let top = if self.top == Top::Fixed { End::Velocity(vec![(0.into(), 0.into())]) } else { End::Free };
         let body = Body::new(self.length.clone(), 1.into(), 1.into()).with_start(velocity, displacement);
+        let body = body.with_strain(strain);
         let chain = Chain::builder(body_of(&self.material, &body))
             .bottom(End::Ground { gap, velocity: Vec::new() })
             .top(top)

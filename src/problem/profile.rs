@@ -25,9 +25,7 @@ pub(super) fn check(given: &ByParameter<Points>, length: &Number, over_ground: b
     };
     let [displacement, strain, velocity] = Parameter::LISTS;
     if given.contains_key(&displacement) && given.contains_key(&strain) {
-        let (found, expected) =
-            ("strain as well as displacement", "one of them: the strain is the displacement's slope");
-        return Err(ProblemError::new(Kind::Contradiction, strain.path(), found, expected));
+        return Err(ProblemError::strain_and_displacement(strain.path()));
     }
     Ok(Profile { displacement: read(displacement)?, strain: read(strain)?, velocity: read(velocity)? })
 }

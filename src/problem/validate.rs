@@ -57,10 +57,6 @@ impl Draft {
             let expected = "a velocity and a displacement of the start";
             return Err(ProblemError::new(Kind::Contradiction, impact.path(), found, expected));
         }
-        if self.profiles.contains_key(&Parameter::Strain(None)) {
-            let (found, expected) = ("a strain of a body of a chain", "a velocity and a displacement of the start");
-            return Err(ProblemError::new(Kind::Contradiction, Parameter::Strain(None).path(), found, expected));
-        }
         profile::check(&self.profiles, length, false)
     }
 

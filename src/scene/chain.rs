@@ -34,6 +34,7 @@ const BODY_KEYS: &[&str] = &[
     "state",
     "velocity",
     "displacement",
+    "strain",
     "mass",
     "joint",
     "gap",
@@ -45,7 +46,7 @@ const ROD_KEYS: &[&str] =
 const TABLES: [(&str, &[&str]); 6] = [
     ("ends", &["bottom", "top"]),
     ("impact", &["speed", "gap"]),
-    ("start", &["displacement", "velocity"]),
+    ("start", &["displacement", "strain", "velocity"]),
     ("ground", &["velocity", "stiffness", "damping", "penalty"]),
     ("gravity", &["acceleration"]),
     ("run", &["time", "accuracy", "pieces"]),
@@ -183,7 +184,7 @@ impl ChainScene {
     fn body(&self, body: usize, problem: Problem) -> Scene {
         let own = format!("body[{body}].");
         let line = |(key, line): &(String, usize)| match key.strip_prefix(&own) {
-            Some(key @ ("velocity" | "displacement")) => (format!("start.{key}"), *line),
+            Some(key @ ("velocity" | "displacement" | "strain")) => (format!("start.{key}"), *line),
             Some(key) => (format!("rod.{key}"), *line),
             None => (key.clone(), *line),
         };
@@ -433,7 +434,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Returns `body` with the velocity and the displacement of this table.
+    /// Returns `body` with velocity, displacement and strain of this table.
     fn moving(&self, body: Body) -> Result<Body, SceneError> {
         let body = match self.get("velocity") {
             Some((_, value)) if value.get_ref().as_array().is_some() => {
@@ -444,7 +445,7 @@ impl<'a> Reader<'a> {
                 None => body,
             },
         };
-        Ok(body.with_displacement(self.list("displacement")?))
+        Ok(body.with_displacement(self.list("displacement")?).with_strain(self.list("strain")?))
     }
 
     /// Returns the body of a `[rod]` with the start of `[impact]` or `[start]`.

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dalembert::number::{Answer, Scalar, bound_of_log2, show};
+use dalembert::number::{Answer, Scalar, bound_of_log2, show_beside};
 use dalembert::quantity::{Measure, restitution};
 use dalembert::{
     ChainScene, Contact, Ending, Energy, Error, Numbers, Parameters, Plan, Question, Scene, SceneError, Side,
@@ -47,9 +47,9 @@ fn failed(error: Error) -> JsError {
     }
 }
 
-/// Formats a number as in the tables of the command.
+/// Formats a number as in the tables of the command, beside numbers of the size of one.
 fn text<S: Scalar>(x: &S) -> String {
-    show(x, DIGITS)
+    show_beside(x, DIGITS, 1.0)
 }
 
 fn optional<S: Scalar>(x: Option<&S>) -> String {

@@ -31,7 +31,8 @@ fn chain(problem: &Problem, until: Number) -> Option<Chain> {
         Start::Above { gap, speed } => (gap.clone(), falling(speed)?),
         Start::Profile(profile) => {
             let gap = profile.displacement.first().map_or_else(|| 0.into(), |(_, v)| v.clone());
-            (gap, body.clone().with_start(profile.velocity.clone(), profile.displacement.clone()))
+            let body = body.clone().with_start(profile.velocity.clone(), profile.displacement.clone());
+            (gap, body.with_strain(profile.strain.clone()))
         }
     };
     let top = if problem.top() == Top::Fixed { End::Velocity(Vec::new()) } else { End::Free };

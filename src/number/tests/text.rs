@@ -69,3 +69,15 @@ fn both_ends_print_what_is_proved() {
     }
     assert!(compared > 2500 && short > 500, "{compared} {short}");
 }
+
+#[test]
+fn a_zero_beside_greater_numbers_is_zero_or_below_its_bound() {
+    // Within 1e10 roundings of 1: 1.1e-6.
+    let open = Estimate::new(1e-7, 1e10);
+    assert_eq!(show(&open, 12), "0");
+    assert_eq!(show_beside(&open, 12, 1.0), "below 1.3e-6");
+    assert_eq!(show_beside(&open, 12, 2e6), "0");
+    assert_eq!(show_beside(&open, 12, 0.0), "below 1.3e-6");
+    assert_eq!(show_beside(&Estimate::new(0.0, 0.0), 12, 0.0), "0");
+    assert_eq!(show_beside(&Estimate::new(0.25, 1e10), 12, 0.0), show(&Estimate::new(0.25, 1e10), 12));
+}

@@ -44,6 +44,14 @@ impl Cell {
         }
     }
 
+    /// Returns the text of the cell in a column of a table with numbers up to `greatest`.
+    pub(super) fn table_text(&self, digits: u32, greatest: f64) -> String {
+        match self {
+            Cell::Number(number) => number.to_digits_beside(digits, greatest),
+            Cell::Plain(_) | Cell::Numbers(_) => self.text(digits, "–"),
+        }
+    }
+
     /// Returns the bounds of the numbers as text.
     pub(super) fn bound_text(&self, digits: u32) -> String {
         match self {
@@ -79,6 +87,12 @@ impl Cell {
             Cell::Numbers(_) => f64::NAN,
         }
     }
+}
+
+/// Returns the greatest magnitude in a column.
+pub(super) fn greatest<'a>(cells: impl IntoIterator<Item = &'a Cell>) -> f64 {
+    let size = |cell: &Cell| if let Cell::Number(number) = cell { number.to_f64().abs() } else { 0.0 };
+    cells.into_iter().map(size).fold(0.0, f64::max)
 }
 
 fn join(numbers: &[Value], text: impl Fn(&Value) -> String) -> String {

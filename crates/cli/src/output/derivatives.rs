@@ -76,6 +76,9 @@ pub(crate) fn derivative_table(
 ) -> String {
     let symbols: Vec<String> = quantities.iter().map(|(_, symbol)| format!("∂ {symbol}")).collect();
     let head: Vec<&str> = [head, "side"].into_iter().chain(symbols.iter().map(String::as_str)).collect();
+    let sizes = |cell: &Derivative<Value>| cell.sides().map(|side| side.map_or(0.0, |value| value.to_f64().abs()));
+    let column = |place: usize| rows.iter().filter_map(move |row| row.get(place)?.as_ref()).flat_map(sizes);
+    let greatest: Vec<f64> = quantities.iter().map(|(place, _)| column(*place).fold(0.0, f64::max)).collect();
     let mut lines = Vec::new();
     for (label, row) in labels.into_iter().zip(rows) {
         let cells: Vec<_> = quantities.iter().map(|(k, _)| row.get(*k).and_then(Option::as_ref)).collect();
@@ -83,11 +86,13 @@ pub(crate) fn derivative_table(
         let sides: &[(usize, &str)] = if is_same { &[(0, "both")] } else { &[(0, "left"), (1, "right")] };
         for (side, word) in sides {
             let mut line = vec![label.clone(), (*word).into()];
-            line.extend(cells.iter().map(|cell| match cell.map(|cell| cell.sides()[*side]) {
-                Some(Ok(value)) => info.text(value),
-                Some(Err(why)) => why.to_string(),
-                None => "–".into(),
-            }));
+            line.extend(cells.iter().zip(&greatest).map(
+                |(cell, greatest)| match cell.map(|cell| cell.sides()[*side]) {
+                    Some(Ok(value)) => info.text_beside(value, *greatest),
+                    Some(Err(why)) => why.to_string(),
+                    None => "–".into(),
+                },
+            ));
             lines.push(line);
         }
     }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::column::{Column, Kind};
-use super::dataset::Cell;
+use super::dataset::{Cell, greatest};
 use super::header::{Header, HeaderJson};
 use super::npz::Npz;
 use super::schema_types::NumberSchema;
@@ -84,7 +84,10 @@ impl RowWriter {
                 }
             }
             Format::Table => {
-                let text = |(column, place): &(Column, usize), row: usize| self.text(column.kind, &cells[*place][row]);
+                let greatest: Vec<f64> = cells.iter().map(|cells| greatest(cells)).collect();
+                let text = |(column, place): &(Column, usize), row: usize| {
+                    self.text(column.kind, &cells[*place][row], greatest[*place])
+                };
                 let row = |row: usize| self.columns.iter().map(|column| text(column, row)).collect();
                 let rows: Vec<Vec<String>> = (0..count).map(row).collect();
                 self.table.extend(rows);
@@ -162,10 +165,12 @@ impl RowWriter {
         bound(self.format, self.digits, value)
     }
 
-    /// Returns the text of a table.
-    fn text(&self, kind: Kind, cell: &Cell) -> String {
+    /// Returns the text of a cell of a table in a column with numbers up to `greatest`.
+    fn text(&self, kind: Kind, cell: &Cell, greatest: f64) -> String {
         match (cell, kind) {
-            (Cell::Number(value), Kind::Number | Kind::Word) => value.to_digits(table_digits(self.digits)),
+            (Cell::Number(value), Kind::Number | Kind::Word) => {
+                value.to_digits_beside(table_digits(self.digits), greatest)
+            }
             (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
             (Cell::Number(value), Kind::Side) => side_word(value).into(),
             (Cell::Number(value), Kind::Flag) => flag(value).into(),

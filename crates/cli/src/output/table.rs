@@ -1,7 +1,7 @@
 //! Tables for a person.
 
 use super::column::{Column, Kind};
-use super::dataset::{Cell, Dataset};
+use super::dataset::{Cell, Dataset, greatest};
 use crate::terminal;
 use dalembert_compare::aligned::table as aligned;
 
@@ -19,9 +19,11 @@ impl Dataset {
         let shown = |column: &&Column| column.head.is_some();
         let columns: Vec<&Column> = self.columns.iter().filter(shown).collect();
         let head: Vec<&str> = columns.iter().filter_map(|column| column.head.as_deref()).collect();
+        let places = (0..self.columns.len()).filter(|place| self.columns[*place].head.is_some());
+        let greatest: Vec<f64> = places.map(|place| greatest(self.rows.iter().map(|row| &row[place]))).collect();
         let row = |row: &Vec<Cell>| {
             let cells = self.columns.iter().zip(row).filter(|(column, _)| shown(column));
-            cells.map(|(_, cell)| cell.text(digits, "–")).collect()
+            cells.zip(&greatest).map(|((_, cell), greatest)| cell.table_text(digits, *greatest)).collect()
         };
         let rows = self.rows.iter().map(row).collect();
         let words = columns.iter().take_while(|column| column.kind == Kind::Word).count();

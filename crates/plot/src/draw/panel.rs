@@ -281,6 +281,19 @@ impl Panel {
         if closer.len() > 1 && closer.windows(2).all(apart) { closer } else { ticks }
     }
 
+    /// Returns whether values of curves or marks lie above or below the frame.
+    fn is_cut(&self) -> bool {
+        let is_outside = |point: &DVec2| {
+            let [across, up] = [self.x.share(point.x), self.y.share(point.y)];
+            (0.0..=1.0).contains(&across) && !(-CUT..=1.0 + CUT).contains(&up)
+        };
+        self.layers.iter().any(|(class, shape)| match shape {
+            Shape::Lines(lines, _) => *class == "curve" && lines.iter().flatten().any(is_outside),
+            Shape::Marks { points, clipped: true, .. } => points.iter().any(is_outside),
+            _ => false,
+        })
+    }
+
     /// Returns the width of ticks and numbers left of a frame of this height, in heights of a letter.
     pub(super) fn left_margin(&self, height: f64, em: f64) -> f64 {
         self.y_ticks(height, em).iter().map(|tick| text_width(&tick.1)).fold(0.0, f64::max) + TICK + 0.5
@@ -319,6 +332,9 @@ impl Panel {
             svg.close();
         }
         svg.outline([from, to], FRAME);
+        if self.is_cut() {
+            svg.text(DVec2::new(to.x - 0.5 * em, from.y + em), Anchor::End, "cut off at the frame");
+        }
         if numbers_below {
             svg.open("axis-x", "");
             for (x, text) in x_ticks {
@@ -364,6 +380,9 @@ impl Panel {
         svg.close();
     }
 }
+
+/// Share of a frame by which a curve may leave it unseen: the width of a line.
+const CUT: f64 = 0.002;
 
 /// Overlap of neighbouring cells of a field in mm, so that no viewer shows a seam: less than the width of a ray.
 const OVERLAP: f64 = 0.04;
