@@ -55,7 +55,7 @@ pub enum OrbitError {
     /// The rod loses energy.
     #[error("found the damping {0}, expected an undamped rod: a damped one comes to rest")]
     Damped(String),
-    /// Nothing brings the rod back.
+    /// A free rod without gravity, which flies away.
     #[error("found a free rod without gravity, expected gravity or a fixed top: it flies away for ever")]
     Away,
     /// The rod is a body of a chain.

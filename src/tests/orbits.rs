@@ -41,7 +41,7 @@ fn returns(orbit: &Orbit, rod: &Problem) {
     }
     let places: Vec<Rational> = (0..=24).map(|k| start.length().to_rational() * fraction(k, 24)).collect();
     let [first, second] = [0, 2].map(|k| period.clone() * Rational::from(k));
-    let fields = |time: &Rational| history.field(&places, &[time.clone()], Side::Right).unwrap();
+    let fields = |time: &Rational| history.field(&places, std::slice::from_ref(time), Side::Right).unwrap();
     assert_eq!(fields(&first), fields(&second), "{named}");
     assert_eq!(number(&values.energy), history.energy(first.clone()).unwrap().total, "{named}");
     let (height, speed) = history.ground_end(period.clone(), Side::Left).unwrap();

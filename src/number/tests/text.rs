@@ -1,5 +1,5 @@
 use super::*;
-use crate::number::Interval;
+use crate::number::{Estimate, Interval};
 use rug::Float;
 
 #[test]
@@ -14,17 +14,17 @@ fn no_digit_beyond_the_bound_is_printed() {
     assert_eq!([1, 2, 3, 6].map(|digits| show(&astride, digits)), ["1", "1", "1.05", "1.05000"]);
     assert_eq!(show(&around(0.25, 1e-6), 1), "0.25");
     assert_eq!(show(&around(0.0, 1e-20), 20), "0");
-    assert_eq!(bound_of_log2(crate::number::Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
+    assert_eq!(bound_of_log2(Estimate::new(1.0f64, 3.0).log2_error()), "3.4e-16");
     // 1 + ε with a bound of one rounding: ε/2 and, for the text, another.
-    assert_eq!(bound_of_log2(double_bound(&crate::number::Estimate::new(1.0f64 + f64::EPSILON, 1.0))), "2.3e-16");
-    assert_eq!(bound_of_log2(double_bound(&crate::number::Estimate::exact(1.0f64))), "0");
+    assert_eq!(bound_of_log2(double_bound(&Estimate::new(1.0f64 + f64::EPSILON, 1.0))), "2.3e-16");
+    assert_eq!(bound_of_log2(double_bound(&Estimate::exact(1.0f64))), "0");
     // Four decimals are half of 1e-4 off, and the number itself 9e-6.
     assert_eq!(bound_of_log2(shown_bound(&around(2.0, 9e-6), 20)), "5.9e-5");
-    assert_eq!(bound_of_log2(shown_bound(&crate::number::Estimate::exact(0.2f64 + 0.1), 12)), "5.1e-13");
-    assert_eq!(bound_of_log2(shown_bound(&crate::number::Estimate::exact(0.25f64), 12)), "0");
+    assert_eq!(bound_of_log2(shown_bound(&Estimate::exact(0.2f64 + 0.1), 12)), "5.1e-13");
+    assert_eq!(bound_of_log2(shown_bound(&Estimate::exact(0.25f64), 12)), "0");
     // Zeros at the end are digits, whether they are printed or not.
-    assert_eq!(bound_of_log2(shown_bound(&crate::number::Estimate::new(6.0f64, 1.0), 12)), "5.1e-12");
-    assert_eq!(bound_of_log2(shown_bound(&crate::number::Estimate::new(1000.0f64, 1.0), 4)), "5.1e-1");
+    assert_eq!(bound_of_log2(shown_bound(&Estimate::new(6.0f64, 1.0), 12)), "5.1e-12");
+    assert_eq!(bound_of_log2(shown_bound(&Estimate::new(1000.0f64, 1.0), 4)), "5.1e-1");
     // 0 printed: the end farthest from it, 1e-20, and the radius.
     assert_eq!(bound_of_log2(shown_bound(&around(0.0, 1e-20), 20)), "2.1e-20");
 }

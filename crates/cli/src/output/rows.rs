@@ -84,7 +84,7 @@ impl RowWriter {
                 }
             }
             Format::Table => {
-                let greatest: Vec<f64> = cells.iter().map(|cells| greatest(cells)).collect();
+                let greatest: Vec<f64> = cells.iter().map(greatest).collect();
                 let text = |(column, place): &(Column, usize), row: usize| {
                     self.text(column.kind, &cells[*place][row], greatest[*place])
                 };
