@@ -49,7 +49,12 @@ fn failed(error: Error) -> JsError {
 
 /// Formats a number as in the tables of the command, beside numbers of the size of one.
 fn text<S: Scalar>(x: &S) -> String {
-    show_beside(x, DIGITS, 1.0)
+    text_beside(x, 1.0)
+}
+
+/// Formats a number beside numbers up to `greatest`.
+fn text_beside<S: Scalar>(x: &S, greatest: f64) -> String {
+    show_beside(x, DIGITS, greatest.max(1.0))
 }
 
 fn optional<S: Scalar>(x: Option<&S>) -> String {
@@ -173,7 +178,10 @@ impl Run {
             },
             |found| found.iter().collect(),
         );
-        Ok(found.map_err(failed)?.iter().map(text).collect())
+        let found = found.map_err(failed)?;
+        let energy = found[1].to_f64().abs();
+        let beside = [1.0, energy, energy, energy, 1.0, self.extremes.strain];
+        Ok(found.iter().zip(beside).map(|(x, greatest)| text_beside(x, greatest)).collect())
     }
 
     /// Returns the picture of the rod at a time; lengths are in mm. `enlarged` and `color_limit` are those of

@@ -57,6 +57,10 @@ function agrees(shown, given, scale, what) {
   if (given === "" || shown === "–") {
     return assert.ok(given === "" && shown === "–", `${what}: ${shown} and ${given}`);
   }
+  if (shown.startsWith("below ")) {
+    const bound = Number(plain(shown.slice(6)));
+    return assert.ok(Math.abs(Number(given)) <= bound && bound <= 1e-6 * scale, `${what}: ${shown} and ${given}`);
+  }
   const apart = Math.abs(Number(plain(shown)) - Number(given));
   assert.ok(apart <= Math.min(unit(shown), 1e-6 * scale), `${what}: ${shown} on the page, ${given} by the command`);
 }

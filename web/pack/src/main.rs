@@ -32,7 +32,7 @@ fn main() -> Result<()> {
         Ok(())
     };
     fill("style", &format!("<style>\n{}</style>", read("style.css")?))?;
-    fill("glue", &format!("<script id=\"glue\">\n{}</script>", bound.js()))?;
+    fill("glue", &format!("<script id=\"glue\">\n{}</script>", code(bound.js())))?;
     fill("engine", &format!("<script type=\"text/plain\" id=\"engine\">{}</script>", encoded(&packed)))?;
     fill("script", &format!("<script type=\"module\">\n{}</script>", modules(&read)?))?;
 
@@ -62,8 +62,8 @@ fn encoded(bytes: &[u8]) -> String {
     text
 }
 
-/// Joins the modules of the page, in the order of the imports of `main.js`, and `main.js` itself, without indents and
-/// comments that have lines of their own. No two modules may define the same name.
+/// Joins the modules of the page, in the order of the imports of `main.js`, and `main.js` itself. No two modules may
+/// define the same name.
 fn modules(read: &impl Fn(&str) -> Result<String>) -> Result<String> {
     let main = read("main.js")?;
     let imported = main.lines().filter(|line| line.starts_with("import "));
@@ -73,6 +73,11 @@ fn modules(read: &impl Fn(&str) -> Result<String>) -> Result<String> {
         whole += &read(name.with_context(|| format!("found {line}, expected import … from \"./NAME\";"))?)?;
     }
     whole += &main;
+    Ok(code(&whole))
+}
+
+/// Returns the lines of code of a script, without imports, indents and comments that have lines of their own.
+fn code(script: &str) -> String {
     let mut in_comment = false;
     let is_code = |line: &&str| {
         let text = line.trim_start();
@@ -80,8 +85,8 @@ fn modules(read: &impl Fn(&str) -> Result<String>) -> Result<String> {
         in_comment = is_comment && !text.starts_with("//") && !text.contains("*/");
         !is_comment && !line.starts_with("import ")
     };
-    let lines = whole.lines().filter(is_code);
-    Ok(lines.flat_map(|line| [line.trim_start().trim_start_matches("export "), "\n"]).collect())
+    let lines = script.lines().filter(is_code).filter(|line| !line.trim().is_empty());
+    lines.flat_map(|line| [line.trim_start().trim_start_matches("export "), "\n"]).collect()
 }
 
 #[cfg(test)]
