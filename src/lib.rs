@@ -45,8 +45,9 @@
 //! [`Interval`] has its ends, `lo()` and `hi()`, and `{}` prints the digits that both prove.
 //!
 //! The types in daily use stand at the root. The rest of each subject is in its module: [`problem`], [`solve`],
-//! [`quantity`], [`reason`] (reasons for the end of a run, and warnings). [`engine`] has the engines by themselves,
-//! [`number`] the number systems, [`special`] the functions of the closed forms.
+//! [`quantity`], [`reason`] (reasons for the end of a run, and warnings), [`chain`] (several bodies), [`orbits`]
+//! (motions that repeat themselves). [`engine`] has the engines by themselves, [`number`] the number systems,
+//! [`special`] the functions of the closed forms.
 //!
 //! Equation numbers are those of F. Wang and S. W. Hansen, *Explicit solutions and coefficient of restitution for an
 //! elastic rod with viscous damping*, IMA Preprint 2473, Institute for Mathematics and its Applications, University of

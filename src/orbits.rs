@@ -20,7 +20,7 @@
 //!
 //! ```
 //! use dalembert::{Numbers, Problem, Top, Units, orbits::Orbit};
-//! // A free rod whose contact takes half of a period of three round trips.
+//! // Two and a half round trips, one and a half of them in contact.
 //! let rod = Problem::builder().length(1).wave_speed(1).gravity(1).impact_speed(1).build()?;
 //! let orbits = Orbit::of_period(Top::Free, 5, 2)?;
 //! assert_eq!(orbits.len(), 1);
@@ -128,7 +128,7 @@ impl Orbit {
     /// Returns the orbits of at most `finest` cells in a round trip whose periods are at most `longest` round trips, in
     /// order of their periods.
     ///
-    /// **Errors**: [`OrbitError::Cells`] where the greatest of these periods has more than [`MOST_LISTED`] cells.
+    /// **Errors**: [`OrbitError::Listed`] where the greatest of these periods has more than [`MOST_LISTED`] cells.
     pub fn up_to(top: Top, finest: u32, longest: u32) -> Result<Vec<Orbit>, OrbitError> {
         if finest.saturating_mul(longest) > MOST_LISTED {
             return Err(OrbitError::Listed(finest, longest));
