@@ -5,7 +5,7 @@ use crate::number::{Number, Rational, Scalar};
 /// Points `(t, value)` or `(x, value)`, linear between neighbours; a repeated place is a jump.
 pub type Points = Vec<(Number, Number)>;
 
-/// An undamped elastic bar of a [`Chain`].
+/// An undamped elastic bar of a [`Chain`](super::Chain).
 ///
 /// **Units**: any consistent units.
 #[derive(Clone, Debug, PartialEq)]
