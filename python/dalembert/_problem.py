@@ -74,10 +74,10 @@ class Problem(Frozen):
         Height of the start above the ground.
     drop_height : number, optional
         Height of an undamped fall from rest that ends at ``t = 0``, at the touch.
-    displacement, velocity : points, optional
-        In place of an impact: pairs ``(x, value)`` from ``x = 0`` to ``x = length``, linear between them.
-    strain : points, optional
-        In place of a displacement; the lower end touches the ground. It may jump, as a velocity may: one x twice.
+    displacement, strain, velocity : points, optional
+        In place of an impact: pairs ``(x, value)`` from ``x = 0`` to ``x = length``, linear between them. A strain is
+        given in place of a displacement, and the lower end touches the ground. Strain and velocity may jump: one x
+        twice.
     time : number, optional
         Last time of the motion.
     impacts : int, optional
