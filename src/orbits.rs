@@ -61,6 +61,9 @@ pub enum OrbitError {
     /// The rod is a body of a chain.
     #[error("found a body of a chain, expected a single rod")]
     InChain,
+    /// An impact speed that is not above zero.
+    #[error("found the impact speed {0}, expected one above zero")]
+    Speed(String),
     /// A period without cells, or with too many.
     #[error("found a period of {0}/{1} round trips, expected both numbers from 1 to {MOST_CELLS}")]
     Cells(u32, u32),
@@ -91,7 +94,8 @@ pub struct OrbitValues {
     pub period: Value,
     /// Duration of the contact.
     pub contact: Value,
-    /// `−v_t(0,t)` when the contact begins, positive, and `v_t(0,t)` when it ends: played backwards, an orbit is the same.
+    /// `−v_t(0,t)` when the contact begins, positive, and `v_t(0,t)` when it ends: played backwards, an orbit is the
+    /// same.
     pub impact_speed: Value,
     /// Greatest height of the lower end.
     pub height: Value,
@@ -160,6 +164,7 @@ impl Orbit {
         let flies = !above.is_empty() && above.iter().all(|height| *height > 0) && *landing == 0;
         (pushes && flies).then_some(Orbit { top, round_trip, contact, waves })
     }
+
     /// Returns `T/t₁`.
     pub fn period_ratio(&self) -> Rational {
         self.in_round_trips(self.waves.len())
@@ -207,21 +212,19 @@ impl Orbit {
     /// Returns the unit of speed in `problem`: `g t₁` under a free top; under a fixed one that which the gap determines,
     /// `free` where it determines none. `None` where the rod has no such orbit: it hangs clear of the ground, and the
     /// orbit presses it down, or the other way round.
-    fn unit<S: Scalar>(&self, problem: &Problem, rod: &Parameters<S>, free: &Number) -> Result<Option<S>, OrbitError> {
+    fn unit<S: Scalar>(&self, problem: &Problem, rod: &Parameters<S>, free: &Number) -> Option<S> {
         if self.top == Top::Free {
-            return Ok(Some(rod.critical_speed()));
+            return Some(rod.critical_speed());
         }
-        let exact = clearance(problem);
         let [difference, _] = self.sums();
-        let orders = (difference.cmp(&0), exact.cmp(&Rational::from(0)));
-        Ok(match orders {
+        match (difference.cmp(&0), clearance(problem).cmp(&Rational::default())) {
             (Ordering::Equal, Ordering::Equal) => Some(S::from_number(free, &rod.length.precision())),
             (a, b) if a == b => {
                 let mean = rod.length.ratio(difference, 4 * self.round_trip as i64);
                 Some(reach(problem, rod) / mean)
             }
             _ => None,
-        })
+        }
     }
 
     /// Returns the numbers of the orbit of the rod of `problem`, whose numbers have the `units`; `free` is the impact
@@ -238,7 +241,7 @@ impl Orbit {
         free: &Number,
         numbers: Numbers,
     ) -> Result<Option<OrbitValues>, OrbitError> {
-        checked(problem)?;
+        checked(problem, free)?;
         match numbers {
             Numbers::Double(_) => self.values_in::<Estimate<f64>>(problem, units, free, (&(), 0)),
             Numbers::Exact | Numbers::ExactThenDigits(_) => self.values_in::<Rational>(problem, units, free, (&(), 0)),
@@ -261,7 +264,7 @@ impl Orbit {
         (precision, digits): (&S::Precision, u32),
     ) -> Result<Option<OrbitValues>, OrbitError> {
         let rod = Parameters::<S>::of(problem, precision).map_err(Box::new)?;
-        let Some(unit) = self.unit(problem, &rod, free)? else { return Ok(None) };
+        let Some(unit) = self.unit(problem, &rod, free) else { return Ok(None) };
         let Parameters { length, wave_speed, gravity, .. } = &rod;
         let n = self.round_trip as i64;
         let cell = rod.round_trip() / length.int(n);
@@ -304,9 +307,9 @@ impl Orbit {
     ///
     /// **Errors**: [`OrbitError`], also where the wave speed is no fraction.
     pub fn start(&self, problem: &Problem, free: &Number, periods: u32) -> Result<Option<Problem>, OrbitError> {
-        checked(problem)?;
+        checked(problem, free)?;
         let rod = Parameters::<Rational>::of(problem, &()).map_err(Box::new)?;
-        let Some(unit) = self.unit(problem, &rod, free)? else { return Ok(None) };
+        let Some(unit) = self.unit(problem, &rod, free) else { return Ok(None) };
         let Parameters { length, wave_speed, gravity, .. } = &rod;
         let bend = gravity.clone() / wave_speed / wave_speed;
         let (mut strain, mut velocity) = (Vec::new(), Vec::new());
@@ -390,8 +393,11 @@ fn merged(points: Vec<(Rational, Rational)>) -> Vec<(Rational, Rational)> {
     kept
 }
 
-/// Refuses a rod that has no orbits to be listed.
-fn checked(problem: &Problem) -> Result<(), OrbitError> {
+/// Refuses a rod that has no orbits to be listed, and an impact speed that is not above zero.
+fn checked(problem: &Problem, free: &Number) -> Result<(), OrbitError> {
+    if free.to_f64() <= 0.0 {
+        return Err(OrbitError::Speed(free.to_string()));
+    }
     if problem.in_chain.is_some() {
         return Err(OrbitError::InChain);
     }
@@ -421,6 +427,7 @@ fn clearance(problem: &Problem) -> Rational {
     let (length, zero) = (problem.length().to_rational(), Rational::default());
     let gravity = problem.gravity().map_or_else(Rational::default, Number::to_rational);
     let weight = gravity.clone() * &length * &length;
+    // The start needs the length alone.
     let rod = Parameters { length, wave_speed: square.clone(), damping: zero.clone(), gravity, speed: zero };
     AtStart::of(problem, &rod).top() * square * Rational::from(2) - weight
 }

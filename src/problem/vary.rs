@@ -39,7 +39,8 @@ impl Parameter {
             Parameter::ImpactSpeed => "an impact, or a start above the ground",
             Parameter::Gap => "a start above the ground",
             _ => {
-                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, displacement, strain or velocity"
+                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, displacement, strain or \
+                 velocity"
             }
         };
         self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })
@@ -137,7 +138,8 @@ impl Parameter {
     }
 
     /// Returns the scale of a step from zero: `1/t₁`, `μ/t₁` or, without a speed, `c/1000 t₁`; for a speed
-    /// that of a fall from the gap; for a point of the start the greatest value of its list, `L/1000`, 1/1000 or `c/1000`.
+    /// that of a fall from the gap; for a point of the start the greatest value of its list,
+    /// `L/1000`, 1/1000 or `c/1000`.
     pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
         let rod = Parameters::<f64>::of(problem, &());
         let scale = rod.map_or(1.0, |rod| match self {

@@ -36,7 +36,7 @@ fn a_strain_in_steps_is_a_displacement_in_lines() {
 }
 
 #[test]
-fn so_it_is_with_damping() {
+fn a_damped_strain_in_steps_is_a_displacement_in_lines() {
     for rod in [rod().damping("0.3"), rod().damping("0.3").fixed_top()] {
         let [by_displacement, by_strain] = both(&rod).map(|rod| rod.solve().unwrap());
         let close = |a: &dalembert::Value, b: &dalembert::Value| {
@@ -47,13 +47,11 @@ fn so_it_is_with_damping() {
         assert_eq!(a.len(), b.len());
         a.iter().zip(&b).for_each(|(a, b)| close(&a.t, &b.t));
         for time in ["1/7", "2/3", "3", "8"] {
-            for (point, quantity) in [("0", Side::Left), ("1/3", Side::Right), ("2", Side::Right)] {
+            for point in ["0", "1/3", "2"] {
                 let [a, b] = [&by_displacement, &by_strain].map(|run| run.at(point, time).unwrap());
                 close(&a.displacement, &b.displacement);
                 close(&a.velocity, &b.velocity);
-                if quantity == Side::Right {
-                    close(&a.strain, &b.strain);
-                }
+                close(&a.strain, &b.strain);
             }
         }
     }
@@ -94,12 +92,15 @@ fn derivatives_are_those_of_the_displacement() {
     // Both values of the lower part together.
     let parts = [0, 1].map(|k| of(&by_strain, Parameter::Strain(Some(k))));
     let upper = [2, 3].map(|k| of(&by_strain, Parameter::Strain(Some(k))));
+    let mut compared = 0;
     for (k, whole) in found.iter().enumerate() {
         let lists = [&parts[0][k], &parts[1][k], &upper[0][k], &upper[1][k]];
         if let ([Some(a), Some(b), Some(c), Some(d)], Some(whole)) = (lists.map(Option::as_ref), whole) {
             assert_eq!(Rational::from(a + b) / -4 + Rational::from(c + d) / 8, *whole);
+            compared += 1;
         }
     }
+    assert!(compared > 1);
 }
 
 #[test]

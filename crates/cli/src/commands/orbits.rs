@@ -63,9 +63,6 @@ const FORMATS: &[Format] =
 impl Orbits {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let destinations = self.output.destinations(FORMATS)?;
-        if self.speed.to_f64() <= 0.0 {
-            return Err(failure!("found --speed {}, expected one above zero", self.speed));
-        }
         let AnyScene::Rod(scene) = source::read(&self.scene)? else {
             return Err(failure!("found a chain in `{}`, expected the scene of a single rod", self.scene));
         };

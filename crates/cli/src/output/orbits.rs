@@ -50,7 +50,7 @@ pub(crate) fn orbits_data(
         let numbers = [period, contact, impact_speed, height, excess, energy].map(|value| Cell::Number(value.clone()));
         let mut cells = vec![Cell::from(*number)];
         cells.extend(ratios.into_iter().chain(numbers));
-        cells.push(orbit.is_of_first_branch().into());
+        cells.push(i64::from(orbit.is_of_first_branch()).into());
         // An estimate, with the digits that it is worth.
         let growth = growth.map(|growth| Scalar::decimal(&growth, 3));
         cells.extend(has_growth.then(|| growth.into()));

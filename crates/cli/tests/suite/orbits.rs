@@ -21,7 +21,7 @@ fn the_orbits_of_a_free_rod_are_listed() {
         serde_json::from_str(&quiet(&["orbits", "periodic-free-rod", "--period", "5,6", "--format", "json"])).unwrap();
     let first = &json[0];
     assert_eq!((first["orbit"].as_u64(), first["period_ratio"].as_str()), (Some(1), Some("5/2")));
-    assert_eq!((first["period"].as_f64(), first["first_branch"].as_bool()), (Some(5.0), Some(true)));
+    assert_eq!((first["period"].as_f64(), first["first_branch"].as_i64()), (Some(5.0), Some(1)));
     assert!(first["uncertainty"]["energy"].as_f64().unwrap() < 1e-14);
     assert_eq!(json.as_array().unwrap().len(), 2);
 }
@@ -89,7 +89,7 @@ fn rods_and_periods_without_orbits_are_refused() {
     free(&["--period", "-1"], &["found the period -1"]);
     free(&["--period-ratio", "0.1234567"], &["found a period of 1234567/10000000 round trips"]);
     free(&["--period", "5", "--finest", "3"], &["--finest"]);
-    free(&["--speed", "0"], &["found --speed 0, expected one above zero"]);
+    free(&["--speed", "0"], &["found the impact speed 0, expected one above zero"]);
     free(&["--finest", "30000"], &["expected at most 400 parts"]);
     let steel = "rod = { length = 1, modulus = 2, density = 1 }\nimpact.speed = 1\ngravity.acceleration = 1\n";
     refused_with(&["orbits", "-", "--exact"], steel, &["√(2)"]);
