@@ -85,6 +85,8 @@ class Problem(Frozen):
 
     Attributes
     ----------
+    stiffness : number or None
+        Stiffness of the spring below a body of a chain, which `replace` and :func:`sweep` change; None on rigid ground.
     round_trip : float
         ``t₁ = 2L/c``.
     damping_ratio : float
@@ -133,6 +135,7 @@ class Problem(Frozen):
     impact_speed: int | float | Fraction | None = None
     gap: int | float | Fraction | None = None
     drop_height: int | float | Fraction | None = None
+    stiffness: int | float | Fraction | None = None
     displacement: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None
     strain: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None
     velocity: tuple[tuple[int | float | Fraction, int | float | Fraction], ...] | None = None

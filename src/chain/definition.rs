@@ -159,6 +159,15 @@ impl Chain {
         Chain { gravity, ..self }
     }
 
+    /// Returns the chain with another stiffness of the spring at a node, not checked.
+    pub(crate) fn with_stiffness(mut self, node: usize, stiffness: Number) -> Chain {
+        self.springs
+            .iter_mut()
+            .filter(|(at, _)| *at == node)
+            .for_each(|(_, spring)| spring.stiffness = stiffness.clone());
+        self
+    }
+
     /// Returns the chain with another last time, not checked.
     pub(crate) fn with_end(self, until: Number) -> Chain {
         Chain { until, ..self }

@@ -249,11 +249,15 @@ impl Problem {
 /// The number that `$problem`, a reference or a mutable one, gives for `$parameter`: a reference of the same kind.
 macro_rules! number_of {
     ($problem:expr, $parameter:expr) => {{
-        let Problem { length, material, damping, top: _, gravity, start, run, in_chain: _ } = $problem;
+        let Problem { length, material, damping, top: _, gravity, start, run, in_chain } = $problem;
         match ($parameter, material, start, run) {
             (Parameter::Length, ..) => Some(length),
             (Parameter::Damping, ..) => damping.into(),
             (Parameter::Gravity, ..) => gravity.into(),
+            (Parameter::Stiffness, ..) => match in_chain {
+                Some(InChain { stiffness, .. }) => stiffness.into(),
+                None => None,
+            },
             (Parameter::Area, Material::Elastic { area, .. }, ..) => area.into(),
             (Parameter::WaveSpeed, Material::WaveSpeed(number), ..)
             | (Parameter::Modulus, Material::Elastic { modulus: number, .. }, ..)
@@ -320,7 +324,7 @@ impl Draft {
             damping: number(&damping),
             top: self.top.unwrap_or_default(),
             gravity: number(&gravity),
-            in_chain: self.in_chain.clone(),
+            in_chain: self.place_in_chain()?,
         };
         problem.checked_in_chain()
     }

@@ -14,6 +14,8 @@ pub(crate) struct InChain {
     /// The chain, in which the problem replaces the body.
     chain: Arc<Chain>,
     body: usize,
+    /// Stiffness of the spring below the body, in place of that of the chain.
+    pub(super) stiffness: Option<Number>,
     /// Runs that the problems of all bodies share.
     pub(crate) runs: Runs,
 }
@@ -21,7 +23,14 @@ pub(crate) struct InChain {
 /// The same chain and body; runs do not count.
 impl PartialEq for InChain {
     fn eq(&self, other: &Self) -> bool {
-        self.body == other.body && self.chain == other.chain
+        self.body == other.body && self.chain == other.chain && self.stiffness == other.stiffness
+    }
+}
+
+impl InChain {
+    /// Returns the same place with another stiffness of the spring below it; `None` where there is no spring.
+    pub(super) fn with_stiffness(&self, stiffness: &Number) -> Option<Self> {
+        self.stiffness.as_ref().map(|_| InChain { stiffness: Some(stiffness.clone()), ..self.clone() })
     }
 }
 
@@ -74,7 +83,12 @@ impl Chain {
                     velocity: profile.velocity().to_vec(),
                 }),
                 run: Run::Time(self.until().clone()),
-                in_chain: Some(InChain { chain: chain.clone(), body, runs: runs.clone() }),
+                in_chain: Some(InChain {
+                    chain: chain.clone(),
+                    body,
+                    stiffness: chain.spring(body).map(|spring| spring.stiffness.clone()),
+                    runs: runs.clone(),
+                }),
             }
         };
         Ok(materials.into_iter().enumerate().map(problem).collect())
@@ -128,7 +142,7 @@ impl Problem {
     /// Returns the chain that the problem is a body of, with the values of the problem, and the index of the body;
     /// `None` for a rod by itself.
     pub fn chain(&self) -> Option<(Chain, usize)> {
-        let InChain { chain, body, .. } = self.in_chain.as_ref()?;
+        let InChain { chain, body, stiffness, .. } = self.in_chain.as_ref()?;
         let original = &chain.bodies()[*body];
         let Profile { displacement, strain, velocity } = match &self.start {
             Start::Profile(profile) => profile.clone(),
@@ -138,6 +152,10 @@ impl Problem {
         let original = original.with_start(velocity, displacement).with_strain(strain);
         let gravity = self.gravity.clone().unwrap_or_else(|| 0.into());
         let chain = chain.with_body(*body, body_of(&self.material, &original)).with_gravity(gravity);
+        let chain = match stiffness {
+            Some(stiffness) => chain.with_stiffness(*body, stiffness.clone()),
+            None => chain,
+        };
         let chain = match &self.run {
             Run::Time(time) => chain.with_end(time.clone()),
             Run::Impacts(_) => chain,

@@ -102,7 +102,7 @@ parameters! {
         ["c", "c0", "sound_speed", "speed_of_sound", "wave_velocity"];
     /// `E > 0`: Young's modulus, with the density in place of the wave speed: `c = √(E/ρ)`.
     number Modulus: "rod.modulus", modulus, "a modulus",
-        ["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus", "stiffness"];
+        ["e", "young", "youngs_modulus", "young_modulus", "elastic_modulus"];
     /// `ρ > 0`: the density.
     number Density: "rod.density", density, "a density", ["rho", "ρ", "mass_density"];
     /// `S > 0`: the cross-section; without it forces, impulses and energies are those of a unit of it.
@@ -122,6 +122,10 @@ parameters! {
     number DropHeight: "impact.drop_height", drop_height, "a drop height", ["h", "height", "fall_height"];
     /// `g ≥ 0`: the acceleration of gravity; without it none.
     number Gravity: "gravity.acceleration", gravity, "an acceleration", ["g"];
+    /// `k ≥ 0`: the stiffness of the spring that yields below a body of a chain, the whole of it: a force per length.
+    /// Only bodies that stand on a spring have one.
+    number Stiffness: "ground.stiffness", stiffness, "a stiffness",
+        ["k", "spring", "penalty", "contact_stiffness", "spring_constant"];
     /// The time up to which to follow the motion, which is included.
     number Time: "run.time", time, "a time", ["t", "t_end", "end_time", "duration", "until"];
     /// The number of contacts to follow, each with the flight after it; without it and without a `time`, one.
@@ -237,7 +241,8 @@ impl FromStr for Parameter {
             let mut error = UnknownName::new("parameter", text, all().map(Parameter::name));
             // A path that is misspelt is answered with a path.
             let path = || nearest(text, all().map(Parameter::path)).map(String::from);
-            let word = text.to_lowercase();
+            // The key of a path.
+            let word = text.rsplit('.').next().unwrap_or(text).to_lowercase();
             let meant = all().find(|known| known.table_and_key().1 == word || known.synonyms().contains(&&*word));
             error.nearest = error.nearest.or_else(path).or_else(|| meant.map(|known| known.name().into()));
             error

@@ -50,6 +50,17 @@ impl Draft {
         Ok(Material::Elastic { modulus, density, area })
     }
 
+    /// Returns the chain that the body is part of, with the stiffness of the spring below it.
+    pub(super) fn place_in_chain(&self) -> Result<Option<InChain>, ProblemError> {
+        let Some(stiffness) = self.non_negative(Parameter::Stiffness)? else { return Ok(self.in_chain.clone()) };
+        let place = self.in_chain.as_ref().and_then(|place| place.with_stiffness(stiffness.number));
+        place.map(Some).ok_or_else(|| {
+            let found = "a stiffness of rigid ground";
+            let expected = "a rod on a spring: a scene with [ground] stiffness, or Problem::on_spring";
+            ProblemError::new(Kind::Contradiction, Parameter::Stiffness.path(), found, expected)
+        })
+    }
+
     /// The start of a body of a chain, whose displacement may have either sign.
     pub(super) fn profile(&self, length: &Number) -> Result<Profile, ProblemError> {
         if let Some(impact) = IMPACT.iter().find(|parameter| self.has(**parameter)) {

@@ -20,6 +20,7 @@ impl Parameter {
         match (self, &problem.start) {
             (Parameter::Damping, _) => zero(problem.damping.as_ref()),
             (Parameter::Gravity, _) => zero(problem.gravity.as_ref()),
+            (Parameter::Stiffness, _) => zero(self.given(problem).as_ref()),
             (Parameter::ImpactSpeed, Start::Above { speed, .. }) => speed.is_zero(),
             // The end is on the ground.
             (Parameter::Displacement(Some(0)), _) => zero(self.list(problem).and_then(|list| Some(&list.first()?.1))),
@@ -38,9 +39,10 @@ impl Parameter {
             Parameter::Modulus | Parameter::Density => "a material: modulus and density",
             Parameter::ImpactSpeed => "an impact, or a start above the ground",
             Parameter::Gap => "a start above the ground",
+            Parameter::Stiffness => "a spring below the rod: [ground] stiffness or penalty in its scene",
             _ => {
-                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, displacement, strain or \
-                 velocity"
+                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, stiffness, displacement, \
+                 strain or velocity"
             }
         };
         self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })

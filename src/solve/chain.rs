@@ -63,7 +63,7 @@ pub(super) fn motion<N: Bounded>(
     };
     let run = match place.runs.get(&chain, rung.bits(), run) {
         Err(Error::TooManyPieces { .. }) if limited => return Err(undecided("by fractions")),
-        Err(Error::Irrational { .. }) if !is_last => return Err(undecided("by fractions")),
+        Err(Error::Irrational { .. } | Error::SoftExact) if !is_last => return Err(undecided("by fractions")),
         run => run?,
     };
     let motion = BodyMotion::new(&chain, body, run);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dalembert::chain::{Body, Chain, ChainColumn, ChainListing, ChainQuantity, ChainRun, End, Points, Spring};
 use dalembert::number::{Bounded, IntervalPrecision, Number, Scalar, Value, Wide};
-use dalembert::{Ending, Error, Estimate, Interval, Numbers, Side};
+use dalembert::{Ending, Error, Estimate, Interval, Numbers, Parameter, Problem, Quantity, Side};
 use serde_json::Value as Json;
 
 use crate::random_chain::Random;
@@ -243,6 +243,37 @@ fn a_free_rod_leaves_a_spring_ground_when_its_closed_form_says() {
     // From an equation solver with 60 digits.
     let digits = listing(&free_rod("20", "0", "4"), Numbers::Digits(28)).contacts[0].release.clone().unwrap();
     assert_eq!(digits.to_string(), "2.083917349500833032607362403");
+}
+
+/// **Source**: the closed form above, `T(ω) = 2 + x/ω`; with `(eˣ − 2) x′ = 2e^(−2ω)` it is `T′ = x′/ω − x/ω²`. The peak
+/// is `2e^(−E/2) − 1` with `E = e^(−2ω)`, and its slope `2E e^(−E/2)`.
+#[test]
+fn derivatives_by_the_stiffness_are_those_of_the_closed_form() {
+    for k in ["2", "20", "1000000"] {
+        let rod = free_rod(k, "0", "4").problems().unwrap().swap_remove(0);
+        assert_eq!(Parameter::Stiffness.given(&rod), Some(number(k)));
+        let omega: f64 = k.parse().unwrap();
+        let end = (-2.0 * omega).exp();
+        let x = extension(2.0 - end);
+        let slope = 2.0 * end / (x.exp() - 2.0) / omega - x / omega / omega;
+        let found = rod.doubles().unwrap().derivatives(Parameter::Stiffness, &[Quantity::Release, Quantity::PeakForce]);
+        for (cell, expected) in found.unwrap()[0].iter().zip([slope, 2.0 * end * (-end / 2.0).exp()]) {
+            let found = cell.as_ref().unwrap().value().unwrap();
+            let off = (found.value() - expected).abs();
+            assert!(off <= found.bound() + 1e-12 * expected.abs(), "{found:?} against {expected:e}");
+            assert!(found.bound() < 1e-6 / omega, "{found:?} for k = {k}");
+        }
+        // Another value gives the history of another chain.
+        let softer = Parameter::Stiffness.set(&rod, omega / 2.0).unwrap();
+        let release = |rod: &Problem| rod.doubles().unwrap().contacts()[0].release.unwrap();
+        let x = extension(2.0 - (-omega).exp());
+        assert!((release(&softer) - 2.0 - 2.0 * x / omega).abs() < 1e-12, "{softer:?}");
+        assert!(softer != rod && Parameter::Stiffness.set(&softer, omega).unwrap() == rod);
+    }
+    let rigid = Problem::builder().length(1).wave_speed(1).impact_speed(1);
+    assert_eq!(Parameter::Stiffness.value(&rigid.clone().build().unwrap()), None);
+    let error = rigid.stiffness(20).build().unwrap_err().to_string();
+    assert!(error.contains("found a stiffness of rigid ground, expected a rod on a spring"), "{error}");
 }
 
 /// **Source**: `π√(M/k)(1 + kL/6EA)` for k → 0; the vibration of the rod shifts the release by less than the power 3/2.

@@ -53,7 +53,8 @@ pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<TypedHistory
 /// they are one-sided, and those of damped rods come from runs whose rays are a little apart.
 const RAY_DISTANCE: [f64; 2] = [1e-9, 1e-3];
 
-/// Returns the derivative of each quantity at `times` by a value of the problem, `None` where the library settles none.
+/// Returns the derivative of each quantity at `times` by a value of the problem, `None` where the library settles none,
+/// and for a body of a chain, of which the library takes difference quotients in long numbers.
 ///
 /// **Accuracy**: that of [`TypedHistory::derivatives_at`], at times [`RAY_DISTANCE`] off the rays.
 pub(super) fn derivatives(
@@ -62,6 +63,9 @@ pub(super) fn derivatives(
     quantities: &[Quantity],
     times: &[f64],
 ) -> Option<Vec<Vec<f64>>> {
+    if history.problem().chain().is_some() {
+        return None;
+    }
     let trip = history.scales().time;
     let is_damped = by == Parameter::Damping || Parameter::Damping.value(history.problem()).is_some_and(|r| r > 0.0);
     let distance = trip * RAY_DISTANCE[usize::from(is_damped)];

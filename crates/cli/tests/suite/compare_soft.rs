@@ -86,6 +86,11 @@ fn finer_meshes_leave_the_part_of_the_contact() {
             ["contact", "scheme"].map(|which| report["softness"][0][which]["absolute"].as_f64().unwrap())
         })
         .collect();
+    // The stiffness that explains the finer run best is its own.
+    let fit = ["--contact-stiffness", "10", "--fit", "stiffness", "--format", "json"];
+    let fitted = json(&[&["compare", &path("rod.toml"), &path("200.csv")][..], &fit].concat());
+    let found = fitted["fit"]["values"][0]["value"].as_f64().unwrap();
+    assert!((found - 20.0).abs() < 0.2, "{found}");
     let [[coarse_contact, coarse], [fine_contact, fine]] = parts[..] else { panic!("{parts:?}") };
     assert!((coarse_contact - fine_contact).abs() < 0.01 * fine_contact, "{parts:?}");
     assert!(fine < 0.5 * coarse && fine < 0.1 * fine_contact, "{parts:?}");

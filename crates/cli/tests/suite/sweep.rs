@@ -196,6 +196,32 @@ fn a_sweep_without_any_number_fails() {
     assert!(String::from_utf8(none.stdout).unwrap().contains("no bounce: r t₁ = 4.000000 ≥ π"));
 }
 
+/// c = L = μ = ρS = 1: T = 2 + x/k with eˣ = 2 + 2x, x = 1.678346990016661, and in the limit e_P = 1 and the force ρSμc.
+#[test]
+fn stiffer_springs_come_to_rigid_ground() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let scene = "rod = { length = 1, wave_speed = 1, impedance = 1 }\nimpact.speed = 1\nground.penalty = 20\n\
+                 run.time = 4\n";
+    std::fs::write(file.path(), scene).unwrap();
+    let path = file.path().to_str().unwrap();
+    let asked = ["--quantity", "bounce_time,e_P,peak_force,release_velocity", "--format", "json"];
+    let vary = ["--vary", "ground.stiffness=1e1..1e12:12:log"];
+    let json: Value = serde_json::from_str(&run(&[&[path], &asked[..], &vary].concat()).unwrap()).unwrap();
+    let points = json["points"].as_array().unwrap();
+    assert_eq!(points.len(), 12);
+    for (k, point) in points.iter().enumerate().skip(1) {
+        let (stiffness, value) = (10f64.powi(k as i32 + 1), |name: &str| point["values"][name].as_f64().unwrap());
+        let late = value("bounce_time") - 2.0;
+        assert!((late * stiffness - 1.678346990016661).abs() < 1e-15 * stiffness + 1e-9, "{point}");
+        assert!((1.0 - value("e_P")) * stiffness < 0.06 && (value("peak_force") - 1.0).abs() < 1e-12, "{point}");
+    }
+    let said = run(&[&[path], &asked[..2], &["--vary", "ground.penalty=1,2"]].concat()).unwrap_err();
+    assert!(
+        said.contains("found the parameter `ground.penalty`") && said.contains("did you mean stiffness?"),
+        "{said}"
+    );
+}
+
 /// E = 4, ρ = 1, S = 2, L = 2: c = 2, ρS = 2, t_b = 2. What turns round is 2ρSLμ = 8 N s at the force ESμ/c = 4 N, and
 /// the energy is ρSLμ²/2 = 2 J, as `solve` has them.
 #[test]
