@@ -54,8 +54,8 @@
 //! Minnesota, August 2016: "the paper" throughout.
 //!
 //! The feature `mp` computes fractions and long numbers with GMP and MPFR: faster, above all in hundreds of digits.
-//! Without the default feature `long` an answer in doubles takes no longer numbers, and a program that asks for no others
-//! is a quarter as large. Without the default feature `chain` the bodies of a chain are not solved as rods, and
+//! Without the default feature `long` an answer in doubles takes no longer numbers, and a program that asks for no
+//! others is a quarter as large. Without the default feature `chain` the bodies of a chain are not solved as rods, and
 //! [`Error::NoChains`] says so.
 
 #[cfg(test)]

@@ -209,9 +209,9 @@ impl Orbit {
         })
     }
 
-    /// Returns the unit of speed in `problem`: `g t₁` under a free top; under a fixed one that which the gap determines,
-    /// `free` where it determines none. `None` where the rod has no such orbit: it hangs clear of the ground, and the
-    /// orbit presses it down, or the other way round.
+    /// Returns the unit of speed in `problem`: `g t₁` under a free top; under a fixed one that which the gap
+    /// determines, `free` where it determines none. `None` where the rod has no such orbit: it hangs clear of the
+    /// ground, and the orbit presses it down, or the other way round.
     fn unit<S: Scalar>(&self, problem: &Problem, rod: &Parameters<S>, free: &Number) -> Option<S> {
         if self.top == Top::Free {
             return Some(rod.critical_speed());
@@ -300,8 +300,8 @@ impl Orbit {
         }))
     }
 
-    /// Returns the problem that starts with the impact of the orbit and runs through `periods` of it: its strain and its
-    /// velocity at t = 0. `None` as in [`Orbit::values`].
+    /// Returns the problem that starts with the impact of the orbit and runs through `periods` of it: its strain and
+    /// its velocity at t = 0. `None` as in [`Orbit::values`].
     ///
     /// **Accuracy**: *exact*.
     ///
@@ -329,11 +329,11 @@ impl Orbit {
         Ok(Some(builder.build().map_err(|error| Box::new(error.into()))?))
     }
 
-    /// Estimates the factor by which a small disturbance of the orbit grows in each period: 1 where it does not, above 1
-    /// where the orbit is unstable. The disturbance makes all velocities of the start greater, or smaller, by the same
-    /// part. The factor is that of the derivative of the energy of the centre of mass after each contact, from the first
-    /// half of `periods` periods to the second. `None` where first order does not decide the order of events, on either
-    /// side.
+    /// Estimates the factor by which a small disturbance of the orbit grows in each period: 1 where it does not, above
+    /// 1 where the orbit is unstable. The disturbance makes all velocities of the start greater, or smaller, by the
+    /// same part. The factor is that of the derivative of the energy of the centre of mass after each contact, from the
+    /// first half of `periods` periods to the second. `None` where first order does not decide the order of events, on
+    /// either side.
     ///
     /// **Accuracy**: an estimate, by exact derivatives. One disturbance does not see every direction, and a derivative
     /// that grows like the number of periods gives a factor a little above 1.

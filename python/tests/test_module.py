@@ -513,6 +513,18 @@ def test_sweep_over_profiles():
         dalembert.sweep(rod, "bounce_time", displacement=depths)
 
 
+def test_sweep_over_the_stiffness_of_a_contact():
+    soft = dalembert.Problem.from_scene("getfem-penalty")
+    assert soft.stiffness == 20 and soft.replace(stiffness=40).stiffness == 40
+    # The closed form of the demonstration: it leaves at 2 + ln(2 − e^−ω)/ω with ω = k c/EA.
+    stiffness = np.array([2, 20, 1e3, 1e6])
+    found = dalembert.sweep(soft, "release", stiffness=stiffness)
+    expected = 2 + np.log(2 - np.exp(-stiffness)) / stiffness
+    assert (abs(found["release"] - expected) <= found.errors["release"] + 1e-15).all()
+    with pytest.raises(ValueError, match="found a stiffness of rigid ground"):
+        rod().replace(stiffness=20)
+
+
 def test_sweep_says_why_there_is_no_number():
     """A rod that is damped too much does not bounce; a value that is none is a point's own fault."""
     rod = dalembert.Problem(length=1, wave_speed=1, impact_speed=1)

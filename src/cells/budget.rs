@@ -335,8 +335,8 @@ impl Budget {
         self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
-    /// Records bounds since the last event: of the slope of velocities between rays and of the jumps at rays, of velocities
-    /// and `c v_x` (`most`), and of the invariants (`peak`).
+    /// Records bounds since the last event: of the slope of velocities between rays and of the jumps at rays, of
+    /// velocities and `c v_x` (`most`), and of the invariants (`peak`).
     pub(super) fn note_slope(&mut self, (slope, jumps): (f64, f64), (most, peak): (f64, f64)) {
         self.worst.jumps = self.worst.jumps.max(jumps);
         self.worst.slope = self.worst.slope.max(slope);

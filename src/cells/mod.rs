@@ -6,8 +6,8 @@
 //! them, `effort` limits a run. `follow` decides the events at the ground, `long_flight` decides when to leap, `event`
 //! carries an event out, `piece` stores the result. `budget` adds up the error bound, with the signs that `dependence`
 //! follows. `proof` proves each event by the `signs` of its series, from the `account` of the `defect` of each step.
-//! `rest` proves that no event can follow. `record` computes the field again, from cells that `strips` caches, `history`
-//! answers queries, `bounds` gives each answer the bound that follows from the `uncertainty` of the run.
+//! `rest` proves that no event can follow. `record` computes the field again, from cells that `strips` caches,
+//! `history` answers queries, `bounds` gives each answer the bound that follows from the `uncertainty` of the run.
 //! `estimated_contact` is the closed form of a first contact with such bounds.
 
 mod account;

@@ -1,14 +1,14 @@
 //! A cluster: neighbouring interfaces with the rigid masses between them, which act on each other without a delay.
 //!
-//! The states are the velocities of the masses and the gaps. While no contact changes, they solve a linear equation with
-//! constant coefficients, `x′ = Mx + Bu`, for arriving signals `u` that are polynomials. The solution is a Taylor
+//! The states are the velocities of the masses and the gaps. While no contact changes, they solve a linear equation
+//! with constant coefficients, `x′ = Mx + Bu`, for arriving signals `u` that are polynomials. The solution is a Taylor
 //! polynomial on each step; in a single state that decays much faster than the signals change, it is the polynomial
 //! solution and an exponential.
 //!
-//! **Errors**: the distance of the stored states from the true ones is bounded in the norm of the energy, `Σ mV² + Σ k gap²`
-//! over masses and loaded springs. An error of the arriving signals does work of at most `Z e²/4` per unit of time, and
-//! dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A single state is
-//! bounded by the greater of its error before and that of its input.
+//! **Errors**: the distance of the stored states from the true ones is bounded in the norm of the energy, `Σ mV² + Σ k
+//! gap²` over masses and loaded springs. An error of the arriving signals does work of at most `Z e²/4` per unit of
+//! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A
+//! single state is bounded by the greater of its error before and that of its input.
 
 use super::curve::{Curve, Fall, Signal, first_fall, greater, upper, value};
 use super::interface::{Interface, Mode, Moment, Row, Softness};
@@ -296,8 +296,8 @@ impl<N: Bounded> Cluster<N> {
         self.reached.late = upper(spread);
     }
 
-    /// Notes a doubt if the force of a closed contact may be greater between two breaks that coincide within their bounds
-    /// than before and after them.
+    /// Notes a doubt if the force of a closed contact may be greater between two breaks that coincide within their
+    /// bounds than before and after them.
     fn check_sliver(&mut self, j: usize, passed: &[(Moment<N>, N)]) {
         let interface = &self.interfaces[j];
         let closed = interface.law == Law::Contact && interface.mode == Mode::Closed;

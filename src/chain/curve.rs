@@ -240,8 +240,8 @@ impl<N: Bounded> Curve<N> {
         (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
     }
 
-    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve and
-    /// a factor whose product is the slope of the signal, if they are known.
+    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
+    /// and a factor whose product is the slope of the signal, if they are known.
     pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Self, &N)>) -> (N, N) {
         let [begin, end] = [from, to].map(|t| t.clone().centred().0);
         let width = (end.clone() - &begin).centred().0;
@@ -313,8 +313,8 @@ impl<N: Bounded> Curve<N> {
 
     /// Returns the time of a smooth maximum, which is near the time `here` after the origin, within its bound.
     ///
-    /// **Source**: a signal within `e` of the curve has its maximum where the curve is within `2e` of its own. Where the
-    /// curve is `2e` lower on either side, the maximum is between.
+    /// **Source**: a signal within `e` of the curve has its maximum where the curve is within `2e` of its own. Where
+    /// the curve is `2e` lower on either side, the maximum is between.
     fn time_of_maximum(&self, here: &N) -> N {
         let time = (self.origin.clone() + here).centred().0;
         let about = shifted(&self.terms, &self.in_units(here));
@@ -401,8 +401,8 @@ impl<N: Bounded> Signal<N> {
         }
     }
 
-    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve and
-    /// a factor whose product is the slope of the signal, if they are known.
+    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
+    /// and a factor whose product is the slope of the signal, if they are known.
     pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Curve<N>, &N)>) -> (N, N) {
         match self {
             Signal::Curve(curve) => curve.greatest(from, to, slope),

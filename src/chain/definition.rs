@@ -9,8 +9,8 @@ pub const MAX_PIECES: usize = 2_000_000;
 
 /// A spring with a dashpot beside it, through which two neighbours act on each other.
 ///
-/// The compressive force is `k δ + d δ′` for the depth `δ`, which is the negative gap. In a contact it acts while it pushes,
-/// and in a bonded joint always.
+/// The compressive force is `k δ + d δ′` for the depth `δ`, which is the negative gap. In a contact it acts while it
+/// pushes, and in a bonded joint always.
 ///
 /// **Units**: those of a whole cross-section, `k` in force per length and `d` in force per velocity.
 #[derive(Clone, Debug, PartialEq)]
@@ -242,8 +242,8 @@ impl ChainBuilder {
         self
     }
 
-    /// Puts a spring in place of rigid contact, or of a rigid bond, at a node: 0 is the bottom of the chain, `n` lies above
-    /// the n-th body.
+    /// Puts a spring in place of rigid contact, or of a rigid bond, at a node: 0 is the bottom of the chain, `n` lies
+    /// above the n-th body.
     ///
     /// ```
     /// use dalembert::chain::{Body, Chain, ChainColumn, End, Spring};

@@ -41,7 +41,8 @@ impl<N> BodySums<N> {
 impl<N: Bounded> ChainRun<N> {
     /// Returns displacement, velocity and strain of a body at its point `x`; on a ray, the limit in time from `side`.
     ///
-    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if the point is not told from a ray.
+    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if the point is not told from a
+    /// ray.
     pub fn field(&self, body: usize, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
         self.check_time(time)?;
         let Bar { length, wave_speed, mass, .. } = &self.bars[body];
@@ -177,8 +178,8 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns the sums over a body whose waves are curves.
     ///
-    /// **Source**: with `P = ∫p`, `∫ v dx = (c/2) ∫ (P + Q − g t²) ds` over the travel time before `t`, and the energies are
-    /// `(Z/8) ∫ (p + q − 2gt)² ds` and `(Z/8) ∫ (q − p)² ds`, where `q` is taken at `2t − T − s`.
+    /// **Source**: with `P = ∫p`, `∫ v dx = (c/2) ∫ (P + Q − g t²) ds` over the travel time before `t`, and the
+    /// energies are `(Z/8) ∫ (p + q − 2gt)² ds` and `(Z/8) ∫ (q − p)² ds`, where `q` is taken at `2t − T − s`.
     fn curved_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { impedance, travel, wave_speed, .. } = &self.bars[body];
         let windows = self.waves[body].each_ref().map(|wave| Window::new(wave, time, travel));

@@ -38,8 +38,8 @@ pub struct ChainListing {
 type Judged<'a> = (&'a Value, Measure);
 
 impl ChainListing {
-    /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to half as
-    /// many digits as the force, and that of a plateau not at all: it says so by its bound.
+    /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to
+    /// half as many digits as the force, and that of a plateau not at all: it says so by its bound.
     fn numbers(&self, peaks: bool) -> Vec<Judged<'_>> {
         let mut all = Vec::new();
         for event in &self.events {
@@ -323,8 +323,8 @@ impl ChainHistory {
 
     /// Returns displacement, velocity and strain of a body at its point; on a ray, the limit in time from `side`.
     ///
-    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if no attempt tells the point from a
-    /// ray.
+    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if no attempt tells the point from
+    /// a ray.
     pub fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()

@@ -254,7 +254,8 @@ pub(super) struct Interface<N> {
     open: Rows<N>,
     closed: Rows<N>,
     pub(super) mode: Mode,
-    /// The gap at the time that is reached, an exact number, and the bound of its error where it is no part of the norm.
+    /// The gap at the time that is reached, an exact number, and the bound of its error where it is no part of the
+    /// norm.
     pub(super) gap: N,
     pub(super) gap_error: N,
     /// Whether the contact has just opened at a gap of zero, from a force that fell to zero.

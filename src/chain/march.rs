@@ -19,8 +19,9 @@ impl<N: Bounded> ChainRun<N> {
     /// **Accuracy**: *exact* in fractions, *enclosure* in intervals; otherwise *within the bounds* that the numbers
     /// carry.
     ///
-    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance; [`Error::SoftExact`] in
-    /// fractions, and [`Error::NoChains`] without the feature `chain`, for springs, dashpots and masses;
+    /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance;
+    /// [`Error::SoftExact`] in fractions, and [`Error::NoChains`] without the feature `chain`, for springs, dashpots
+    /// and masses;
     /// [`Error::TooManyPieces`]; [`Error::Interrupted`].
     ///
     /// ```

@@ -322,8 +322,8 @@ impl<N: Bounded> Node<N> {
                 self.resting = false;
             }
         }
-        // Where two breaks, or a break and a root, coincide within their bounds, their order sets the rates at the event,
-        // the peak, and whether there is another event.
+        // Where two breaks, or a break and a root, coincide within their bounds, their order sets the rates at the
+        // event, the peak, and whether there is another event.
         let is_event = was_closed != self.closed;
         if (is_event && alone.is_some()) || (root.is_some() && crossed) {
             self.doubts(&t, &t);
@@ -410,8 +410,8 @@ impl<N: Bounded> Node<N> {
     }
 
     /// Notes a doubt if the force of a closed contact is greater between two breaks than before and after them. The
-    /// breaks coincide within their bounds; if they do not coincide, that force is the peak. `alone` has the drives after
-    /// one of them each.
+    /// breaks coincide within their bounds; if they do not coincide, that force is the peak. `alone` has the drives
+    /// after one of them each.
     fn check_sliver(&mut self, drives: [&Line<N>; 2], alone: Option<&[Line<N>; 2]>, t: &N) {
         let drives = drives.map(|line| line.value_at(t));
         // The force rises as the drive falls.

@@ -9,7 +9,8 @@ use super::wave::is_exact_zero;
 use crate::number::Bounded;
 
 impl<N: Bounded> Cluster<N> {
-    /// Returns the bounds of the errors of the states over a step, and adds what uncertain breaks before it have caused.
+    /// Returns the bounds of the errors of the states over a step, and adds what uncertain breaks before it have
+    /// caused.
     pub(super) fn step_errors(&mut self, inputs: &[[Curve<N>; 2]], step: &Step<N>) -> Vec<N> {
         self.add_slivers(step);
         let zero = self.norm.zero();
@@ -64,8 +65,8 @@ impl<N: Bounded> Cluster<N> {
         errors
     }
 
-    /// Lets the norm of a single state decay over a step: an error of the state before the step fades as `e⁻ᵏʷ`, which is
-    /// below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
+    /// Lets the norm of a single state decay over a step: an error of the state before the step fades as `e⁻ᵏʷ`, which
+    /// is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
     pub(super) fn fade(&mut self, width: &N) {
         let (Some((before, held)), Some(decay)) = (self.fading.take(), &self.linear.decay) else { return };
         let x = decay.clone() * width;

@@ -51,8 +51,8 @@ pub struct ChainContact<N> {
     pub impulse: N,
     /// Greatest force.
     pub peak: N,
-    /// The first time of the greatest force. Where the force agrees with its greatest value over some time within its bound,
-    /// as on a plateau, the bound of this time covers all of it.
+    /// The first time of the greatest force. Where the force agrees with its greatest value over some time within its
+    /// bound, as on a plateau, the bound of this time covers all of it.
     pub peak_time: N,
 }
 

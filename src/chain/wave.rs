@@ -196,8 +196,8 @@ impl<N: Bounded> Wave<N> {
 /// Roundoff, as `log₂`, above which numbers are doubles: spelled times are not much longer than their roundings.
 const DOUBLE_ROUNDOFF: f64 = -60.0;
 
-/// Compares a time with that of a break, or a point with that of a ray. In longer numbers a time within some roundings of
-/// a break is at the break, since times of more digits are asked of still longer numbers.
+/// Compares a time with that of a break, or a point with that of a ray. In longer numbers a time within some roundings
+/// of a break is at the break, since times of more digits are asked of still longer numbers.
 ///
 /// **Errors**: [`Open`] if the error of the break leaves the order undecided, or in doubles that of either.
 pub(super) fn order<N: Bounded>(time: &N, from: &N) -> Result<Ordering, Open> {
@@ -268,8 +268,8 @@ pub(super) fn smooth_value<'a, N: Bounded + 'a>(
     either(signals.map(|(_, signal)| signal.value_at(time))).ok_or(Open)
 }
 
-/// Returns whether the signal of `items`, each of which comes with its beginning, may have two limits at a time: whether it
-/// jumps there, or a new line begins.
+/// Returns whether the signal of `items`, each of which comes with its beginning, may have two limits at a time:
+/// whether it jumps there, or a new line begins.
 ///
 /// **Errors**: [`Open`] if the error of a jump leaves undecided whether it is at the time.
 pub(super) fn may_jump<T, N: Bounded>(

@@ -172,8 +172,8 @@ pub trait Motion<S: Scalar>: Send + Sync {
         Err(Error::NoRays)
     }
 
-    /// Returns the rays that leave the lower end, and those that leave the upper end, by their times of departure and the
-    /// jumps of `v_t`; a ray that enters the rod elsewhere by the time at which it would have left the end.
+    /// Returns the rays that leave the lower end, and those that leave the upper end, by their times of departure and
+    /// the jumps of `v_t`; a ray that enters the rod elsewhere by the time at which it would have left the end.
     ///
     /// **Errors**: [`Error::NoWaves`] for a rod by itself, whose rays [`Motion::waves`] and [`Motion::rays`] return.
     fn departures(&self) -> Result<[Vec<(S, S)>; 2], Error> {

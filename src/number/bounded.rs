@@ -19,8 +19,8 @@ pub trait Bounded: Scalar {
         self
     }
 
-    /// Returns the stored value, or the middle of an enclosure, as an exact number, with a bound of its distance from the
-    /// true number. A number without a bound of its own is returned as it is.
+    /// Returns the stored value, or the middle of an enclosure, as an exact number, with a bound of its distance from
+    /// the true number. A number without a bound of its own is returned as it is.
     fn centred(&self) -> (Self, Self) {
         (self.clone(), self.zero())
     }

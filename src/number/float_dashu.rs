@@ -611,8 +611,8 @@ impl Function {
     }
 }
 
-/// Returns a number slightly farther from zero, or slightly nearer, than `mantissa · 2^exponent`: by less than a unit of
-/// its last bit, and of the third bit beyond `bits`.
+/// Returns a number slightly farther from zero, or slightly nearer, than `mantissa · 2^exponent`: by less than a unit
+/// of its last bit, and of the third bit beyond `bits`.
 fn next_to(mantissa: &IBig, exponent: i64, farther: bool, bits: u32) -> Cut {
     let by = (bits as usize + 3).saturating_sub(mantissa.bit_len());
     let (sign, size) = (mantissa.sign(), mantissa.unsigned_abs() << by);

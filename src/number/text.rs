@@ -32,8 +32,8 @@ pub fn show<S: Scalar>(x: &S, digits: u32) -> String {
     shown_digits(x, digits).map_or_else(|| "0".into(), |digits| x.decimal(digits))
 }
 
-/// Returns [`show`] beside numbers up to `greatest`: where no digit is known, `below 3.1e-6`, the bound of the magnitude
-/// of the number. A bound of less than the last digit of `greatest` is not told: the number is `0` beside it.
+/// Returns [`show`] beside numbers up to `greatest`: where no digit is known, `below 3.1e-6`, the bound of the
+/// magnitude of the number. A bound of less than the last digit of `greatest` is not told: the number is `0` beside it.
 pub fn show_beside<S: Scalar>(x: &S, digits: u32, greatest: f64) -> String {
     let bound = shown_bound(x, digits);
     let is_zero = bound <= greatest.log2() - f64::from(digits) / std::f64::consts::LOG10_2;

@@ -117,8 +117,8 @@ impl Builder {
         self
     }
 
-    /// Sets the strain at `t = 0` as points `(x, v_x)`, linear between them, in place of the displacement; the lower end
-    /// touches the ground. It may jump: the same `x` twice.
+    /// Sets the strain at `t = 0` as points `(x, v_x)`, linear between them, in place of the displacement; the lower
+    /// end touches the ground. It may jump: the same `x` twice.
     ///
     /// ```
     /// use dalembert::{Problem, Side};

@@ -101,8 +101,8 @@ pub enum Speed {
 }
 
 /// A start that is not uniform: values at points `x` in increasing order from `0` to `L`, linear between them.
-/// An empty list means zero. Strain and velocity may jump: the same `x` twice. Of displacement and strain one at most is
-/// given; with a strain the lower end touches the ground.
+/// An empty list means zero. Strain and velocity may jump: the same `x` twice. Of displacement and strain one at most
+/// is given; with a strain the lower end touches the ground.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Profile {
     /// Pairs `(x, v)`.

@@ -165,7 +165,8 @@ impl Problem {
 
     /// Returns the same rod, by itself, on a ground that yields as `spring` does, followed up to the time `until`.
     ///
-    /// **Errors**: [`ProblemError`] for a damped rod, a drop height whose speed is no fraction, a body of a chain, and for values out of range.
+    /// **Errors**: [`ProblemError`] for a damped rod, a drop height whose speed is no fraction, a body of a chain, and
+    /// for values out of range.
     ///
     /// ```
     /// use dalembert::{Problem, chain::Spring};
@@ -225,8 +226,8 @@ impl Problem {
         Ok(chain.problems()?.swap_remove(0))
     }
 
-    /// Returns the same body of its chain with rigid joints and ends in place of springs and dashpots; `None` for a rod by
-    /// itself, and in a chain without them.
+    /// Returns the same body of its chain with rigid joints and ends in place of springs and dashpots; `None` for a rod
+    /// by itself, and in a chain without them.
     ///
     /// **Errors**: [`ProblemError`] if rigid masses would touch.
     pub fn rigid_contact(&self) -> Result<Option<Problem>, ProblemError> {

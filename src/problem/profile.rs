@@ -18,7 +18,8 @@ pub(crate) const SHAPE: &str = "points [x, value] from x = 0 to x = length, such
 /// A list of points `(x, value)` that is not checked.
 pub(crate) type Points = Vec<(Written, Written)>;
 
-/// The profile of a rod of this length, from the points of the lists of the start; what is not given is zero. `over_ground` states whether the ground at zero limits the displacement.
+/// The profile of a rod of this length, from the points of the lists of the start; what is not given is zero.
+/// `over_ground` states whether the ground at zero limits the displacement.
 pub(super) fn check(given: &ByParameter<Points>, length: &Number, over_ground: bool) -> Result<Profile, ProblemError> {
     let read = |parameter: Parameter| {
         given.get(&parameter).map_or(Ok(Vec::new()), |points| read(parameter.name(), points, length, over_ground))

@@ -7,8 +7,8 @@ use crate::motion::{Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::threads::Threads;
 
-/// Returns the values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two limits of any
-/// of them differ, a time has two rows, the limit from earlier times first.
+/// Returns the values of `columns` at every time of `times`, column by column. Where `side` is `None` and the two
+/// limits of any of them differ, a time has two rows, the limit from earlier times first.
 ///
 /// **Accuracy**: that of the history's answers, and one rounding for each factor.
 ///
@@ -171,8 +171,8 @@ fn in_threads<S: Scalar>(
     Ok(all)
 }
 
-/// Scales each column of a table to about 1 by a power of two, so that one accuracy holds for columns of different size:
-/// 1 is its natural scale, or its greatest value where that is more.
+/// Scales each column of a table to about 1 by a power of two, so that one accuracy holds for columns of different
+/// size: 1 is its natural scale, or its greatest value where that is more.
 pub(crate) fn scaled<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,

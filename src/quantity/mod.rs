@@ -1,5 +1,5 @@
-//! Quantities of a history: the table of them, their values, slices along the rod, units. Nothing here looks back at the
-//! scene.
+//! Quantities of a history: the table of them, their values, slices along the rod, units. Nothing here looks back at
+//! the scene.
 
 mod column;
 mod convert;

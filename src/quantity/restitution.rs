@@ -83,8 +83,8 @@ pub fn restitution<S: Scalar>(history: &dyn Motion<S>, (from, to): (&S, Option<&
     Ok(Restitution { e_p: momentum, e_e2: energy_squared })
 }
 
-/// Computes the factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of the
-/// energy that is left moves the centre of mass, and `E(to)/E(from)`, what part damping leaves.
+/// Computes the factors of `e_E²` of the contact that begins at `from` and ends at `to`: `E_h(to)/E(to)`, what part of
+/// the energy that is left moves the centre of mass, and `E(to)/E(from)`, what part damping leaves.
 ///
 /// **Source**: (4.73). **Accuracy**: that of the energies. **Errors**: what the history cannot answer.
 pub fn energy_shares<S: Scalar>(

@@ -70,8 +70,8 @@ impl UnitSystem {
         ("other", UnitSystem::Other),
     ];
 
-    /// Returns the name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none or none
-    /// is known.
+    /// Returns the name of the unit of `measure`, `per_area` where no cross-section is given; empty where there is none
+    /// or none is known.
     pub(crate) fn name(self, measure: Measure, per_area: bool) -> &'static str {
         let [length, velocity, stress] = match self {
             UnitSystem::Si => ["m", "m/s", "Pa"],
@@ -149,8 +149,8 @@ impl Units {
         matches!(self.material, Material::Elastic { .. })
     }
 
-    /// Returns the name of the unit of `measure`: `Pa`; `per ρS` for impulse and energy without a material; empty where none
-    /// is known.
+    /// Returns the name of the unit of `measure`: `Pa`; `per ρS` for impulse and energy without a material; empty where
+    /// none is known.
     pub fn name(&self, measure: Measure) -> &'static str {
         match measure {
             _ if self.has_material() => {

@@ -67,8 +67,8 @@ impl ValueQuery {
         ValueQuery { quantity, point: None, time, side: Side::Right }
     }
 
-    /// Returns the value in units of the problem, whose run is `run`, and the same value without a unit; or the reason why
-    /// there is none.
+    /// Returns the value in units of the problem, whose run is `run`, and the same value without a unit; or the reason
+    /// why there is none.
     pub fn evaluate<S: Scalar>(
         &self,
         motion: &dyn Motion<S>,

@@ -80,8 +80,8 @@ const TABLES: [(&str, &[&str]); 6] = [
 /// time = 1
 /// ```
 ///
-/// A single body may stand in `[rod]`, which has `bottom` and `top` of its own; it starts with `[impact] speed` and `gap`
-/// or with the points of `[start]`. Without `bottom` it is above rigid ground.
+/// A single body may stand in `[rod]`, which has `bottom` and `top` of its own; it starts with `[impact] speed` and
+/// `gap` or with the points of `[start]`. Without `bottom` it is above rigid ground.
 ///
 /// ```toml
 /// [rod]
@@ -94,11 +94,11 @@ const TABLES: [(&str, &[&str]); 6] = [
 /// time = 0.6
 /// ```
 ///
-/// A joint may yield: `joint = { stiffness = 5e9, damping = 2e4 }` is a spring with a dashpot beside it that pushes where
-/// the bodies touch, and with `bonded = true` one that pulls as well. Both are those of the whole cross-section, in force
-/// per length and in force per velocity. `penalty = 20` is a stiffness of 20 EA/L of the body. `[ground]` takes the same
-/// keys, and so does an end: `top = { gap = 0.1, stiffness = 5 }`, or without a gap a spring to a wall. A body with a `mass`
-/// and without a length is rigid.
+/// A joint may yield: `joint = { stiffness = 5e9, damping = 2e4 }` is a spring with a dashpot beside it that pushes
+/// where the bodies touch, and with `bonded = true` one that pulls as well. Both are those of the whole cross-section,
+/// in force per length and in force per velocity. `penalty = 20` is a stiffness of 20 EA/L of the body. `[ground]`
+/// takes the same keys, and so does an end: `top = { gap = 0.1, stiffness = 5 }`, or without a gap a spring to a wall.
+/// A body with a `mass` and without a length is rigid.
 ///
 /// ```toml
 /// [[body]]
@@ -114,9 +114,10 @@ const TABLES: [(&str, &[&str]); 6] = [
 /// time = 12
 /// ```
 ///
-/// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among several
-/// bodies each has the number of its `body`, from 1. Those of the whole chain are called as `sample` and `solve` call them:
-/// `u_top.2` and `force.1` at a `time`, and `impact.1`, `release.top`, `impulse.bottom`, `peak_force.1` of a `contact`.
+/// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among
+/// several bodies each has the number of its `body`, from 1. Those of the whole chain are called as `sample` and
+/// `solve` call them: `u_top.2` and `force.1` at a `time`, and `impact.1`, `release.top`, `impulse.bottom`,
+/// `peak_force.1` of a `contact`.
 ///
 /// A body under uniaxial strain has `poisson = 0.3` and `state = "uniaxial strain"`: the modulus of its waves is
 /// `E(1 − ν)/((1 + ν)(1 − 2ν))`. A force pulls where it is positive.

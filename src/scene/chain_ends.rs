@@ -48,8 +48,8 @@ impl Reader<'_> {
         value.get_ref().as_bool().ok_or_else(|| self.wrong_type(value, key, "true or false"))
     }
 
-    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`, with the springs there. A `[rod]` without a bottom is above
-    /// the ground, by the gap of `[impact]`.
+    /// Reads the ends, in `[ends]` or in `[rod]`, and `[ground]`, with the springs there. A `[rod]` without a bottom is
+    /// above the ground, by the gap of `[impact]`.
     pub(super) fn ends(&self, is_rod: bool, bodies: [&Body; 2]) -> Result<([End; 2], [Option<Spring>; 2]), SceneError> {
         let place = if is_rod { "rod" } else { "ends" };
         let table = self.table(place);

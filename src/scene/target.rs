@@ -102,7 +102,8 @@ fn label(name: &str, contact: usize, side: Side) -> String {
 }
 
 impl Published {
-    /// Returns the tolerance of the number: the one that is given, or half a unit of its last digit; zero for a fraction.
+    /// Returns the tolerance of the number: the one that is given, or half a unit of its last digit; zero for a
+    /// fraction.
     ///
     /// ```
     /// use dalembert::Scene;
@@ -132,8 +133,8 @@ const KEYS: &[&str] =
 pub(super) type Targets = (Vec<(usize, Target)>, Vec<ChainTarget>);
 
 impl<'a> Reader<'a> {
-    /// Returns the published values of the scene, and of `chain` if it is one; `materials` says of which bodies stress and
-    /// force have a value.
+    /// Returns the published values of the scene, and of `chain` if it is one; `materials` says of which bodies stress
+    /// and force have a value.
     pub(super) fn targets(&self, materials: &[bool], chain: Option<&Chain>) -> Result<Targets, SceneError> {
         let mut targets = Targets::default();
         let Some((_, value)) = self.get("target") else { return Ok(targets) };

@@ -110,9 +110,6 @@ pub(super) enum Open<S: Answer> {
     Ask(Longer<S>),
     /// The same, for an engine in another number system, which reports undecided times itself.
     Says(Longer<S>),
-    /// Longer runs are queried for what the engine leaves open; if none decides, its error stands. For bodies of chains,
-    /// whose rays are not those of a rod by itself.
-    Passes(Longer<S>),
     /// Spelled times yield this error; computed times stand for the event or the ray.
     Refuse(Error),
 }
@@ -171,20 +168,6 @@ impl<S: Rounded> Telling<S> {
         run
     }
 
-    /// Returns the answer at a time of the first longer run that decides it.
-    fn decided<T>(
-        &self,
-        longer: &Longer<S>,
-        time: &Estimate<S>,
-        ask: impl Fn(&dyn Motion<Estimate<S>>) -> Result<T, Error>,
-    ) -> Option<T> {
-        // Fractions interpret a double as the number that it spells.
-        let many = || self.engine.digits_lost().is_some_and(|(contacts, _)| contacts > longer.exact_contacts);
-        let is_near = || time.spelled_as() == Some(Spelling::Near);
-        let rungs = longer.rungs.iter().filter(|rung| **rung != Rung::Fractions || !is_near() && !many());
-        rungs.filter_map(|rung| self.made(longer, *rung)).find_map(|run| ask(&*run).ok())
-    }
-
     /// Returns the answer of `ask` at a time, from a longer run if this one is undecided; otherwise all possible
     /// answers, combined by `cover`.
     fn answer<T>(
@@ -200,20 +183,19 @@ impl<S: Rounded> Telling<S> {
                 Err(Error::NotDecided { what: NOT_TOLD, .. }) => longer,
                 found => return found,
             },
-            Open::Passes(longer) => {
-                return ask(&*self.engine, time, side).or_else(|error| match error {
-                    Error::NotDecided { .. } | Error::Open(_) => {
-                        self.decided(longer, time, |run| ask(run, time, side)).ok_or(error)
-                    }
-                    error => Err(error),
-                });
-            }
             _ if self.near(point, time).is_empty() => return ask(&*self.engine, time, side),
             Open::Ask(longer) => longer,
             Open::Refuse(error) => return Err(error.clone()),
         };
-        if let Some(found) = self.decided(longer, time, |run| ask(run, time, side)) {
-            return Ok(found);
+        for rung in &longer.rungs {
+            // Fractions interpret a double as the number that it spells.
+            let many = || self.engine.digits_lost().is_some_and(|(contacts, _)| contacts > longer.exact_contacts);
+            if *rung == Rung::Fractions && (time.spelled_as() == Some(Spelling::Near) || many()) {
+                continue;
+            }
+            if let Some(Ok(found)) = self.made(longer, *rung).map(|run| ask(&*run, time, side)) {
+                return Ok(found);
+            }
         }
         let mut met = self.windows().all(point, time);
         if met.is_empty() {
@@ -222,8 +204,8 @@ impl<S: Rounded> Telling<S> {
         locked(&self.covered).push(time.to_f64());
         let mut found: Option<T> = None;
         for met in met {
-            // `time` is within both bounds of `met`, and a spelled time within its bound of `time`; a computed one stands
-            // for `met`.
+            // `time` is within both bounds of `met`, and a spelled time within its bound of `time`; a computed one
+            // stands for `met`.
             let spelled = if time.spelled_as().is_some() { time.bound() } else { 0.0 };
             let late = met.double(met.bound() + time.bound() + spelled);
             let exactly = |time: Estimate<S>| Estimate::exact(time.into_value());
@@ -269,7 +251,7 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     }
 
     fn pair(&self, pair: Pair, time: &Estimate<S>, side: Side) -> Result<[Estimate<S>; 2], Error> {
-        if pair != Pair::GroundEnd && !matches!(self.open, Open::Passes(_)) {
+        if pair != Pair::GroundEnd {
             return self.engine.pair(pair, time, side);
         }
         let ask = |engine: &dyn Motion<_>, time: &_, side| engine.pair(pair, time, side);
@@ -296,10 +278,6 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     }
 
     fn may_jump(&self, time: &Estimate<S>) -> Result<bool, Error> {
-        if let Open::Passes(longer) = &self.open {
-            let found = self.engine.may_jump(time);
-            return found.or_else(|error| self.decided(longer, time, |run| run.may_jump(time)).ok_or(error));
-        }
         let [ground, top] = [time.zero(), self.engine.scales().length];
         if matches!(self.open, Open::Says(_)) {
             return Ok(self.engine.may_jump(time).unwrap_or(true));
@@ -348,9 +326,6 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     }
     fn stretches(&self, time: &Estimate<S>) -> Result<Vec<Stretch<Estimate<S>>>, Error> {
         self.engine.stretches(time)
-    }
-    fn departures(&self) -> Result<[Vec<(Estimate<S>, Estimate<S>)>; 2], Error> {
-        self.engine.departures()
     }
     fn corners(&self) -> Vec<Estimate<S>> {
         self.engine.corners()

@@ -26,8 +26,7 @@ pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
     match numbers {
         Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
         Numbers::Double(_) => {
-            let [first, second] = [Rung::Double, Rung::Fractions];
-            vec![first, second, Rung::Bits(128), Rung::Bits(256), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
+            vec![Rung::Double, Rung::Fractions, Rung::Bits(128), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
         }
         Numbers::Exact => vec![Rung::Fractions],
         Numbers::Digits(digits) => long(bits(digits)).into(),
@@ -38,8 +37,8 @@ pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
 
 /// Returns the motion of the body that `problem` describes, from a run of its chain in the numbers `N`.
 ///
-/// **Errors**: those of the run; [`Error::NotDecided`] if longer numbers follow and this run does not decide its events,
-/// or if its fractions end.
+/// **Errors**: those of the run; [`Error::NotDecided`] if longer numbers follow and this run does not decide its
+/// events, or if its fractions end.
 pub(super) fn motion<N: Bounded>(
     problem: &Problem,
     plan: &Plan,

@@ -18,13 +18,14 @@ use crate::problem::Problem;
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
         if plan.engine == Engine::Chain {
-            let engine = in_chain(problem, plan, rung, observe)?;
-            let rungs: Vec<Rung> =
-                chain::rungs(plan.numbers).into_iter().skip_while(|it| *it != rung).skip(1).collect();
-            let (whole, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
-            let run = move |rung: Rung| in_chain(&whole, &plan, rung, &observe);
-            let longer = Longer::<f64> { rungs, exact_contacts: u32::MAX, run: Box::new(run) };
-            return Ok(Telling::of(engine, problem, Open::Passes(longer)));
+            return Ok(match rung {
+                Rung::Double => chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?,
+                Rung::Fractions => {
+                    Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?))
+                }
+                rung if LONG => long::chain_in_doubles(problem, plan, rung, observe)?,
+                _ => return Err(not_in_doubles()),
+            });
         }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
@@ -65,16 +66,6 @@ impl Target for f64 {
             .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
             .collect())
     }
-}
-
-/// Makes an attempt at a chain in the numbers of `rung`, converted to doubles.
-fn in_chain(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
-    Ok(match rung {
-        Rung::Double => chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?,
-        Rung::Fractions => Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?)),
-        rung if LONG => long::chain_in_doubles(problem, plan, rung, observe)?,
-        _ => return Err(not_in_doubles()),
-    })
 }
 
 /// Returns the error of a build without longer numbers.

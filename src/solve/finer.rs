@@ -27,8 +27,8 @@ type LongRun = Option<Arc<TypedHistory<Float>>>;
 pub(super) struct Finer(Mutex<Option<(u32, LongRun)>>);
 
 impl Finer {
-    /// Returns a run of `plan` in the digits that `places` need; `None` if the numbers of the plan hold them, or if such
-    /// a run fails.
+    /// Returns a run of `plan` in the digits that `places` need; `None` if the numbers of the plan hold them, or if
+    /// such a run fails.
     ///
     /// **Errors**: [`Error::Interrupted`] by `observe`.
     pub(super) fn run(

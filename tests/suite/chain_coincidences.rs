@@ -118,8 +118,8 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
     assert!(compared > 10_000, "{compared}");
 }
 
-/// A wave that slows an approach reaches the joint just after or just before it closes. The velocities −1/2 and −1/10 at
-/// which free ends would close give the forces 1/4 and 1/20 of bars of impedance one.
+/// A wave that slows an approach reaches the joint just after or just before it closes. The velocities −1/2 and −1/10
+/// at which free ends would close give the forces 1/4 and 1/20 of bars of impedance one.
 #[test]
 fn a_wave_beside_an_impact_sets_its_force() {
     for e in [6, 12, 18, 25] {

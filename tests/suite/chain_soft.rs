@@ -104,8 +104,8 @@ trait ReadsText: Bounded {
 }
 impl<N: Bounded> ReadsText for N {}
 
-/// Compares events, contacts, forces, gaps, energies, ends and sums of all cases; returns the number of comparisons and the
-/// widest bound.
+/// Compares events, contacts, forces, gaps, energies, ends and sums of all cases; returns the number of comparisons and
+/// the widest bound.
 fn compare<N: Bounded>(precision: &N::Precision, only: impl Fn(&str) -> bool) -> (usize, f64) {
     let mut compared = Compared { name: String::new(), count: 0, widest: 0.0 };
     for case in cases().iter().filter(|case| only(case["name"].as_str().unwrap())) {
@@ -225,8 +225,8 @@ fn extension(a: f64) -> f64 {
     x
 }
 
-/// **Source**: the contact of a free rod on a spring ground ends at `2L/c + x/ω` with `eˣ = 2 − e^(−2ωL/c) + 2x`, and its
-/// greatest depth is `(μ/ω)(2e^(−E/2) − 1)`.
+/// **Source**: the contact of a free rod on a spring ground ends at `2L/c + x/ω` with `eˣ = 2 − e^(−2ωL/c) + 2x`, and
+/// its greatest depth is `(μ/ω)(2e^(−E/2) − 1)`.
 #[test]
 fn a_free_rod_leaves_a_spring_ground_when_its_closed_form_says() {
     for k in ["2", "5", "20", "1000", "100000", "10000000", "1000000000"] {
@@ -245,8 +245,8 @@ fn a_free_rod_leaves_a_spring_ground_when_its_closed_form_says() {
     assert_eq!(digits.to_string(), "2.083917349500833032607362403");
 }
 
-/// **Source**: the closed form above, `T(ω) = 2 + x/ω`; with `(eˣ − 2) x′ = 2e^(−2ω)` it is `T′ = x′/ω − x/ω²`. The peak
-/// is `2e^(−E/2) − 1` with `E = e^(−2ω)`, and its slope `2E e^(−E/2)`.
+/// **Source**: the closed form above, `T(ω) = 2 + x/ω`; with `(eˣ − 2) x′ = 2e^(−2ω)` it is `T′ = x′/ω − x/ω²`. The
+/// peak is `2e^(−E/2) − 1` with `E = e^(−2ω)`, and its slope `2E e^(−E/2)`.
 #[test]
 fn derivatives_by_the_stiffness_are_those_of_the_closed_form() {
     for k in ["2", "20", "1000000"] {
@@ -300,7 +300,8 @@ fn a_dashpot_ground_begins_with_its_force() {
     }
 }
 
-/// **Source**: the delay equation of the classical problem, solved piece by piece with 60 digits; Timoshenko and Goodier print 3.068, 4.708, 5.900, 7.419.
+/// **Source**: the delay equation of the classical problem, solved piece by piece with 60 digits; Timoshenko and
+/// Goodier print 3.068, 4.708, 5.900, 7.419.
 #[test]
 fn a_mass_leaves_a_clamped_rod_when_independent_programs_say() {
     let published = [

@@ -13,8 +13,9 @@ use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use serde_json::Value;
 
-/// Runs `check` on so many random cases, or on as many as `PROPTEST_CASES` says if that is more. It says how many numbers
-/// of a case it has compared, by one or several routes; each route must have compared some in at least so many cases.
+/// Runs `check` on so many random cases, or on as many as `PROPTEST_CASES` says if that is more. It says how many
+/// numbers of a case it has compared, by one or several routes; each route must have compared some in at least so many
+/// cases.
 #[track_caller]
 pub(crate) fn compares<T: Debug, const N: usize>(
     cases: u32,

@@ -250,8 +250,8 @@ fn cuts(problem: &Problem, events: &[Float], time: &Float) -> Vec<Float> {
     cuts
 }
 
-/// Gauss–Legendre between rays, from values of the field in twenty digits: means, and what a projection leaves, which is
-/// orthogonal to every hat function.
+/// Gauss–Legendre between rays, from values of the field in twenty digits: means, and what a projection leaves, which
+/// is orthogonal to every hat function.
 #[test]
 fn they_are_integrals_of_the_field() {
     let rod = || Problem::builder().length("1.5").wave_speed(2).gravity("0.7").impact_speed("1.9");

@@ -75,8 +75,8 @@ pub struct Options {
     /// gap, and the stiffness of a contact that yields
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub fit: Vec<Parameter>,
-    /// Stiffness of the contact of the data, of the whole cross-section: ours then yields alike, and the report says what
-    /// the stiffness explains
+    /// Stiffness of the contact of the data, of the whole cross-section: ours then yields alike, and the report says
+    /// what the stiffness explains
     #[arg(long, value_name = "K")]
     pub contact_stiffness: Option<Number>,
     /// Time to which the data are to go; by default the end of the run of the scene

@@ -53,8 +53,8 @@ impl Drawing {
         Ok(DrawnSvg { svg: self.svg(&request, &[scene], title), color_limit })
     }
 
-    /// Draws the bodies of a chain, from the bottom up, each with its name and the units of its numbers: their fields at
-    /// their heights, and the forces at the joints; on a page also their centres and energies.
+    /// Draws the bodies of a chain, from the bottom up, each with its name and the units of its numbers: their fields
+    /// at their heights, and the forces at the joints; on a page also their centres and energies.
     ///
     /// **Accuracy**: that of the histories, and a hundredth of a millimetre.
     ///

@@ -26,7 +26,8 @@ pub struct Request {
     pub from: Option<f64>,
     /// Last time; by default a time that shows the first contacts.
     pub to: Option<f64>,
-    /// Heights at which [`Picture::SpaceTime`] shows the bodies of a chain, in one panel; empty for scenes by themselves.
+    /// Heights at which [`Picture::SpaceTime`] shows the bodies of a chain, in one panel; empty for scenes by
+    /// themselves.
     pub heights: Vec<f64>,
 }
 
@@ -116,8 +117,8 @@ impl Request {
 
     /// Asks a history for all that the pictures show.
     ///
-    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`] for
-    /// a body of a chain with springs, dashpots or masses.
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`]
+    /// for a body of a chain with springs, dashpots or masses.
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
         // Pictures are drawn from lines between rays.
         if history.problem().chain().is_some_and(|(chain, _)| chain.is_soft()) {

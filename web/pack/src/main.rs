@@ -45,8 +45,8 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Writes four bytes as five characters, from `#` to `y` without the less-than sign and the backslash: a sixteenth shorter than base64. The
-/// function `unpacked` of the page reads them.
+/// Writes four bytes as five characters, from `#` to `y` without the less-than sign and the backslash: a sixteenth
+/// shorter than base64. The function `unpacked` of the page reads them.
 fn encoded(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
     for group in bytes.chunks(4) {

@@ -4,13 +4,14 @@ use crate::command::{json, quiet, refused};
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// Samples of the exact soft solution have no error of a scheme: all that they differ from rigid contact is the contact.
+/// Samples of the exact soft solution have no error of a scheme: all that they differ from rigid contact is the
+/// contact.
 #[test]
 fn the_contact_explains_what_a_penalty_does() {
     let folder = TempDir::new().unwrap();
     let data = folder.path().join("run.csv").display().to_string();
     // Times of rays are among the samples, where pieces of the exact signals meet.
-    let args = ["sample", "getfem-penalty", "--times", "0..3:301", "--quantity", "u_end,force,E_total"];
+    let args = ["sample", "getfem-penalty", "--times", "0..3:31", "--quantity", "u_end,force,E_total"];
     quiet(&[&args[..], &["--format", "csv", "-o", &data]].concat());
     let soft = json(&["compare", "getfem-penalty", &data, "--format", "json"]);
     let given = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "20", "--to", "3"];

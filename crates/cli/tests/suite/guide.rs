@@ -33,8 +33,8 @@ fn output(line: &str, work: &Path) -> String {
     lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
-/// The chapter with what its commands print now. Its scenes and scripts are written into `work` first, where its pictures
-/// are then.
+/// The chapter with what its commands print now. Its scenes and scripts are written into `work` first, where its
+/// pictures are then.
 fn rebuilt(text: &str, work: &Path) -> String {
     let mut out = String::new();
     for (k, block) in text.split("```").enumerate() {

@@ -9,7 +9,8 @@ use serde_json::Value;
 
 use crate::command::{json, quiet};
 
-/// The schema, in which an object with other keys than those that are named is refused; each form of it is prepared once.
+/// The schema, in which an object with other keys than those that are named is refused; each form of it is prepared
+/// once.
 struct Strict {
     schema: Value,
     all: Validator,

@@ -196,7 +196,8 @@ fn a_sweep_without_any_number_fails() {
     assert!(String::from_utf8(none.stdout).unwrap().contains("no bounce: r t₁ = 4.000000 ≥ π"));
 }
 
-/// c = L = μ = ρS = 1: T = 2 + x/k with eˣ = 2 + 2x, x = 1.678346990016661, and in the limit e_P = 1 and the force ρSμc.
+/// c = L = μ = ρS = 1: T = 2 + x/k with eˣ = 2 + 2x, x = 1.678346990016661, and in the limit e_P = 1 and the force
+/// ρSμc.
 #[test]
 fn stiffer_springs_come_to_rigid_ground() {
     let file = tempfile::NamedTempFile::new().unwrap();
