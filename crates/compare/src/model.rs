@@ -53,6 +53,10 @@ pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<TypedHistory
 /// they are one-sided, and those of damped rods come from runs whose rays are a little apart.
 const RAY_DISTANCE: [f64; 2] = [1e-9, 1e-3];
 
+/// The distance from the times of the data, in steps of them, at which signals of chains are taken. Signals are
+/// continuous, and at the very time of an event a chain takes enclosures to tell its sides apart.
+const ASIDE: f64 = 1e-7;
+
 /// Returns the derivative of each quantity at `times` by a value of the problem, `None` where the library settles none,
 /// and for a body of a chain, of which the library takes difference quotients in long numbers.
 ///
@@ -161,7 +165,8 @@ impl<'a> Model<'a> {
     /// Returns the values of each signal in `problem` at the times mapped by `at`. Before `t = 0` the rod falls as a
     /// whole.
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
-        let times: Vec<f64> = self.times.iter().map(|time| at(*time)).collect();
+        let aside = if problem.chain().is_some() { ASIDE * self.step } else { 0.0 };
+        let times: Vec<f64> = self.times.iter().map(|time| at(*time) + aside).collect();
         let history = solve_beyond(problem, times.iter().copied().fold(0.0, f64::max))?;
         let quantities = self.quantities();
         let from_start: Vec<f64> = times.iter().map(|time| time.max(0.0)).collect();
