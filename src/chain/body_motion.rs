@@ -217,9 +217,9 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
             Pair::EnergyParts => [sums.kinetic / self.density(), sums.strain / self.density()],
             Pair::Energy => {
                 let length = &self.bar().length;
+                let vibration = self.run.vibration(self.body, time, &sums)?;
                 let height = sums.displacement * &self.run.gravity;
-                let translational = (sums.velocity.square().halved() + height) * length;
-                [translational, self.run.vibration(self.body, time, &sums.velocity)?]
+                [(sums.velocity.square().halved() + height) * length, vibration]
             }
         })
     }

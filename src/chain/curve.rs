@@ -234,7 +234,7 @@ impl<N: Bounded> Curve<N> {
 
     /// Returns the integral of the square over the first part of the width.
     pub(super) fn square_integral(&self, width: &N) -> N {
-        let square = product(&self.terms, &self.terms);
+        let square = square(&self.terms);
         let reach = self.in_units(width);
         let most = rough_bound(&self.terms, &reach).doubled() + &self.error;
         (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
@@ -378,6 +378,23 @@ pub(super) fn highest<N: Bounded>(first: (N, N), second: (N, N)) -> (N, N) {
 pub(super) fn turned<N: Bounded>(terms: &[N], width: &N) -> Vec<N> {
     let signed = |(k, term): (usize, N)| if k % 2 == 1 { -term } else { term };
     shifted(terms, width).into_iter().enumerate().map(signed).collect()
+}
+
+/// Returns the coefficients of a square.
+fn square<N: Bounded>(terms: &[N]) -> Vec<N> {
+    let Some(first) = terms.first() else { return Vec::new() };
+    let mut sums = vec![first.zero(); 2 * terms.len() - 1];
+    for (i, a) in terms.iter().enumerate() {
+        for (j, b) in terms.iter().enumerate().skip(i + 1) {
+            sums[i + j] = sums[i + j].clone() + a.clone() * b;
+        }
+    }
+    let doubled = sums.into_iter().map(|sum| if is_exact_zero(&sum) { sum } else { sum.doubled() });
+    let mut sums: Vec<N> = doubled.collect();
+    for (i, a) in terms.iter().enumerate() {
+        sums[2 * i] = sums[2 * i].clone() + a.square();
+    }
+    sums
 }
 
 /// Returns the coefficients of a product.

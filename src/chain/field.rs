@@ -206,18 +206,15 @@ impl<N: Bounded> ChainRun<N> {
         })
     }
 
-    /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body whose centre has the velocity `rate`.
+    /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body with these sums.
     ///
     /// **Errors**: those of [`ChainRun::stretches`].
-    pub(super) fn vibration(&self, body: usize, time: &N, rate: &N) -> Result<N, Error> {
+    pub(super) fn vibration(&self, body: usize, time: &N, sums: &BodySums<N>) -> Result<N, Error> {
+        let BodySums { kinetic, strain, velocity: rate, .. } = sums;
         let Bar { length, wave_speed: speed, impedance, .. } = &self.bars[body];
         if self.waves[body][0].is_curved() {
-            let BodySums { kinetic, strain, velocity, .. } = self.sums(body, time)?;
-            // ½ ∫ (v_t − h′)² dx with the mean velocity, and what another rate adds.
-            let off = velocity.clone() - rate;
-            return Ok(
-                (kinetic + strain) * speed / impedance - (velocity.square() - off.square()) * length.clone().halved()
-            );
+            let whole = (kinetic.clone() + strain) * speed / impedance;
+            return Ok(whole - rate.square() * length.clone().halved());
         }
         let mut sum = rate.zero();
         for stretch in self.stretches(body, time)? {
