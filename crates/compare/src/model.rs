@@ -162,8 +162,8 @@ impl<'a> Model<'a> {
         solve_beyond(problem, self.times.last().copied().unwrap_or_default())
     }
 
-    /// Returns the values of each signal in `problem` at the times mapped by `at`. Before `t = 0` the rod falls as a
-    /// whole.
+    /// Returns the values of each signal in `problem` at the times mapped by `at`, of a chain [`ASIDE`] of a step later.
+    /// Before `t = 0` the rod falls as a whole.
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
         let aside = if problem.chain().is_some() { ASIDE * self.step } else { 0.0 };
         let times: Vec<f64> = self.times.iter().map(|time| at(*time) + aside).collect();
