@@ -538,9 +538,10 @@ impl<N: Bounded> Cluster<N> {
                     interface.dissipated.clone() + softness.rate.square_integral(width) * &soft.damping;
             }
             let closed = interface.mode == Mode::Closed && interface.law == Law::Contact;
-            let gap = softness.map_or(Gap::Zero, Gap::Soft);
+            let gap = softness.map_or(Gap::Zero, |softness| Gap::Soft(Box::new(softness)));
             interface.is_fresh = false;
-            interface.stages.push(Stage { from: from.clone(), force: Signal::Curve(cut(force)), gap, closed });
+            let force = Signal::Curve(Box::new(cut(force)));
+            interface.stages.push(Stage { from: from.clone(), force, gap, closed });
         }
     }
 

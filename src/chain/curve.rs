@@ -29,8 +29,8 @@ pub(super) struct Curve<N> {
 pub(super) enum Signal<N> {
     /// A line, in a chain of bars whose joints are rigid.
     Line(Line<N>),
-    /// A polynomial, in a chain with springs, dashpots or masses.
-    Curve(Curve<N>),
+    /// A polynomial, in a chain with springs, dashpots or masses. It is boxed: lines are stored by the hundred thousand.
+    Curve(Box<Curve<N>>),
 }
 
 /// Returns the least power of two that is no less than a width.
@@ -414,7 +414,7 @@ impl<N: Bounded> Signal<N> {
     pub(super) fn into_line(self) -> Line<N> {
         match self {
             Signal::Line(line) => line,
-            Signal::Curve(Curve { terms, .. }) => Line { intercept: terms[0].clone(), slope: terms[0].zero() },
+            Signal::Curve(curve) => Line { intercept: curve.terms[0].clone(), slope: curve.terms[0].zero() },
         }
     }
 
@@ -434,7 +434,7 @@ impl<N: Bounded> Signal<N> {
     pub(super) fn delayed(&self, delay: &N) -> Self {
         match self {
             Signal::Line(line) => Signal::Line(line.delayed(delay)),
-            Signal::Curve(curve) => Signal::Curve(curve.delayed(delay)),
+            Signal::Curve(curve) => Signal::Curve(Box::new(curve.delayed(delay))),
         }
     }
 

@@ -99,7 +99,7 @@ pub(super) enum Gap<N> {
     /// A gap `at` the stored beginning, and `drive`, its rate `y` between free ends.
     Open { at: N, drive: Line<N> },
     /// The gap of a contact, or of a spring, in a chain with springs, dashpots or masses.
-    Soft(Softness<N>),
+    Soft(Box<Softness<N>>),
 }
 
 /// An occurrence at a contact.
