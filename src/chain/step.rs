@@ -183,7 +183,9 @@ impl<N: Bounded> Cluster<N> {
         let count = self.masses.len() + self.interfaces.len();
         let mut states: Vec<Vec<N>> = self.states().into_iter().map(|state| vec![state]).collect();
         let mut radii: Vec<Vec<N>> = vec![vec![zero.clone()]; count];
-        let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
+        // Without a state that acts back, the states are integrals of the signals.
+        let least = if dynamic.is_empty() { 1 } else { self.degree };
+        let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(least);
         let mut rates = Vec::new();
         for k in 0..=last {
             rates = self.rates_in_order(&inputs, k, &|state| states[state][k].clone());

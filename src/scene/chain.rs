@@ -51,6 +51,11 @@ const TABLES: [(&str, &[&str]); 6] = [
     ("gravity", &["acceleration"]),
     ("run", &["time", "accuracy", "pieces"]),
 ];
+/// Keys of a single rod on rigid ground, and what a chain has in their place.
+const INSTEAD: [(&str, &str); 2] = [
+    ("impact.drop_height", "gap, beside speed = 0: the body falls from there, and times count from the start"),
+    ("run.impacts", "time: a chain runs up to a time"),
+];
 
 /// A scene file with several bodies, checked: a chain in exact numbers, and the line that each value stands on.
 ///
@@ -241,6 +246,12 @@ impl<'a> Reader<'a> {
         }
         let known = if is_rod { ROD_TOP_KEYS } else { TOP_KEYS };
         self.check_known((self.document, "the scene"), known, |key| near(key, known))?;
+        for (path, expected) in INSTEAD {
+            if let Some((key, _)) = self.get(path) {
+                let found = format!("{} in a chain, or in a [rod] that is solved as one", key.get_ref());
+                return Err(self.error(key.span(), Kind::UnknownKey, found, expected));
+            }
+        }
         for (name, known) in TABLES {
             let Some((_, value)) = self.get(name) else { continue };
             let Some(table) = value.get_ref().as_table() else {
