@@ -216,6 +216,8 @@ impl<N: Bounded> Cluster<N> {
                 (width, end)
             }
         };
+        let at = if is_exact_zero(&next.late) { width.clone() } else { width.clone().widened(&next.late) };
+        let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         let is_at_once = next.at.alike(&origin);
         if is_at_once {
             self.repeated += 1;
@@ -230,7 +232,6 @@ impl<N: Bounded> Cluster<N> {
             self.repeated = 0;
         }
         let drives_before: Vec<N> = self.interfaces.iter().map(|interface| interface.drive.clone()).collect();
-        let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(&inputs, j, &width)).collect();
         if !is_at_once {
             self.reached = next;
         } else if self.reached.late.below(&next.late) != Ok(false) {
@@ -325,12 +326,10 @@ impl<N: Bounded> Cluster<N> {
         fronts.reduce(first).map_or(end.clone(), |front| sooner(end, front))
     }
 
-    /// Returns `y` of an interface after the time `at` in a step.
-    fn drive(&self, inputs: &[[Curve<N>; 2]], j: usize, at: &N) -> N {
+    /// Returns `y` of an interface after the time `at` in a step, which is known within its bound.
+    fn drive(&self, j: usize, at: &N, (inputs, step, errors): Solved<'_, N>) -> N {
         let side = |side: usize| match &self.interfaces[j].sides[side].source {
-            Source::Mass(mass) => {
-                self.masses[*mass].velocity.clone().widened(&(self.norm.clone() / &self.masses[*mass].root))
-            }
+            Source::Mass(mass) => value(&step.states[*mass], &(at.clone() / &step.unit)).widened(&errors[*mass]),
             _ => {
                 let curve = &inputs[j][side];
                 value(&curve.terms, &(at.clone() / &curve.unit)).widened(&curve.error)
@@ -523,20 +522,27 @@ impl<N: Bounded> Cluster<N> {
             }
         }
         for (interface, output) in self.interfaces.iter_mut().zip(outputs) {
-            let Output { force, leaving, softness } = output;
+            let Output { force, leaving, mut softness } = output;
             for (side, curve) in leaving.into_iter().enumerate() {
                 if let Source::Wave(body) = &interface.sides[side].source {
                     waves[*body][1 - side].push_curve(&from, &late, cut(curve));
                 }
             }
-            if interface.mode == Mode::Closed
-                && let Some(soft) = &interface.soft
-                && !is_exact_zero(&soft.damping)
-                && let Some(softness) = &softness
-            {
-                interface.dissipated =
-                    interface.dissipated.clone() + softness.rate.square_integral(width) * &soft.damping;
-            }
+            interface.power = match (&interface.soft, &mut softness) {
+                (Some(soft), Some(softness)) if interface.mode == Mode::Closed && !is_exact_zero(&soft.damping) => {
+                    let power = |rate: N| rate.square() * &soft.damping;
+                    // Where the power jumps, it does so within `late` of the stored time.
+                    if !is_exact_zero(&late) {
+                        let begun = softness.rate.value_at(&softness.rate.origin.clone().widened(&late));
+                        let jump = power(begun) - &interface.power;
+                        let dissipated = softness.dissipated.clone();
+                        softness.dissipated = dissipated.widened(&(jump.magnitude() * &late));
+                    }
+                    interface.dissipated = softness.rate.square_integral(width) * &soft.damping + &softness.dissipated;
+                    power(softness.rate.value_at(&(softness.rate.origin.clone() + width)))
+                }
+                _ => width.zero(),
+            };
             let closed = interface.mode == Mode::Closed && interface.law == Law::Contact;
             let gap = softness.map_or(Gap::Zero, |softness| Gap::Soft(Box::new(softness)));
             interface.is_fresh = false;

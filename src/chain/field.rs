@@ -74,6 +74,11 @@ impl<N: Bounded> ChainRun<N> {
         Ok(self.field(body, point, time, side)?.strain * wave_speed * impedance)
     }
 
+    /// Returns whether either wave of a body is a curve: one that is struck at its top alone has a curve downward first.
+    fn has_curves(&self, body: usize) -> bool {
+        self.waves[body].iter().any(Wave::is_curved)
+    }
+
     /// Returns the body between its rays, from the bottom up.
     ///
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the order of two rays is not decided.
@@ -81,7 +86,7 @@ impl<N: Bounded> ChainRun<N> {
         self.check_time(time)?;
         let Bar { length, wave_speed, travel, .. } = &self.bars[body];
         let [up, down] = &self.waves[body];
-        if up.is_curved() {
+        if self.has_curves(body) {
             return Err(Error::Curved);
         }
         let earliest = time.clone() - travel;
@@ -149,7 +154,7 @@ impl<N: Bounded> ChainRun<N> {
             let potential = displacement.clone() * mass * &self.gravity;
             return Ok(BodySums { displacement, velocity, kinetic, strain: zero, potential });
         }
-        if self.waves[body][0].is_curved() {
+        if self.has_curves(body) {
             return self.curved_sums(body, time);
         }
         let mut sums = [zero.clone(), zero.clone(), zero.clone(), zero];
@@ -212,7 +217,7 @@ impl<N: Bounded> ChainRun<N> {
     pub(super) fn vibration(&self, body: usize, time: &N, sums: &BodySums<N>) -> Result<N, Error> {
         let BodySums { kinetic, strain, velocity: rate, .. } = sums;
         let Bar { length, wave_speed: speed, impedance, .. } = &self.bars[body];
-        if self.waves[body][0].is_curved() {
+        if self.has_curves(body) {
             let whole = (kinetic.clone() + strain) * speed / impedance;
             return Ok(whole - rate.square() * length.clone().halved());
         }

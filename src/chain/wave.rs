@@ -127,7 +127,11 @@ impl<N: Bounded> Wave<N> {
             let jump = last.signal.value_at(&curve.origin) - &curve.terms[0];
             sum = sum.widened(&(jump.magnitude().widened(&curve.error) * late));
         }
-        self.pieces.push(Piece { from: time.clone(), signal: Signal::Curve(Box::new(curve)), sum: sum.without_exact() });
+        self.pieces.push(Piece {
+            from: time.clone(),
+            signal: Signal::Curve(Box::new(curve)),
+            sum: sum.without_exact(),
+        });
     }
 
     /// Returns whether the wave has left a node of a chain with springs, dashpots or masses.

@@ -7,6 +7,7 @@ use dalembert::number::{Bounded, IntervalPrecision, Number, Scalar, Value, Wide}
 use dalembert::{Ending, Error, Estimate, Interval, Numbers, Parameter, Problem, Quantity, Side};
 use serde_json::Value as Json;
 
+use crate::common;
 use crate::random_chain::Random;
 
 fn number(text: &str) -> Number {
@@ -399,12 +400,11 @@ fn random_chain(random: &mut Random) -> Option<Chain> {
     builder.gravity(gravity).build().ok().filter(Chain::is_soft)
 }
 
-/// Events, forces, gaps and sums of random chains in doubles are within their bounds of those in 128 bits.
-#[test]
-fn doubles_of_random_chains_are_within_their_bounds() {
-    let mut random = Random(0x2545_f491_4f6c_dd1d);
-    let (mut chains, mut events, mut compared) = (0, 0, 0);
-    while chains < 60 {
+/// Checks that events, forces, gaps and sums of random chains in doubles are within their bounds of those in 128 bits.
+/// Returns the number of chains that both tell, of events, and of numbers compared.
+fn compare_random_chains(mut random: Random, count: usize) -> [usize; 3] {
+    let (mut chains, mut told, mut events, mut compared) = (0, 0, 0, 0);
+    while chains < count {
         let Some(chain) = random_chain(&mut random) else { continue };
         let observe = |_: usize, _: usize| ControlFlow::Continue(());
         let doubles = ChainRun::<Estimate<f64>>::new(&chain, &(), &observe).unwrap();
@@ -416,6 +416,7 @@ fn doubles_of_random_chains_are_within_their_bounds() {
         {
             continue;
         }
+        told += 1;
         let mut check = |place: &str, found: &Estimate<f64>, expected: &Estimate<Wide<2>>| {
             let apart = (expected.clone() - &expected.double(*found.value())).to_f64().abs();
             assert!(
@@ -428,9 +429,10 @@ fn doubles_of_random_chains_are_within_their_bounds() {
         };
         assert_eq!(doubles.events().len(), longer.events().len(), "{chain:?}");
         for (found, expected) in doubles.events().iter().zip(longer.events()) {
+            let at = |name: &str| format!("{name} of {:?} at node {}, t = {}", found.kind, found.node, found.t.value());
             check("event", &found.t, &expected.t);
-            check("gap rate before", &found.before, &expected.before);
-            check("gap rate after", &found.after, &expected.after);
+            check(&at("gap rate before"), &found.before, &expected.before);
+            check(&at("gap rate after"), &found.after, &expected.after);
             events += 1;
         }
         for (found, expected) in doubles.contacts().iter().zip(longer.contacts()) {
@@ -459,7 +461,21 @@ fn doubles_of_random_chains_are_within_their_bounds() {
             }
         }
     }
-    assert!(events > 100 && compared > 3_000, "{events} events, {compared} numbers");
+    [told, events, compared]
+}
+
+#[test]
+fn doubles_of_random_chains_are_within_their_bounds() {
+    let [told, events, compared] = compare_random_chains(Random(0x2545_f491_4f6c_dd1d), 60);
+    assert!(told > 50 && events > 100 && compared > 3_000, "{told} chains, {events} events, {compared} numbers");
+}
+
+#[test]
+#[ignore = "minutes: make explore"]
+fn doubles_of_many_random_chains_are_within_their_bounds() {
+    let [told, events, compared] = compare_random_chains(Random(common::Random::explored() | 1), 1000);
+    println!("{told} chains, {events} events, {compared} numbers");
+    assert!(told > 800 && events > 1_500 && compared > 50_000, "{told} chains, {events} events, {compared} numbers");
 }
 
 #[test]
