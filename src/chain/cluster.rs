@@ -242,6 +242,12 @@ impl<N: Bounded> Cluster<N> {
             if !first.as_ref().is_some_and(|first| at.meets(first)) {
                 continue;
             }
+            // A gap of zero within its error may close at a break, or just after it.
+            let jump = drives_after[j].clone() - &drives_before[j];
+            let jumps = jump.positive() == Ok(true) || jump.negative() == Ok(true);
+            if is_at_once && jumps && change == Change::Close && !is_exact_zero(&self.interfaces[j].gap_error) {
+                self.doubts();
+            }
             let kind = self.change(j, change, is_at_once);
             if let Some(kind) = kind {
                 let before = if is_at_once { drives_before[j].clone() } else { drives_after[j].clone() };

@@ -212,6 +212,28 @@ fn listing(chain: &Chain, numbers: Numbers) -> ChainListing {
     chain.solve(numbers).unwrap().listing().unwrap()
 }
 
+/// A mass `m` at speed 1 on top of a rod with `Z = 1` pushes with `e^(−t/m)`, and the rod is at rest below the wave.
+#[test]
+fn a_rod_that_is_struck_at_its_top_alone_has_its_sums() {
+    let chain = striker("6", "0.9");
+    let run = ChainRun::<Estimate<f64>>::new(&chain, &(), &|_, _| ControlFlow::Continue(())).unwrap();
+    for t in [0.25, 0.5, 0.875] {
+        let time = Estimate::<f64>::spelling(&number(&t.to_string()), &());
+        let sums = run.sums(0, &time).unwrap();
+        let energy = 1.5 * (1.0 - f64::exp(-t / 3.0));
+        let expected = [
+            (&sums.velocity, -6.0 * (1.0 - f64::exp(-t / 6.0))),
+            (&sums.displacement, -6.0 * (t - 6.0 * (1.0 - f64::exp(-t / 6.0)))),
+            (&sums.kinetic, energy),
+            (&sums.strain, energy),
+        ];
+        for (found, expected) in expected {
+            assert!((found.value() - expected).abs() <= 1e-13, "{found:?} against {expected}");
+        }
+        assert!(run.stretches(0, &time).is_err());
+    }
+}
+
 fn near(found: &Value, expected: f64, relative: f64) {
     let found = found.to_f64();
     assert!((found - expected).abs() <= relative * expected.abs(), "{found} against {expected}");
