@@ -58,8 +58,8 @@ pub(super) struct Proof<S> {
     pub(super) slope: f64,
     pub(super) jumps: f64,
     pub(super) most: f64,
-    /// Places at which events have started rays, and the time errors of these: by the clock, less Θ, and in absolute
-    /// time.
+    /// Places of the rays from the initial data and from events, and their time errors: by the clock, less Θ, and in
+    /// absolute time.
     pub(super) rays: Vec<(S, [f64; 2])>,
     /// Time of the last event.
     pub(super) since: f64,
@@ -174,10 +174,10 @@ impl<S: RoundedSpecial> Proof<S> {
     }
 
     /// Returns the time error, apart from roundings, of the ray that arrives here: in absolute time, and by the present
-    /// clock. Rays from the initial data have none in absolute time.
+    /// clock. Rays from the initial data have none in absolute time; nothing is known of a ray that was not recorded.
     pub(super) fn ray_at(&self, at: &S) -> [f64; 2] {
         let known = self.rays.iter().filter(|(ray, _)| ray == at).map(|(_, off)| *off);
-        let [late, off] = known.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).unwrap_or_default();
+        let [late, off] = known.reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]).unwrap_or([f64::INFINITY; 2]);
         [off, self.clock + late]
     }
 

@@ -367,6 +367,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     }
                 }
                 if left.to_f64() <= 4.0 * unit * end.to_f64().max(1.0) {
+                    // The strip after a release proves it: a run that ends with a release looks that far ahead.
+                    let cut = found.map(|x| x.clone() / x.double(2.0));
+                    let cut = cut.as_ref().map(|cut| (cut, false));
+                    self.prove(|proof, run| proof.last_release(run, cut, &trace, &height));
                     return Ok(Ending::Time);
                 }
                 let ends = left < len && found.as_ref().is_none_or(|x| *x > left);

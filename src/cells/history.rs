@@ -124,13 +124,20 @@ impl<S: RoundedSpecial> Damped<S> {
         let event = |mark: Mark<S>| {
             let (centre, centre_velocity) = history.centre_at(&mark.time);
             let units = &history.data.units;
+            let (mut t, end) = (mark.time * &units.time, history.course.end.value());
+            let mut t_error = mark.time_error * units.time.to_f64();
+            // The time of an event at the end of the run may be rounded to a later one.
+            if t > *end {
+                t_error += (t - end).to_f64();
+                t = end.clone();
+            }
             let event = Event {
                 kind: mark.kind,
-                t: mark.time * &units.time,
+                t,
                 v_end: mark.velocity * &units.velocity,
                 h: centre,
                 h_rate: centre_velocity,
-                t_error: mark.time_error * units.time.to_f64(),
+                t_error,
             };
             event.map(Estimate::exact)
         };

@@ -22,7 +22,7 @@ use super::march::{Medium, on_circle};
 use super::piece::Found;
 use super::series::{at_one, at_zero, bound, derivative, evaluate};
 use super::signs::{Part, clear, doubles};
-use super::start::{Data, on_grid};
+use super::start::Data;
 use super::uncertainty::Uncertainty;
 use crate::error::Error;
 use crate::motion::{Ending, EventKind};
@@ -57,6 +57,7 @@ impl<S: RoundedSpecial> Proof<S> {
         self.summed = 64.0 * unit * data.ground.to_f64().abs();
         self.rising = !data.ground.is_positive();
         self.most = self.most.max(run.state.bound());
+        self.rays.extend(run.state.segments.iter().map(|segment| (segment.at.clone(), [0.0; 2])));
         self.joins(run.medium, 1);
     }
 
@@ -227,6 +228,13 @@ impl<S: RoundedSpecial> Proof<S> {
         }
     }
 
+    /// Proves the release at the end of a run, if there is one, by the strip after it.
+    pub(super) fn last_release(&mut self, run: &Follower<'_, S>, cut: Option<(&S, bool)>, trace: &[S], height: &[S]) {
+        if self.release.is_some() {
+            self.strip(run, cut, trace, height);
+        }
+    }
+
     /// Proves a strip in contact.
     ///
     /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets
@@ -272,7 +280,7 @@ impl<S: RoundedSpecial> Proof<S> {
             return Err(open);
         }
         self.note(run, time, 0.0);
-        let place = on_circle(on_grid(run.state.segments[0].at.clone() + cut));
+        let place = on_circle(run.state.segments[0].at.clone() + cut);
         self.release =
             Some(Release { pieces: run.pieces.len(), left: None, late, steep, ray: f64::INFINITY, at: place });
         Ok(())
@@ -403,7 +411,7 @@ impl<S: RoundedSpecial> Proof<S> {
             return Err(touch(2.0 * (most + fast)));
         }
         self.note(run, time, high);
-        let place = on_circle(on_grid(run.state.segments[0].at.clone() + cut));
+        let place = on_circle(run.state.segments[0].at.clone() + cut);
         // Either the clock is set, or p has the wrong sign for a while.
         let mass = 2.0 * (most + fast);
         if change.between + change.jumps < mass {

@@ -534,21 +534,20 @@ impl<N: Bounded> Cluster<N> {
                     waves[*body][1 - side].push_curve(&from, &late, cut(curve));
                 }
             }
-            interface.power = match (&interface.soft, &mut softness) {
-                (Some(soft), Some(softness)) if interface.mode == Mode::Closed && !is_exact_zero(&soft.damping) => {
-                    let power = |rate: N| rate.square() * &soft.damping;
-                    // Where the power jumps, it does so within `late` of the stored time.
-                    if !is_exact_zero(&late) {
-                        let begun = softness.rate.value_at(&softness.rate.origin.clone().widened(&late));
-                        let jump = power(begun) - &interface.power;
-                        let dissipated = softness.dissipated.clone();
-                        softness.dissipated = dissipated.widened(&(jump.magnitude() * &late));
-                    }
-                    interface.dissipated = softness.rate.square_integral(width) * &soft.damping + &softness.dissipated;
-                    power(softness.rate.value_at(&(softness.rate.origin.clone() + width)))
+            if let (Some(soft), Some(softness)) = (&interface.soft, &mut softness)
+                && interface.mode == Mode::Closed
+                && !is_exact_zero(&soft.damping)
+            {
+                // Where the power jumps, it does so within `late` of the stored time.
+                if !is_exact_zero(&late) {
+                    let within = from.clone().widened(&late);
+                    let power = |rate: &Curve<N>| rate.value_at(&within).square() * &soft.damping;
+                    let before = interface.stages.last().and_then(Stage::softness).filter(|before| before.loaded);
+                    let jump = power(&softness.rate) - before.map_or(late.zero(), |before| power(&before.rate));
+                    softness.dissipated = softness.dissipated.clone().widened(&(jump.magnitude() * &late));
                 }
-                _ => width.zero(),
-            };
+                interface.dissipated = softness.rate.square_integral(width) * &soft.damping + &softness.dissipated;
+            }
             let closed = interface.mode == Mode::Closed && interface.law == Law::Contact;
             let gap = softness.map_or(Gap::Zero, |softness| Gap::Soft(Box::new(softness)));
             interface.is_fresh = false;

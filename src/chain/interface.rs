@@ -264,8 +264,6 @@ pub(super) struct Interface<N> {
     pub(super) grazes: bool,
     /// Energy that the dashpot has taken up.
     pub(super) dissipated: N,
-    /// Power that the dashpot takes up just before the time that is reached.
-    pub(super) power: N,
     /// `y` just before the time that is reached.
     pub(super) drive: N,
     pub(super) stages: Vec<Stage<N>>,
@@ -294,7 +292,6 @@ impl<N: Bounded> Interface<N> {
             is_fresh: false,
             grazes: false,
             dissipated: zero.zero(),
-            power: zero.zero(),
             drive: zero,
             stages: Vec::new(),
         }

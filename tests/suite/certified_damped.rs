@@ -4,8 +4,8 @@ use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
 use dalembert::quantity::{Needs, Slice, slices};
 use dalembert::{
-    Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Parameters, Problem, Quantity, Run, Side,
-    Speed, Start, Top, TypedHistory, Warning,
+    Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Numbers, Parameters, Problem, Quantity, Run,
+    Side, Speed, Start, Top, TypedHistory, Warning,
 };
 
 fn number_of(text: &str) -> Number {
@@ -371,4 +371,65 @@ fn means_reach_up_to_any_top() {
         let apart = ends - &mean;
         assert!(*apart.lo() <= 0 && *apart.hi() >= 0 && *apart.hi() < 1e-10, "{text}: {apart:?}");
     }
+}
+
+/// A run that ends exactly with a release lists it, in every kind of numbers.
+#[test]
+fn a_release_at_the_end_of_the_run_is_listed() {
+    let free = rod("0.1", "1", "0", 1).to_builder().run(Run::Time(2.into())).build().unwrap();
+    let fixed = Problem::uniform(4.into(), number_of("1.25"), 0.into(), 3.into());
+    let fixed = fixed
+        .to_builder()
+        .damping(number_of("0.0333109"))
+        .top(Top::Fixed)
+        .run(Run::Time(number_of("64/5")))
+        .build()
+        .unwrap();
+    let moving = Problem::builder().length("3/4").wave_speed("6/5").damping("1.21392e-1").gravity("4/5").time("5/8");
+    let moving = moving.displacement([("0", "15/16"), ("1/4", "5/16"), ("3/8", "5/16"), ("3/4", "-5/16")]);
+    let moving = moving.velocity([("0", "-3/4"), ("7/16", "-1/2"), ("7/16", "-1"), ("3/4", "1/2")]).build().unwrap();
+    // The time of this release is rounded to a later one than the end.
+    let run = moving.digits(28).unwrap();
+    assert!(run.ground_end(run.events()[1].t.clone(), Side::Left).is_ok());
+    for (problem, end, impacts) in [(free, 2.0, 1), (fixed, 12.8, 2), (moving, 0.625, 1)] {
+        for numbers in [Numbers::Double(None), Numbers::Digits(10), Numbers::Digits(40), Numbers::Certified(25)] {
+            let history = problem.solve_in(numbers).unwrap();
+            let (events, contacts) = (history.events().unwrap(), history.contacts().unwrap());
+            let last = events.last().unwrap();
+            assert_eq!(
+                (events.len(), contacts.len(), last.kind),
+                (2 * impacts, impacts, EventKind::Release),
+                "{numbers}"
+            );
+            let off = (last.t.to_f64() - end).abs();
+            assert!(off <= 1e-14 * end, "{numbers}: {off:e}");
+            assert!(contacts[impacts - 1].release.is_some(), "{numbers}");
+        }
+    }
+}
+
+/// The ray that an impact starts keeps its time error around the circle of a round trip, wherever it begins there: a
+/// release that this ray brings has that error.
+#[test]
+fn a_release_has_the_time_error_of_the_ray_that_brings_it() {
+    let slow = ["length 4", "modulus 9/2", "density 2", "damping 6.28988e-7", "gravity 3/2", "gap 64", "speed 2"];
+    let steel =
+        ["length 1", "modulus 2.1e11", "density 8400", "damping 2.08175e-1", "gravity 2500/3", "gap 3/4000", "speed 1"];
+    let mut compared = 0;
+    for given in [slow, steel] {
+        let [length, modulus, density, damping, gravity, gap, speed] =
+            given.map(|given| number_of(given.split(' ').next_back().unwrap()));
+        let rod = Problem::builder().length(length).material(modulus, density, 1).damping(damping).gravity(gravity);
+        let rod = rod.start(Start::Above { gap, speed }).run(Run::Impacts(3)).build().unwrap();
+        let truth = rod.digits(100).unwrap();
+        for digits in [15, 28, 40, 60] {
+            let run = rod.digits(digits).unwrap();
+            for (event, truth) in run.events().iter().zip(truth.events()) {
+                let off = Float::with_val(600, &event.t - &truth.t).to_f64().abs();
+                assert!(off <= event.t_error, "{digits} digits: {:e} ± {:e} is off by {off:e}", event.t, event.t_error);
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 48);
 }
