@@ -138,18 +138,27 @@ impl<S: RoundedSpecial> Damped<S> {
     ///
     /// With M a bound of `|v_t|`, `|c v_x|`, `|h′|`: the ends take at most `c M²`, damping `2rL M²` and gravity `gL M`
     /// from the energy, and `L|h′h″| ≤ M (2cM + 2rLM + gL)`. Each part alone is `½ ∫ f² dx`: between rays f changes at
-    /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`.
+    /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`. J contains the jump
+    /// from `−q` to `q` on the ray of the last event, which is at most 2M.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
+        let Scales { time: trip, velocity, length, wave_speed: c, gravity } = self.scales;
+        let rays = |apart: f64, Uncertainty { most, jumps, .. }: &Uncertainty| {
+            apart * most * velocity * velocity * c * (jumps + 2.0 * most)
+        };
+        if let Some(event) = self.event_at(time) {
+            // An event has bounds of its own, but the rays are where they are at its rounded time.
+            let off = |found| rays(self.event_rounding(event), found);
+            return [self.uncertain[event..=event + 1].iter().map(off).fold(0.0, f64::max); 2];
+        }
         let apart = time.bound();
-        // An event has bounds of its own.
-        if apart == 0.0 || self.event_at(time).is_some() {
+        if apart == 0.0 {
             return [0.0; 2];
         }
-        let Scales { time: trip, velocity, length, wave_speed: c, gravity } = self.scales;
-        let Uncertainty { most, slope, jumps, .. } = self.uncertainty(time.value());
+        let Uncertainty { most, slope, .. } = self.uncertainty(time.value());
+        let by_rays = rays(apart, &self.uncertainty(time.value()));
         let (most, drag) = (most * velocity, 2.0 * self.medium.kappa.to_f64() / trip);
         let whole = most * (3.0 * c * most + length * (4.0 * drag * most + 2.0 * gravity));
-        [apart * whole, apart * most * velocity * (length * slope / trip + c * jumps)]
+        [apart * whole, apart * most * velocity * length * slope / trip + by_rays]
     }
 
     /// Returns the bounds at an event, whatever its true time: those of the contact that it begins or ends. Its time is
@@ -158,8 +167,7 @@ impl<S: RoundedSpecial> Damped<S> {
         let events = &self.course.events;
         let contact = event - usize::from(event > 0 && events[event].kind == EventKind::Release);
         let found = self.uncertainty(events[contact].t.value());
-        let Event { t: time, t_error: time_error, .. } = &events[event];
-        let rounding = 8.0 * time.value().unit() * time.to_f64();
+        let (time_error, rounding) = (&events[event].t_error, self.event_rounding(event));
         // If the time error is unbounded, the other bounds already are too.
         let equal_times = found.late == 0.0 && time_error.is_finite();
         let off = if equal_times { *time_error } else { 0.0 };
@@ -170,6 +178,12 @@ impl<S: RoundedSpecial> Damped<S> {
         let own = self.scaled(found);
         let own = Bounds { centre: centre * unit, end: own.speed + (end - speed) * self.scales.velocity, ..own };
         if equal_times { near.min(&own) } else { own }
+    }
+
+    /// Bounds the rounding of the time of an event.
+    fn event_rounding(&self, event: usize) -> f64 {
+        let time = &self.course.events[event].t;
+        8.0 * time.value().unit() * time.to_f64()
     }
 
     fn scaled(&self, found: Uncertainty) -> Bounds {

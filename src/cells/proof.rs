@@ -52,7 +52,8 @@ impl<S: RoundedSpecial> Proof<S> {
         let (unit, data) = (self.steps.unit, run.data);
         let defect = self.steps.start(&run.state, data.most, data.shortest);
         self.add(defect);
-        // The places of breaks are rounded.
+        // A break is misplaced by at most 16 roundings of 1: those of x, L, x/2L, the part of a piece, and its mirror
+        // image. Up to there each of `p` and `q` is off by the jump, at most 4, and `most` is at least 1.
         self.masses += 256.0 * unit * data.most * run.state.segments.len() as f64;
         self.summed = 64.0 * unit * data.ground.to_f64().abs();
         self.rising = !data.ground.is_positive();

@@ -203,6 +203,10 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     }
 
     fn strain(&self, time: &N, side: Side) -> Result<N, Error> {
+        if side == Side::Left && time.positive() != Ok(true) {
+            // The start need not agree with the forces at the ends.
+            return Ok(self.run.end_field(self.body, false, time, side)?.strain);
+        }
         Ok(-(self.run.force(self.body, time, side)? / self.stiffness()))
     }
 

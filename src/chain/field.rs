@@ -74,11 +74,6 @@ impl<N: Bounded> ChainRun<N> {
         Ok(self.field(body, point, time, side)?.strain * wave_speed * impedance)
     }
 
-    /// Returns whether either wave of a body is a curve: one that is struck at its top alone has a curve downward first.
-    fn has_curves(&self, body: usize) -> bool {
-        self.waves[body].iter().any(Wave::is_curved)
-    }
-
     /// Returns the body between its rays, from the bottom up.
     ///
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the order of two rays is not decided.
@@ -86,7 +81,8 @@ impl<N: Bounded> ChainRun<N> {
         self.check_time(time)?;
         let Bar { length, wave_speed, travel, .. } = &self.bars[body];
         let [up, down] = &self.waves[body];
-        if self.has_curves(body) {
+        // A body that is struck at its top alone has a curve downward first.
+        if self.waves[body].iter().any(Wave::is_curved) {
             return Err(Error::Curved);
         }
         let earliest = time.clone() - travel;
@@ -144,7 +140,8 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns energies, centre and momentum of a body.
     ///
-    /// **Errors**: those of [`ChainRun::stretches`].
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if it is not decided whether the velocity of a rigid body has
+    /// jumped.
     pub fn sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { length, wave_speed, impedance, mass, .. } = &self.bars[body];
         let zero = length.zero();
@@ -154,11 +151,12 @@ impl<N: Bounded> ChainRun<N> {
             let potential = displacement.clone() * mass * &self.gravity;
             return Ok(BodySums { displacement, velocity, kinetic, strain: zero, potential });
         }
-        if self.has_curves(body) {
-            return self.curved_sums(body, time);
-        }
+        let stretches = match self.stretches(body, time) {
+            Err(Error::Curved | Error::Open(_)) => return self.window_sums(body, time),
+            stretches => stretches?,
+        };
         let mut sums = [zero.clone(), zero.clone(), zero.clone(), zero];
-        for stretch in self.stretches(body, time)? {
+        for stretch in stretches {
             let [displacement, velocity, _] = stretch.moments(&stretch.width);
             let added = [
                 displacement[0].clone(),
@@ -181,11 +179,11 @@ impl<N: Bounded> ChainRun<N> {
         })
     }
 
-    /// Returns the sums over a body whose waves are curves.
+    /// Returns the sums over a body whose waves are curves, or the order of whose rays is not decided.
     ///
     /// **Source**: with `P = ∫p`, `∫ v dx = (c/2) ∫ (P + Q − g t²) ds` over the travel time before `t`, and the
     /// energies are `(Z/8) ∫ (p + q − 2gt)² ds` and `(Z/8) ∫ (q − p)² ds`, where `q` is taken at `2t − T − s`.
-    fn curved_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
+    fn window_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { impedance, travel, wave_speed, .. } = &self.bars[body];
         let windows = self.waves[body].each_ref().map(|wave| Window::new(wave, time, travel));
         let [rising, falling] = windows;
@@ -213,16 +211,19 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body with these sums.
     ///
-    /// **Errors**: those of [`ChainRun::stretches`].
+    /// **Errors**: [`Error::TimeOutside`].
     pub(super) fn vibration(&self, body: usize, time: &N, sums: &BodySums<N>) -> Result<N, Error> {
         let BodySums { kinetic, strain, velocity: rate, .. } = sums;
         let Bar { length, wave_speed: speed, impedance, .. } = &self.bars[body];
-        if self.has_curves(body) {
-            let whole = (kinetic.clone() + strain) * speed / impedance;
-            return Ok(whole - rate.square() * length.clone().halved());
-        }
+        let stretches = match self.stretches(body, time) {
+            Err(Error::Curved | Error::Open(_)) => {
+                let whole = (kinetic.clone() + strain) * speed / impedance;
+                return Ok(whole - rate.square() * length.clone().halved());
+            }
+            stretches => stretches?,
+        };
         let mut sum = rate.zero();
-        for stretch in self.stretches(body, time)? {
+        for stretch in stretches {
             let [velocity, slope] = stretch.velocity.clone();
             let around = square(&stretch, &[velocity - rate, slope]);
             sum = sum + around + square(&stretch, &stretch.strain) * speed * speed;

@@ -22,6 +22,7 @@ impl Scalar for Rational {
     }
 
     fn double(&self, x: f64) -> Self {
+        debug_assert!(x.is_finite(), "found {x}, expected a fraction");
         Rational::try_from(x).unwrap_or_default()
     }
 

@@ -58,13 +58,15 @@ pub trait Scalar:
     /// Converts an integer to the precision of `self`.
     fn int(&self, n: i64) -> Self;
 
-    /// Converts a double to the precision of `self` (exact with at least 53 bits).
+    /// Converts a double to the precision of `self` (exact with at least 53 bits). Fractions have no infinities.
     fn double(&self, x: f64) -> Self;
 
     /// Returns `√self` if this system has it: `None` for a fraction that is not a square and for negative numbers.
     fn try_sqrt(&self) -> Option<Self>;
 
-    /// Returns the nearest double. **Accuracy**: correctly rounded.
+    /// Returns the nearest double; of an interval, that of the end farther from zero, rounded away from zero.
+    ///
+    /// **Accuracy**: correctly rounded.
     fn to_f64(&self) -> f64;
 
     /// Returns the unit roundoff `u` of this number's precision: `2⁻⁵³` for `f64`, zero for exact systems.

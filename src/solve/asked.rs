@@ -108,7 +108,7 @@ pub(super) struct Longer<S: Answer> {
 pub(super) enum Open<S: Answer> {
     /// Longer runs are queried; if none decides, the answer covers both sides.
     Ask(Longer<S>),
-    /// The same, for an engine in another number system, which reports undecided times itself.
+    /// The same, for an engine that reports undecided times itself.
     Says(Longer<S>),
     /// Spelled times yield this error; computed times stand for the event or the ray.
     Refuse(Error),
@@ -180,7 +180,7 @@ impl<S: Rounded> Telling<S> {
     ) -> Result<T, Error> {
         let longer = match &self.open {
             Open::Says(longer) => match ask(&*self.engine, time, side) {
-                Err(Error::NotDecided { what: NOT_TOLD, .. }) => longer,
+                Err(Error::NotDecided { what: NOT_TOLD, .. } | Error::Open(_)) => longer,
                 found => return found,
             },
             _ if self.near(point, time).is_empty() => return ask(&*self.engine, time, side),
@@ -220,7 +220,7 @@ impl<S: Rounded> Telling<S> {
                         });
                     }
                     // Times beyond the end need no cover.
-                    Err(Error::TimeOutside { .. } | Error::NotDecided { .. }) => {}
+                    Err(Error::TimeOutside { .. } | Error::NotDecided { .. } | Error::Open(_)) => {}
                     Err(error) => return Err(error),
                 }
             }
@@ -323,6 +323,9 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     }
     fn rays(&self, trip: usize) -> Result<Vec<Ray<Estimate<S>>>, Error> {
         self.engine.rays(trip)
+    }
+    fn departures(&self) -> Result<[Vec<(Estimate<S>, Estimate<S>)>; 2], Error> {
+        self.engine.departures()
     }
     fn stretches(&self, time: &Estimate<S>) -> Result<Vec<Stretch<Estimate<S>>>, Error> {
         self.engine.stretches(time)

@@ -18,14 +18,15 @@ use crate::problem::Problem;
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
         if plan.engine == Engine::Chain {
-            return Ok(match rung {
-                Rung::Double => chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?,
-                Rung::Fractions => {
-                    Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?))
-                }
-                rung if LONG => long::chain_in_doubles(problem, plan, rung, observe)?,
-                _ => return Err(not_in_doubles()),
-            });
+            if rung != Rung::Double {
+                return long_chain(problem, plan, rung, observe);
+            }
+            let engine = chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?;
+            let rungs = chain::rungs(plan.numbers).into_iter().skip(1).collect();
+            let owned = (problem.clone(), plan.clone(), observe.clone());
+            let run = move |rung| long_chain(&owned.0, &owned.1, rung, &owned.2);
+            let longer = Longer::<f64> { rungs, exact_contacts: u32::MAX, run: Box::new(run) };
+            return Ok(Telling::of(engine, problem, Open::Says(longer)));
         }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
@@ -65,6 +66,17 @@ impl Target for f64 {
             .into_iter()
             .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
             .collect())
+    }
+}
+
+/// Makes an attempt at a chain in fractions or in more bits than doubles have, converted to doubles.
+fn long_chain(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+    match rung {
+        Rung::Fractions => {
+            Ok(Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?)))
+        }
+        rung if LONG => long::chain_in_doubles(problem, plan, rung, observe),
+        _ => Err(not_in_doubles()),
     }
 }
 

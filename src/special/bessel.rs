@@ -22,7 +22,7 @@ pub trait Special: Analytic {
     fn ray_start(ray: &Ray<Self>) -> Self;
 
     /// Computes `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` of a ray for K sequences `0 ≤ c_n ≤ 4n³`, each from its own
-    /// `n₀ ≥ 1`, in one pass.
+    /// `n₀ ≥ 1`, in one pass. The bounds need `c_n ≤ 1.2 (n/n₀)³ c_{n₀}` as well.
     fn ray_sums<const K: usize>(ray: &Ray<Self>, first: [i64; K], weight: impl Fn(i64) -> [i64; K])
     -> RaySums<Self, K>;
 
@@ -82,7 +82,7 @@ impl<S: Special> Ray<S> {
     }
 
     /// Computes `e^{−rt} Σ_{n≥n₀} c_n (r/2)^{n−n₀} ψ_n` for K sequences `0 ≤ c_n ≤ 4n³`, each from its own `n₀ ≥ 1`, in
-    /// one pass.
+    /// one pass. The bounds need `c_n ≤ 1.2 (n/n₀)³ c_{n₀}` as well.
     ///
     /// **Accuracy**: see [`Special`].
     #[inline]

@@ -25,9 +25,9 @@ pub(super) struct Reference<'a> {
     jumps: Vec<f64>,
     /// The start, and the times at which contact begins or ends.
     switches: Vec<f64>,
-    /// The times at which rays leave the ground: the jumps, and times before the start for rays of a start that is not
-    /// uniform and that have not been at the ground yet.
-    departures: Vec<f64>,
+    /// The times at which rays leave the ground, and those at which they leave the top, ascending: also times before
+    /// the start, for rays that begin inside the rod.
+    departures: [Vec<f64>; 2],
 }
 
 /// The rays near the samples of a column.
@@ -53,7 +53,8 @@ const LEAST_JUMP: f64 = 1e-9;
 impl<'a> Reference<'a> {
     /// Collects the jumps and the pieces of a history.
     ///
-    /// **Source**: the register of rays. A ray at the ground counts where the two limits differ.
+    /// **Source**: the register of rays; for a body of a chain, the rays that leave its ends. A ray at the ground counts
+    /// where the two limits differ.
     pub(super) fn new(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
@@ -64,6 +65,7 @@ impl<'a> Reference<'a> {
             }
         };
         let pieces = history.stress_history()?.pieces;
+        let half = rod.round_trip() / 2.0;
         let at_ground = |from: f64, to: f64| {
             let rays = |motion: &dyn Motion<Estimate<f64>>| {
                 Ok(RayRegister::of(motion).passing(&motion.end().zero(), from, to))
@@ -71,17 +73,44 @@ impl<'a> Reference<'a> {
             let rays = history.ask(rays, |_| Vec::new())?;
             Ok::<Vec<f64>, Error>(rays.into_iter().map(|ray| ray.time.into_value()).collect())
         };
-        let candidates = at_ground(0.0, *history.end())?;
+        let least = LEAST_JUMP * history.scales().velocity;
+        // The rays of a body of a chain come from its neighbours too.
+        let own = |motion: &dyn Motion<Estimate<f64>>| match motion.departures() {
+            Err(Error::NoWaves) => Ok(None),
+            departures => Ok(Some(departures?)),
+        };
+        let own = history.ask(own, |_| Vec::new())?.map(|ends| {
+            ends.map(|rays| {
+                let rays = rays.into_iter().filter(|(_, jump)| jump.value().abs() > least);
+                rays.map(|(time, _)| time.into_value()).collect::<Vec<f64>>()
+            })
+        });
+        let candidates = match &own {
+            None => at_ground(0.0, *history.end())?,
+            Some([up, down]) => {
+                let times = up.iter().copied().chain(down.iter().map(|time| time + half));
+                let mut times: Vec<f64> = times.filter(|time| (0.0..=*history.end()).contains(time)).collect();
+                times.sort_by(f64::total_cmp);
+                times.dedup();
+                times
+            }
+        };
         let seen = [Quantity::EndVelocity, Quantity::Strain];
         let before = history.columns(&seen, &candidates, Some(Side::Left))?;
         let after = history.columns(&seen, &candidates, Some(Side::Right))?;
         let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
-        let least = LEAST_JUMP * history.scales().velocity;
         let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
         let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
-        let mut departures = at_ground(-rod.round_trip(), 0.0)?;
-        departures.retain(|time| *time < 0.0);
-        departures.extend(&jumps);
+        let departures = match own {
+            Some(departures) => departures,
+            None => {
+                let mut up = at_ground(-rod.round_trip(), 0.0)?;
+                up.retain(|time| *time < 0.0);
+                up.extend(&jumps);
+                let down = up.iter().map(|time| time + half).collect();
+                [up, down]
+            }
+        };
         let events = history.events().iter().map(|event| event.t);
         let switches = std::iter::once(0.0).chain(events).collect();
         Ok(Reference { history, rod, modulus, density, area, pieces, jumps, switches, departures })
@@ -184,8 +213,9 @@ impl<'a> Reference<'a> {
     /// Returns the time nearest to `time` at which a ray passes the point `travel` in time away from the ground;
     /// infinite where none does.
     fn nearest_ray_at(&self, travel: f64, time: f64) -> f64 {
-        let trip = self.rod.round_trip();
-        let ways = [travel, trip - travel].map(|delay| nearest(&self.departures, time - delay) + delay);
+        let [up, down] = &self.departures;
+        let ways = [(up, travel), (down, self.rod.round_trip() / 2.0 - travel)];
+        let ways = ways.map(|(departures, delay)| nearest(departures, time - delay) + delay);
         if (ways[0] - time).abs() < (ways[1] - time).abs() { ways[0] } else { ways[1] }
     }
 
