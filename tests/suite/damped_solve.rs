@@ -2,6 +2,7 @@
 //! cases.
 
 use crate::common::{close, number, problem, reference};
+use dalembert::quantity::{Quantity, ValueQuery};
 use dalembert::solve::Rung;
 use dalembert::{Ending, EventKind, Number, Numbers, Parameters, Plan, Problem, Question, Run, Side, TypedHistory};
 use serde_json::Value;

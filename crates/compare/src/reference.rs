@@ -85,30 +85,28 @@ impl<'a> Reference<'a> {
                 rays.map(|(time, _)| time.into_value()).collect::<Vec<f64>>()
             })
         });
-        let candidates = match &own {
-            None => at_ground(0.0, *history.end())?,
+        let (jumps, departures) = match own {
             Some([up, down]) => {
                 let times = up.iter().copied().chain(down.iter().map(|time| time + half));
-                let mut times: Vec<f64> = times.filter(|time| (0.0..=*history.end()).contains(time)).collect();
-                times.sort_by(f64::total_cmp);
-                times.dedup();
-                times
+                let mut jumps: Vec<f64> = times.filter(|time| (0.0..=*history.end()).contains(time)).collect();
+                jumps.sort_by(f64::total_cmp);
+                (jumps, [up, down])
             }
-        };
-        let seen = [Quantity::EndVelocity, Quantity::Strain];
-        let before = history.columns(&seen, &candidates, Some(Side::Left))?;
-        let after = history.columns(&seen, &candidates, Some(Side::Right))?;
-        let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
-        let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
-        let jumps: Vec<f64> = candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
-        let departures = match own {
-            Some(departures) => departures,
             None => {
+                let candidates = at_ground(0.0, *history.end())?;
+                let seen = [Quantity::EndVelocity, Quantity::Strain];
+                let [before, after] =
+                    [Side::Left, Side::Right].map(|side| history.columns(&seen, &candidates, Some(side)));
+                let (before, after) = (before?, after?);
+                let jump = |column: usize, k: usize| (before[column][k] - after[column][k]).abs();
+                let differ = |k: usize| jump(0, k).max(jump(1, k) * rod.wave_speed) > least;
+                let jumps: Vec<f64> =
+                    candidates.iter().enumerate().filter(|(k, _)| differ(*k)).map(|(_, at)| *at).collect();
                 let mut up = at_ground(-rod.round_trip(), 0.0)?;
                 up.retain(|time| *time < 0.0);
                 up.extend(&jumps);
                 let down = up.iter().map(|time| time + half).collect();
-                [up, down]
+                (jumps, [up, down])
             }
         };
         let events = history.events().iter().map(|event| event.t);
