@@ -140,8 +140,8 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns energies, centre and momentum of a body.
     ///
-    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if it is not decided whether the velocity of a rigid body has
-    /// jumped.
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if it is not decided whether the velocity of a rigid body
+    /// has jumped.
     pub fn sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { length, wave_speed, impedance, mass, .. } = &self.bars[body];
         let zero = length.zero();

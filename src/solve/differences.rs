@@ -3,9 +3,10 @@
 //! With a relative step `h` of the value and numbers of twice as many digits, `(f(1 + h) − f(1))/h` has half of these
 //! digits. Its error is `h f″/2`, and that of the quotient to the left, with a step twice as long, is `−h f″`. Their
 //! difference estimates the error of `(2 right + left)/3`, in which `f″` cancels, as long as `f″` does not change by
-//! its own size within the steps. The two steps differ so that no root or jump that is odd about the value looks smooth. If
-//! the quotients differ by more than a smooth function allows for a step of the requested size, the step is squared:
-//! the error of a one-sided quotient shrinks with the step; otherwise the function has a kink, a root or a jump.
+//! its own size within the steps. The two steps differ so that no root or jump that is odd about the value looks
+//! smooth. If the quotients differ by more than a smooth function allows for a step of the requested size, the step is
+//! squared: the error of a one-sided quotient shrinks with the step; otherwise the function has a kink, a root or a
+//! jump.
 
 use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
 use super::plan::Plan;

@@ -53,8 +53,8 @@ const LEAST_JUMP: f64 = 1e-9;
 impl<'a> Reference<'a> {
     /// Collects the jumps and the pieces of a history.
     ///
-    /// **Source**: the register of rays; for a body of a chain, the rays that leave its ends. A ray at the ground counts
-    /// where the two limits differ.
+    /// **Source**: the register of rays, of which those count at the ground where the two limits differ; for a body of
+    /// a chain, the rays that leave its ends.
     pub(super) fn new(history: &'a TypedHistory<f64>) -> Result<Self, Error> {
         let problem = history.problem();
         let rod = Parameters::<f64>::of(problem, &())?;
