@@ -33,6 +33,9 @@ pub(super) enum Signal<N> {
     Curve(Box<Curve<N>>),
 }
 
+/// Number of parts of a width in which [`Curve::mean_fall`] bounds a function.
+const FALL_PARTS: i64 = 16;
+
 /// Returns the least power of two that is no less than a width.
 pub(super) fn unit_of<N: Bounded>(width: &N) -> N {
     let size = width.to_f64();
@@ -232,6 +235,35 @@ impl<N: Bounded> Curve<N> {
         rough_bound(&self.terms, &self.reach()) + &self.error
     }
 
+    /// Returns a bound of the mean of `max(0, −f)` over the width.
+    ///
+    /// **Source**: the sum of such bounds over parts of the width, in which a function that decays fast stays close to
+    /// its first value.
+    fn mean_fall(&self) -> N {
+        let part = (self.reach() / self.width.int(FALL_PARTS)).centred().0;
+        // The overlap covers the rounding of where a part begins.
+        let width = part.clone() * part.ratio(9, 8);
+        let fall = |k: i64| {
+            let from = (part.clone() * part.int(k)).centred().0;
+            let (terms, error) = centred(shifted(&self.terms, &from), &width);
+            let least = terms[0].clone() - rough_bound(&terms[1..], &width) * &width - error - &self.error;
+            if least.positive() == Ok(true) { least.zero() } else { upper(least.magnitude()) }
+        };
+        let sum = (0..FALL_PARTS).fold(self.width.zero(), |sum, k| sum + fall(k));
+        sum * self.width.ratio(9, 8 * FALL_PARTS)
+    }
+
+    /// Returns a bound of the magnitude within `late` of the time `place` after the origin. Around a zero it is far below
+    /// that of a bound of the slope, which a signal that decays fast has at the other end of its width.
+    fn most_about(&self, place: &N, late: &N) -> N {
+        let late = self.in_units(late);
+        // Twice the distance covers the rounding of its beginning.
+        let from = (self.in_units(place) - late.clone().doubled()).centred().0;
+        let width = late.doubled().doubled();
+        let (terms, error) = centred(shifted(&self.terms, &from), &width);
+        rough_bound(&terms, &width) + error + &self.error
+    }
+
     /// Returns the integral of the square over the first part of the width.
     pub(super) fn square_integral(&self, width: &N) -> N {
         let square = square(&self.terms);
@@ -275,8 +307,9 @@ impl<N: Bounded> Curve<N> {
                 Some((_, factor)) => most * factor.magnitude() * &left,
                 None => most * own.in_units(&left),
             };
-            let Ok((fall, doubt)) = first_fall(&Curve { error: error.clone(), ..slopes.clone() }) else {
-                spare = spare + climb(slopes.most());
+            let searched = Curve { error: error.clone(), ..slopes.clone() };
+            let Ok((fall, doubt)) = first_fall(&searched) else {
+                spare = spare + climb(searched.mean_fall());
                 break;
             };
             if doubt {
@@ -289,10 +322,8 @@ impl<N: Bounded> Curve<N> {
             if !falls && !is_exact_zero(&here) {
                 let found = value(&own.terms, &own.in_units(&here)).widened(&own.error);
                 let (climb, time) = match slope {
-                    // Between the zero of the stored slope and that of the true one.
                     Some((_, factor)) => {
-                        let bend = rough_slope(&slopes.terms, &slopes.reach(), 1) * slopes.in_units(&late);
-                        let climb = (bend + &slopes.error) * factor.magnitude() * &late;
+                        let climb = slopes.most_about(&place, &late) * factor.magnitude() * &late;
                         (climb, (begin.clone() + &here).widened(&late))
                     }
                     None => {

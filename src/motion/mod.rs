@@ -2,10 +2,12 @@
 
 mod at_start;
 mod course;
+mod listed_rays;
 pub(crate) mod moments;
 mod partition;
 mod query;
 mod register;
+mod repeated_rays;
 mod straight;
 mod wave;
 

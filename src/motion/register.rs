@@ -1,33 +1,25 @@
 //! Register of rays: the times at which each ray passes a point.
 
-use super::{Event, EventKind, Motion, Scales};
+use super::Motion;
+use super::listed_rays::ListedRays;
+use super::repeated_rays::RepeatedRays;
 use crate::number::Scalar;
 
-/// The rays of a motion, by the times at which they leave the ground, modulo round trips.
-///
-/// **Source**: a ray that leaves the ground at τ passes the point x at `τ + x/c + k t₁` and `τ − x/c + (k + 1) t₁`,
-/// `k ≥ 0`. Rays begin at impacts and releases, and at the points between which the initial data are linear; the latter
-/// are entered as if they had left the ground before the start.
+/// The times at which rays pass the points of a rod or of a body of a chain.
 ///
 /// **Accuracy**: each time is known within the bound that it carries; no other tolerance distinguishes two rays.
 #[derive(Clone, Debug)]
 pub struct RayRegister<S> {
-    round_trip: S,
-    wave_speed: S,
+    rays: Rays<S>,
     end: S,
-    /// Groups of rays that are at the ground at the same times modulo round trips, in the order of these times.
-    known: Vec<Phase<S>>,
-    /// The greatest bound of their times, in round trips.
-    widest: f64,
 }
 
-/// Rays whose times differ by whole round trips.
 #[derive(Clone, Debug)]
-struct Phase<S> {
-    /// Fraction of a round trip, as a double.
-    fraction: f64,
-    /// Times at which they leave the ground, ascending, and whether they may carry a jump (otherwise only a kink).
-    rays: Vec<(S, bool)>,
+enum Rays<S> {
+    /// The rays of a rod by itself.
+    Repeated(RepeatedRays<S>),
+    /// The rays of a body of a chain.
+    Listed(ListedRays<S>),
 }
 
 /// A ray at a point.
@@ -41,79 +33,28 @@ pub struct Passing<S> {
     pub jump: bool,
 }
 
-/// Difference of fractions of a round trip below which rays are compared in the numbers of the run: doubles hold the
-/// fraction of a million round trips to 1e-10.
-const NEAR: f64 = 1e-6;
 /// Maximum error of a displaced ray in round trips; rays with a greater error are left out, because the run already
 /// warns that its events are in doubt.
-const MOST_LATE: f64 = 0.01;
+pub(super) const MAX_LATE: f64 = 0.01;
 
 impl<S: Scalar> RayRegister<S> {
     /// Returns the rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
-        let mut found = Self::of_start(motion);
-        for event in motion.events().iter().filter(|event| event.t.to_f64() != 0.0) {
-            found.push(ray_of(event));
-        }
-        Self::with(motion, found)
-    }
-
-    /// Returns the rays of the start, and the displaced rays: those of events whose time error exceeds `roundings`
-    /// roundings of the time, or that lie on no ray of the start.
-    pub(crate) fn parted(motion: &dyn Motion<S>, roundings: f64) -> [Self; 2] {
-        let start = Self::with(motion, Self::of_start(motion));
-        let own = |time: &S| {
-            let rounded = time.log2_error() <= time.to_f64().abs().log2() + time.log2_roundoff() + roundings.log2();
-            rounded && !start.near(&time.zero(), time).is_empty()
+        let rays = match motion.departures() {
+            Ok(ends) => Rays::Listed(ListedRays::new(motion, ends)),
+            Err(_) => Rays::Repeated(RepeatedRays::of(motion)),
         };
-        let most = (motion.scales().time.to_f64() * MOST_LATE).log2();
-        let times = motion.events().iter().map(|event| &event.t);
-        let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
-        let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
-        [start, displaced]
+        RayRegister { rays, end: motion.end() }
     }
 
-    /// Returns the rays of the initial data, and the ray of a rod that stands on the ground.
-    fn of_start(motion: &dyn Motion<S>) -> Vec<(S, bool)> {
-        let Scales { time: round_trip, wave_speed, .. } = motion.scales();
-        let mut found = Vec::new();
-        for corner in motion.corners() {
-            let late = corner / &wave_speed;
-            found.extend([(-late.clone(), true), (late - &round_trip, true)]);
-        }
-        let stands = motion.events().first().filter(|event| event.t.to_f64() == 0.0);
-        found.extend(stands.map(ray_of));
-        found
-    }
-
-    fn with(motion: &dyn Motion<S>, found: Vec<(S, bool)>) -> Self {
-        let Scales { time: round_trip, wave_speed, .. } = motion.scales();
-        let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
-        let mut phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
-        phases.sort_by(|(a, (at_a, _)), (b, (at_b, _))| a.total_cmp(b).then(at_a.to_f64().total_cmp(&at_b.to_f64())));
-        let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
-        let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
-        let mut rays = RayRegister { round_trip, wave_speed, end: motion.end(), known: Vec::new(), widest };
-        for (fraction, ray) in phases {
-            match rays.known.last() {
-                Some(last) if fraction - last.fraction <= NEAR && rays.same_phase(&last.rays[0].0, &ray.0) => {
-                    let last = rays.known.len() - 1;
-                    rays.known[last].rays.push(ray);
-                }
-                _ => rays.known.push(Phase { fraction, rays: vec![ray] }),
-            }
-        }
-        for phase in &mut rays.known {
-            phase.rays.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
-        }
-        rays
-    }
-
-    /// Returns whether two times differ by whole round trips, within their bounds.
-    fn same_phase(&self, a: &S, b: &S) -> bool {
-        let apart = b.clone() - a;
-        let trips = (apart.to_f64() / self.round_trip.to_f64()).round();
-        (apart - self.round_trip.double(trips) * &self.round_trip).vanishes() != Ok(false)
+    /// Returns the rays whose times are known to `roundings` roundings, and the displaced rays, those of greater error.
+    /// Of a rod by itself the former are the rays of the start.
+    pub(crate) fn parted(motion: &dyn Motion<S>, roundings: f64) -> [Self; 2] {
+        let parts = match motion.departures() {
+            Ok(ends) => ListedRays::new(motion, ends).parted(roundings).map(Rays::Listed),
+            Err(_) => RepeatedRays::parted(motion, roundings).map(Rays::Repeated),
+        };
+        parts.map(|rays| RayRegister { rays, end: motion.end() })
     }
 
     /// Returns the time of a ray at `point` within `roundings` plus the ray's own bound of `time`, or else `time`.
@@ -123,105 +64,37 @@ impl<S: Scalar> RayRegister<S> {
             let known = roundings + if bound.is_finite() { bound } else { 0.0 };
             (met.clone() - &time).to_f64().abs() <= known && self.end.below(met) != Ok(true)
         };
-        self.about(point, &time, 0.0).into_iter().find(known).unwrap_or(time)
+        let about = match &self.rays {
+            Rays::Repeated(rays) => rays.about(point, &time, 0.0),
+            Rays::Listed(rays) => rays.about(point, &time),
+        };
+        about.into_iter().find(known).unwrap_or(time)
     }
 
     /// Returns the times at which rays pass `point` that are indistinguishable from `time` within both bounds.
     pub fn near(&self, point: &S, time: &S) -> Vec<S> {
-        // Doubles decide almost all cases.
-        let (trip, seconds) = (self.round_trip.to_f64(), time.to_f64());
-        let wave_speed = self.wave_speed.to_f64();
-        let travel = point.to_f64() / wave_speed;
-        let asked = (time.log2_error().exp2() + point.log2_error().exp2() / wave_speed) / trip;
-        let widest = (self.widest + asked).min(1.0);
-        let about = |delay: f64| {
-            let trips = (seconds - delay) / trip;
-            !self.known_near(trips - trips.floor(), NEAR + widest).is_empty()
-        };
-        if !about(travel) && !about(-travel) {
-            return Vec::new();
+        match &self.rays {
+            Rays::Repeated(rays) => rays.near(point, time),
+            Rays::Listed(rays) => rays.near(point, time),
         }
-        let open = |met: &S| met.log2_error() < f64::INFINITY && (met.clone() - time).vanishes() != Ok(false);
-        let mut near = self.about(point, time, widest);
-        near.retain(open);
-        near
     }
 
-    /// Returns the times at which rays pass `point` near `time`, up to `widest` round trips apart.
-    fn about(&self, point: &S, time: &S, widest: f64) -> Vec<S> {
-        let travel = point.clone() / &self.wave_speed;
-        let delays = if point.vanishes() == Ok(true) { vec![travel] } else { vec![travel.clone(), -travel] };
-        let mut met = Vec::new();
-        for delay in delays {
-            let at_ground = time.clone() - &delay;
-            let place = fraction(&(at_ground.clone() / &self.round_trip));
-            for known in self.known_near(place, NEAR + widest) {
-                let trips = (at_ground.clone() - known) / &self.round_trip;
-                if let Some(trips @ 0..) = (trips.clone() + trips.ratio(1, 2)).floor_int() {
-                    met.push(self.round_trip.int(trips) * &self.round_trip + known + &delay);
-                }
-            }
-        }
-        met
-    }
-
-    /// Returns the rays near this fraction of a round trip; 0 and 1 are neighbours.
-    fn known_near(&self, fraction: f64, apart: f64) -> Vec<&S> {
-        let near = [fraction - 1.0, fraction, fraction + 1.0].into_iter().flat_map(|fraction| {
-            let from = self.known.partition_point(|phase| phase.fraction < fraction - apart);
-            self.known[from..].iter().take_while(move |phase| phase.fraction <= fraction + apart)
-        });
-        near.map(|phase| &phase.rays[0].0).collect()
-    }
-
-    /// Returns the rays that pass `point` from one time to another, in order. At the ground this includes rays from the
-    /// start that have never been there, as if they had left it before.
+    /// Returns the rays that pass `point` from one time to another, in order. At the ground a rod by itself has rays
+    /// from the start that have never been there, as if they had left it before.
     pub fn passing(&self, point: &S, from: f64, to: f64) -> Vec<Passing<S>> {
-        let (trip, travel) = (self.round_trip.to_f64(), point.clone() / &self.wave_speed);
-        let mut found: Vec<Passing<S>> = Vec::new();
-        for Phase { rays, .. } in &self.known {
-            let first = &rays[0].0;
-            let first_jump = rays.iter().position(|ray| ray.1).unwrap_or(rays.len());
-            let down = self.round_trip.clone() - &travel;
-            for delay in [travel.clone(), down] {
-                let (begins, late) = (first.to_f64(), delay.to_f64());
-                let before = ((from - begins - late) / trip).floor().max(0.0);
-                for k in 0u32.. {
-                    let trips = before + f64::from(k);
-                    let time = self.round_trip.double(trips) * &self.round_trip + first + &delay;
-                    let at = time.to_f64();
-                    if at > to {
-                        break;
-                    }
-                    // The latest ray of the phase carries on for the earlier ones.
-                    let begun = rays.partition_point(|(ray, _)| ray.to_f64() <= at - late + NEAR * trip).max(1);
-                    if at >= from {
-                        let (jump, age) = (begun > first_jump, at - rays[begun - 1].0.to_f64());
-                        found.push(Passing { time, age, jump });
-                    }
-                }
-            }
+        match &self.rays {
+            Rays::Repeated(rays) => rays.passing(point, from, to),
+            Rays::Listed(rays) => rays.passing(point, from, to),
         }
-        found.sort_by(|a, b| a.time.to_f64().total_cmp(&b.time.to_f64()));
-        found.dedup_by(|b, a| {
-            let apart = b.time.clone() - &a.time;
-            let one = apart.to_f64() <= NEAR * trip && apart.vanishes() != Ok(false);
-            if one {
-                *a = Passing { time: a.time.clone(), age: a.age.min(b.age), jump: a.jump || b.jump };
-            }
-            one
-        });
-        found
     }
 }
 
-/// Returns the time at which the ray leaves the ground, and whether it may carry a jump.
-fn ray_of<S: Scalar>(event: &Event<S>) -> (S, bool) {
-    (event.t.clone(), event.kind == EventKind::Impact && event.v_end.vanishes() != Ok(true))
+/// Returns whether the error of a time is at most `roundings` of its roundings.
+pub(super) fn is_rounded<S: Scalar>(time: &S, roundings: f64) -> bool {
+    time.log2_error() <= time.to_f64().abs().log2() + time.log2_roundoff() + roundings.log2()
 }
 
-/// Returns the fractional part of a number of round trips.
-fn fraction<S: Scalar>(trips: &S) -> f64 {
-    let trips = trips.to_f64();
-    trips - trips.floor()
+/// Returns whether the time of a ray is indistinguishable from `time` within both bounds.
+pub(super) fn is_open<S: Scalar>(met: &S, time: &S) -> bool {
+    met.log2_error() < f64::INFINITY && (met.clone() - time).vanishes() != Ok(false)
 }

@@ -180,9 +180,7 @@ impl<S: Rounded> Telling<S> {
     ) -> Result<T, Error> {
         let longer = match &self.open {
             Open::Says(longer) => match ask(&*self.engine, time, side) {
-                Err(Error::NotDecided { what: NOT_TOLD, .. }) => longer,
-                // A time that the engine has computed itself means nothing to other runs.
-                Err(Error::Open(_)) if time.spelled_as().is_some() => longer,
+                Err(Error::NotDecided { what: NOT_TOLD, .. } | Error::Open(_)) => longer,
                 found => return found,
             },
             _ if self.near(point, time).is_empty() => return ask(&*self.engine, time, side),

@@ -22,9 +22,6 @@ impl Target for f64 {
                 return long_chain(problem, plan, rung, observe);
             }
             let engine = chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?;
-            if !LONG {
-                return Ok(engine);
-            }
             let rungs = chain::rungs(plan.numbers).into_iter().skip(1).collect();
             let owned = (problem.clone(), plan.clone(), observe.clone());
             let run = move |rung| long_chain(&owned.0, &owned.1, rung, &owned.2);

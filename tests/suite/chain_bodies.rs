@@ -146,6 +146,38 @@ fn doubles_are_within_their_bounds() {
     assert!(compared > 250 * chains && at_events > 10 * chains, "{compared} {at_events}");
 }
 
+/// A double next to the time of a ray is the time of the ray: at it a history in doubles has both limits of fractions.
+#[test]
+fn doubles_next_to_rays_have_both_limits() {
+    let mut random = Random(8_128);
+    let quantities = ["v_end", "strain", "v_top"].map(|name| name.parse::<Quantity>().unwrap());
+    let (mut compared, mut jumps) = (0, 0);
+    for _ in 0..12 {
+        let chain = random.chain();
+        for problem in chain.problems().unwrap() {
+            let (exact, doubles) = (problem.exact().unwrap(), problem.doubles().unwrap());
+            let ends = exact.ask(|motion| motion.departures(), |_| Vec::new()).unwrap();
+            let end = *doubles.end() * (1.0 - 1e-9);
+            let rays = ends.into_iter().flatten().map(|(time, _)| time);
+            let rays: Vec<Rational> = rays.filter(|time| (1e-9..end).contains(&time.to_f64())).step_by(5).collect();
+            let near: Vec<f64> = rays.iter().map(Scalar::to_f64).collect();
+            let both = [Side::Left, Side::Right].map(|side| {
+                let expected = exact.columns(&quantities, &rays, Some(side)).unwrap();
+                let found = doubles.columns(&quantities, &near, Some(side)).unwrap();
+                for (expected, found) in expected.iter().flatten().zip(found.iter().flatten()) {
+                    let off = (expected.to_f64() - found).abs();
+                    assert!(off <= 1e-9 * (1.0 + found.abs()), "{side}: {found} for {expected} of {chain:?}");
+                    compared += 1;
+                }
+                expected
+            });
+            jumps +=
+                both[0].iter().flatten().zip(both[1].iter().flatten()).filter(|(left, right)| left != right).count();
+        }
+    }
+    assert!(compared > 1_000 && jumps > 200, "{compared} {jumps}");
+}
+
 /// Returns the number that a value prints.
 fn spelled(value: &Value) -> Number {
     value.to_string().parse().unwrap()

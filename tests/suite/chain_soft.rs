@@ -268,6 +268,24 @@ fn a_free_rod_leaves_a_spring_ground_when_its_closed_form_says() {
     assert_eq!(digits.to_string(), "2.083917349500833032607362403");
 }
 
+/// A held rod that stretches at rest pushes a spring with `(Z/2)(1 − e^(−ks/Z))`: the force rises all along, and its
+/// slope is far below the errors of doubles at the end. **Source**: at `s = 2` the exponential is below 1e-173.
+#[test]
+fn a_peak_that_a_force_approaches_is_sharp_in_doubles() {
+    for modulus in ["1.00020001", "1.0404", "1.21"] {
+        let rod = Body::elastic(1.into(), number(modulus), 1.into(), 1.into())
+            .with_displacement(vec![(0.into(), number("0.5")), (1.into(), 0.into())]);
+        let ground = End::Ground { gap: number("0.5"), velocity: Vec::new() };
+        let spring = Spring { stiffness: 200.into(), damping: 0.into() };
+        let chain = Chain::builder(rod).bottom(ground).top(End::Velocity(Vec::new())).spring(0, spring);
+        let chain = chain.until(3.into()).build().unwrap();
+        let run = ChainRun::<Estimate<f64>>::new(&chain, &(), &|_, _| ControlFlow::Continue(())).unwrap();
+        let peak = run.contacts().swap_remove(0).peak;
+        let truth = modulus.parse::<f64>().unwrap() / 2.0;
+        assert!((peak.value() - truth).abs() <= peak.bound() && peak.bound() < 1e-11, "{peak:?} for {modulus}");
+    }
+}
+
 /// **Source**: the closed form above, `T(ω) = 2 + x/ω`; with `(eˣ − 2) x′ = 2e^(−2ω)` it is `T′ = x′/ω − x/ω²`. The
 /// peak is `2e^(−E/2) − 1` with `E = e^(−2ω)`, and its slope `2E e^(−E/2)`.
 #[test]
