@@ -276,6 +276,12 @@ pub enum Warning {
         /// `μ/2r`: the way after which drag alone stops the rod.
         reach: f64,
     },
+    /// Derivatives by difference quotients or a cubic, which have no bound.
+    #[error("the errors of the derivatives by {parameter} are estimates, no bounds")]
+    EstimatedErrors {
+        /// The value that was changed.
+        parameter: String,
+    },
     /// Strains of a material that the theory does not hold for.
     #[error(
         "the strain reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \

@@ -97,7 +97,7 @@ class Derivatives(NamedTuple):
         Limits from smaller and from greater values: structured arrays with the names and the rows of the table. A
         number without a derivative is masked.
     left_error, right_error : MaskedArray
-        Bounds of the errors of these.
+        Errors of these: bounds, or estimates where ``history.warnings`` says so.
     reasons : dict of tuple to str
         Reason for each masked number by its side, row and column: ``reasons["left", 2, "t"]``. It is "infinite",
         "jumps", "not settled" or "there is no number".

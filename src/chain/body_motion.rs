@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use super::curve::Signal;
 use super::definition::Chain;
+use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::start::Bar;
 use super::wave::{Piece, Wave};
@@ -147,12 +148,12 @@ impl<N: Bounded> BodyMotion<N> {
         let mut aside = (4.0 * time.log2_error().exp2()).max(roundings);
         let mut at = time.clone();
         loop {
-            match self.run.sums(self.body, &at) {
-                Ok(sums) => {
+            match self.run.means(self.body, &at) {
+                Ok([height, rate]) => {
                     let late = (time.clone() - &at).magnitude();
                     let faster = most.clone() * &late;
-                    let higher = (sums.velocity.magnitude() + &faster) * &late;
-                    return (sums.displacement.widened(&higher), sums.velocity.widened(&faster));
+                    let higher = (rate.magnitude() + &faster) * &late;
+                    return (height.widened(&higher), rate.widened(&faster));
                 }
                 Err(_) if aside <= MAX_ASIDE * travel && aside > 0.0 => {
                     let before = time.clone().nominal() - time.double(aside);
@@ -190,14 +191,14 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     fn stress_pieces(&self) -> Vec<StressPiece<N>> {
         let stiffness = self.stiffness();
         let strain = |force: N| -(force / &stiffness);
-        let pieces = self.run.force_pieces(self.body).into_iter();
+        let pieces = self.run.force_series(self.body).into_iter();
         pieces
-            .map(|piece| StressPiece {
+            .map(|(piece, series)| StressPiece {
                 start: piece.start,
                 end: piece.end,
                 strain_start: strain(piece.first),
                 strain_end: strain(piece.last),
-                chebyshev: Vec::new(),
+                chebyshev: series.into_iter().map(strain).collect(),
             })
             .collect()
     }
@@ -211,16 +212,19 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     }
 
     fn pair(&self, pair: Pair, time: &N, side: Side) -> Result<[N; 2], Error> {
-        if pair == Pair::GroundEnd {
-            let Field { displacement, velocity, .. } = self.run.end_field(self.body, false, time, side)?;
-            return Ok([displacement, velocity]);
-        }
-        let sums = self.run.sums(self.body, time)?;
+        let sums = || self.run.sums(self.body, time);
         Ok(match pair {
-            Pair::GroundEnd | Pair::Centre => [sums.displacement, sums.velocity],
-            Pair::EnergyParts => [sums.kinetic / self.density(), sums.strain / self.density()],
+            Pair::GroundEnd => {
+                let Field { displacement, velocity, .. } = self.run.end_field(self.body, false, time, side)?;
+                [displacement, velocity]
+            }
+            Pair::Centre => self.run.means(self.body, time)?,
+            Pair::EnergyParts => {
+                let BodySums { kinetic, strain, .. } = sums()?;
+                [kinetic / self.density(), strain / self.density()]
+            }
             Pair::Energy => {
-                let length = &self.bar().length;
+                let (sums, length) = (sums()?, &self.bar().length);
                 let vibration = self.run.vibration(self.body, time, &sums)?;
                 let height = sums.displacement * &self.run.gravity;
                 [(sums.velocity.square().halved() + height) * length, vibration]

@@ -33,9 +33,6 @@ pub(super) enum Signal<N> {
     Curve(Box<Curve<N>>),
 }
 
-/// Number of parts of a width in which [`Curve::mean_fall`] bounds a function.
-const FALL_PARTS: i64 = 16;
-
 /// Returns the least power of two that is no less than a width.
 pub(super) fn unit_of<N: Bounded>(width: &N) -> N {
     let size = width.to_f64();
@@ -70,7 +67,7 @@ pub(super) fn rough_bound<N: Bounded>(terms: &[N], width: &N) -> N {
 }
 
 /// Returns `Σ k |cₖ| wᵏ⁻¹`, or with the second order `Σ k(k − 1) |cₖ| wᵏ⁻²`, as [`rough_bound`] does.
-fn rough_slope<N: Bounded>(terms: &[N], width: &N, order: usize) -> N {
+pub(super) fn rough_slope<N: Bounded>(terms: &[N], width: &N, order: usize) -> N {
     let reach = width.to_f64().abs() * (1.0 + 4.0 * f64::EPSILON);
     let factor = |k: usize| (0..order).map(|j| (k - j) as f64).product::<f64>();
     let term = |(k, term): (usize, &N)| term.to_f64().abs() * factor(k);
@@ -91,7 +88,7 @@ pub(super) fn primitive<N: Bounded>(terms: &[N]) -> Vec<N> {
 }
 
 /// Returns the coefficients about `by`.
-fn shifted<N: Bounded>(terms: &[N], by: &N) -> Vec<N> {
+pub(super) fn shifted<N: Bounded>(terms: &[N], by: &N) -> Vec<N> {
     let mut terms = terms.to_vec();
     if is_exact_zero(by) {
         return terms;
@@ -162,12 +159,12 @@ impl<N: Bounded> Curve<N> {
     }
 
     /// Returns a time since the origin in units.
-    fn in_units(&self, time: &N) -> N {
+    pub(super) fn in_units(&self, time: &N) -> N {
         time.clone() / &self.unit
     }
 
     /// Returns the width in units.
-    fn reach(&self) -> N {
+    pub(super) fn reach(&self) -> N {
         self.in_units(&self.width)
     }
 
@@ -230,38 +227,47 @@ impl<N: Bounded> Curve<N> {
         ((value(&terms, &to) - begun) * &self.unit).widened(&error)
     }
 
+    /// Returns the Chebyshev coefficients between the stored values of two times, the first one whole and widened by the
+    /// error of the curve; none for a line, which its ends give.
+    ///
+    /// **Source**: Horner's rule with `x T_k = (T_{k+1} + T_{|k−1|})/2`.
+    pub(super) fn chebyshev(&self, from: &N, to: &N) -> Vec<N> {
+        let [begin, end] = [from, to].map(|t| t.clone().centred().0);
+        let width = end - &begin;
+        let own = self.about(&begin, &width.clone().centred().0);
+        if own.terms.len() < 3 {
+            return Vec::new();
+        }
+        let half = own.in_units(&width).halved();
+        let mut power = half.one();
+        let mut terms = shifted(&own.terms, &half);
+        for term in &mut terms {
+            *term = term.clone() * &power;
+            power = power * &half;
+        }
+        let mut series: Vec<N> = Vec::new();
+        for term in terms.into_iter().rev() {
+            let mut next = vec![half.zero(); series.len() + 1];
+            next[0] = term;
+            for (k, found) in series.into_iter().enumerate() {
+                match k.checked_sub(1) {
+                    None => next[1] = found,
+                    Some(below) => {
+                        let found = found.halved();
+                        next[below] = next[below].clone() + &found;
+                        next[k + 1] = next[k + 1].clone() + found;
+                    }
+                }
+            }
+            series = next;
+        }
+        series[0] = series[0].clone().widened(&own.error);
+        series
+    }
+
     /// Returns a bound of the magnitude.
     pub(super) fn most(&self) -> N {
         rough_bound(&self.terms, &self.reach()) + &self.error
-    }
-
-    /// Returns a bound of the mean of `max(0, −f)` over the width.
-    ///
-    /// **Source**: the sum of such bounds over parts of the width, in which a function that decays fast stays close to
-    /// its first value.
-    fn mean_fall(&self) -> N {
-        let part = (self.reach() / self.width.int(FALL_PARTS)).centred().0;
-        // The overlap covers the rounding of where a part begins.
-        let width = part.clone() * part.ratio(9, 8);
-        let fall = |k: i64| {
-            let from = (part.clone() * part.int(k)).centred().0;
-            let (terms, error) = centred(shifted(&self.terms, &from), &width);
-            let least = terms[0].clone() - rough_bound(&terms[1..], &width) * &width - error - &self.error;
-            if least.positive() == Ok(true) { least.zero() } else { upper(least.magnitude()) }
-        };
-        let sum = (0..FALL_PARTS).fold(self.width.zero(), |sum, k| sum + fall(k));
-        sum * self.width.ratio(9, 8 * FALL_PARTS)
-    }
-
-    /// Returns a bound of the magnitude within `late` of the time `place` after the origin. Around a zero it is far below
-    /// that of a bound of the slope, which a signal that decays fast has at the other end of its width.
-    fn most_about(&self, place: &N, late: &N) -> N {
-        let late = self.in_units(late);
-        // Twice the distance covers the rounding of its beginning.
-        let from = (self.in_units(place) - late.clone().doubled()).centred().0;
-        let width = late.doubled().doubled();
-        let (terms, error) = centred(shifted(&self.terms, &from), &width);
-        rough_bound(&terms, &width) + error + &self.error
     }
 
     /// Returns the integral of the square over the first part of the width.
@@ -270,100 +276,6 @@ impl<N: Bounded> Curve<N> {
         let reach = self.in_units(width);
         let most = rough_bound(&self.terms, &reach).doubled() + &self.error;
         (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
-    }
-
-    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
-    /// and a factor whose product is the slope of the signal, if they are known.
-    pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Self, &N)>) -> (N, N) {
-        let [begin, end] = [from, to].map(|t| t.clone().centred().0);
-        let width = (end.clone() - &begin).centred().0;
-        let own = self.about(&begin, &width);
-        let mut best = (self.value_at(from), from.clone());
-        let last = (self.value_at(to), to.clone());
-        if own.terms.len() < 3 {
-            return highest(best, last);
-        }
-        let slopes = match slope {
-            Some((curve, _)) => curve.about(&begin, &width),
-            None => Curve { terms: derivative(&own.terms).into(), error: begin.zero(), ..own.clone() },
-        };
-        let mut rest = begin.zero();
-        let mut falls = slopes.terms[0].negative() == Ok(true);
-        // Possible height of maxima that are not found.
-        let mut spare = begin.zero();
-        // Maxima and minima of the curve alternate.
-        for turn in 0..own.terms.len() {
-            let left = (width.clone() - &rest).centred().0;
-            if left.positive() != Ok(true) {
-                break;
-            }
-            let slopes = slopes.about(&(begin.clone() + &rest).centred().0, &left);
-            let slopes = if falls { slopes.negated() } else { slopes };
-            // A search begins at the zero that the search before has found.
-            let zero = if turn == 0 { begin.zero() } else { upper(slopes.terms[0].magnitude()) };
-            let error = zero + &slopes.error;
-            // The slope of the terms is one per unit of the whole curve.
-            let climb = |most: N| match slope {
-                Some((_, factor)) => most * factor.magnitude() * &left,
-                None => most * own.in_units(&left),
-            };
-            let searched = Curve { error: error.clone(), ..slopes.clone() };
-            let Ok((fall, doubt)) = first_fall(&searched) else {
-                spare = spare + climb(searched.mean_fall());
-                break;
-            };
-            if doubt {
-                // Where the slope is not told from zero, it is below three times its error.
-                spare = spare + climb(error * begin.int(3));
-            }
-            let Fall::After(at) = fall else { break };
-            let (place, late) = at.centred();
-            let here = (rest.clone() + &place).centred().0;
-            if !falls && !is_exact_zero(&here) {
-                let found = value(&own.terms, &own.in_units(&here)).widened(&own.error);
-                let (climb, time) = match slope {
-                    Some((_, factor)) => {
-                        let climb = slopes.most_about(&place, &late) * factor.magnitude() * &late;
-                        (climb, (begin.clone() + &here).widened(&late))
-                    }
-                    None => {
-                        let bend = rough_slope(&own.terms, &own.reach(), 2);
-                        (bend * own.in_units(&late).square(), own.time_of_maximum(&here))
-                    }
-                };
-                best = highest(best, (found.widened(&climb), time));
-            }
-            if is_exact_zero(&place) {
-                break;
-            }
-            (rest, falls) = (here, !falls);
-        }
-        let (value, time) = highest(best, last);
-        if is_exact_zero(&spare) { (value, time) } else { (value.widened(&spare), time) }
-    }
-
-    /// Returns the time of a smooth maximum, which is near the time `here` after the origin, within its bound.
-    ///
-    /// **Source**: a signal within `e` of the curve has its maximum where the curve is within `2e` of its own. Where
-    /// the curve is `2e` lower on either side, the maximum is between.
-    fn time_of_maximum(&self, here: &N) -> N {
-        let time = (self.origin.clone() + here).centred().0;
-        let about = shifted(&self.terms, &self.in_units(here));
-        let zero = time.zero();
-        let term = |k: usize| about.get(k).map_or_else(|| zero.clone(), N::clone);
-        let (rise, bend, others) = (term(1).magnitude(), -term(2), about.get(3..).unwrap_or_default());
-        let depth = self.error.clone().doubled() + &rise;
-        if is_exact_zero(&depth) {
-            return time;
-        }
-        let near = (depth / &bend).doubled().try_sqrt().map(|near| near.centred().0).filter(|near| {
-            let cube = near.square() * near;
-            let lower = bend.clone() * near.square() - rise.clone() * near - rough_bound(others, near) * cube;
-            let low = lower - self.error.clone().doubled();
-            low.positive() == Ok(true)
-        });
-        let near = near.map(|near| near * &self.unit).filter(|near| near.below(&self.width) == Ok(true));
-        time.widened(&near.unwrap_or_else(|| self.width.clone()))
     }
 
     /// Returns a width over which the polynomial rises; `None` if it does not rise at its origin.
@@ -384,24 +296,6 @@ impl<N: Bounded> Curve<N> {
     pub(super) fn negated(&self) -> Self {
         let terms = self.terms.iter().map(|term| -term.clone()).collect::<Vec<_>>().into();
         Curve { terms, ..self.clone() }
-    }
-}
-
-/// Returns the greater of two values with their times, of which the second one is later. Values that agree within their
-/// bounds leave the time open between both.
-pub(super) fn highest<N: Bounded>(first: (N, N), second: (N, N)) -> (N, N) {
-    let apart = second.0.clone() - &first.0;
-    match (apart.positive(), apart.negative()) {
-        (Ok(true), _) => second,
-        (_, Ok(true)) => first,
-        _ if is_exact_zero(&apart) => first,
-        _ => {
-            let wait = (second.1.clone() - &first.1).magnitude();
-            let is_second_stored = (second.0.centred().0 - first.0.centred().0).positive() == Ok(true);
-            let (value, other, time) =
-                if is_second_stored { (second.0, first.0, second.1) } else { (first.0, second.0, first.1) };
-            (value.widened(&other.centred().1), time.widened(&wait))
-        }
     }
 }
 
@@ -446,18 +340,6 @@ impl<N: Bounded> Signal<N> {
         match self {
             Signal::Line(line) => line,
             Signal::Curve(curve) => Line { intercept: curve.terms[0].clone(), slope: curve.terms[0].zero() },
-        }
-    }
-
-    /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
-    /// and a factor whose product is the slope of the signal, if they are known.
-    pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Curve<N>, &N)>) -> (N, N) {
-        match self {
-            Signal::Curve(curve) => curve.greatest(from, to, slope),
-            Signal::Line(line) => {
-                let [first, last] = [from, to].map(|t| line.value_at(t));
-                if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }
-            }
         }
     }
 

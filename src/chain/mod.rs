@@ -32,6 +32,7 @@ mod law;
 mod march;
 mod node;
 mod norm;
+mod peak;
 mod run;
 mod start;
 mod step;

@@ -1,8 +1,10 @@
 //! A finished run of a chain: events, contacts, forces and gaps.
 
-use super::curve::{Signal, highest};
+use super::curve::Signal;
 use super::interface::Soft;
+use super::march::SOFT;
 use super::node::{Gap, Stage};
+use super::peak::highest;
 use super::start::Bar;
 use super::wave::{Wave, either, indices_at, is_exact_zero, may_jump, smooth_value};
 use crate::error::Error;
@@ -224,6 +226,36 @@ impl<N: Bounded> ChainRun<N> {
             pieces.pop_if(|(_, piece)| piece.start.same(&piece.end));
         }
         pieces.into_iter().map(|(_, piece)| piece).collect()
+    }
+
+    /// Returns the pieces of [`ChainRun::force_pieces`], or those of a force that is a curve with its Chebyshev
+    /// coefficients; none for a line.
+    pub(super) fn force_series(&self, node: usize) -> Vec<(ForcePiece<N>, Vec<N>)> {
+        let stages = &self.nodes[node];
+        if !SOFT || !stages.iter().any(|stage| matches!(stage.force, Signal::Curve(_))) {
+            return self.force_pieces(node).into_iter().map(|piece| (piece, Vec::new())).collect();
+        }
+        let mut pieces: Vec<(ForcePiece<N>, Vec<N>)> = Vec::new();
+        for (k, stage) in stages.iter().enumerate() {
+            let end = stages.get(k + 1).map_or(&self.end, |next| &next.from);
+            let [first, last] = [&stage.from, end].map(|t| stage.force.value_at(t));
+            let series = match &stage.force {
+                Signal::Curve(curve) => curve.chebyshev(&stage.from, end),
+                Signal::Line(_) => Vec::new(),
+            };
+            let is_flight = series.is_empty() && is_exact_zero(&first) && is_exact_zero(&last);
+            match pieces.last_mut() {
+                Some((before, own)) if is_flight && own.is_empty() && is_exact_zero(&before.last) => {
+                    before.end = end.clone();
+                }
+                _ => pieces.push((ForcePiece { start: stage.from.clone(), end: end.clone(), first, last }, series)),
+            }
+        }
+        // A break at the end of the run begins no piece.
+        if pieces.len() > 1 {
+            pieces.pop_if(|(piece, _)| piece.start.same(&piece.end));
+        }
+        pieces
     }
 
     /// Returns a bound of the magnitude of the force of a node.

@@ -61,7 +61,7 @@ impl ChainScene {
         add(
             "ground",
             named(&|end| matches!(end, End::Ground { .. })),
-            "a rigid stop that pushes and never pulls".into(),
+            "a stop that pushes and never pulls".into(),
             "no rigid stop is checked for contact",
         );
         add(

@@ -55,6 +55,26 @@ impl NoDerivative {
 /// Derivatives by row and column; `None` for a missing number.
 pub type Derivatives<S> = Vec<Vec<Option<Derivative<S>>>>;
 
+/// Derivatives as a number system computes them.
+#[derive(Debug)]
+pub struct Computed<S> {
+    pub(super) rows: Derivatives<S>,
+    /// Whether the errors are estimates: the derivatives come from runs with other values.
+    pub(super) is_estimated: bool,
+}
+
+impl<S> Computed<S> {
+    /// Returns derivatives whose errors are bounds.
+    pub(super) fn bounded(rows: Derivatives<S>) -> Self {
+        Computed { rows, is_estimated: false }
+    }
+
+    /// Returns derivatives whose errors are estimates.
+    pub(super) fn estimated(rows: Derivatives<S>) -> Self {
+        Computed { rows, is_estimated: true }
+    }
+}
+
 /// Numbers by row and column; `None` for a missing number.
 pub(super) type Rows<S> = Vec<Vec<Option<S>>>;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
-use super::derivative::{Asked, Derivatives};
+use super::derivative::{Asked, Computed};
 use super::ladder::{Engined, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, LONG, Plan, Rung};
 use super::planned::estimates;
@@ -52,20 +52,22 @@ impl Target for f64 {
 
     /// Computes derivatives from doubles if the request does not exceed their accuracy and nothing jumps or bends;
     /// otherwise from difference quotients to the digits of the run, rounded up.
-    fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Derivatives<Estimate<f64>>, Error> {
+    fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Computed<Estimate<f64>>, Error> {
         if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10() {
-            for way in [rates::in_doubles, rates::by_fractions, interpolated::of] {
+            for way in [rates::in_doubles, rates::by_fractions] {
                 if let Ok(Some(found)) = way(asked, run) {
-                    return Ok(found);
+                    return Ok(Computed::bounded(found));
                 }
+            }
+            if let Ok(Some(found)) = interpolated::of(asked, run) {
+                return Ok(Computed::estimated(found));
             }
         }
         let digits = asked.plan.goal.digits.ceil() as u32;
         let found = long::quotients(asked, digits)?;
-        Ok(found
-            .into_iter()
-            .map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect())
-            .collect())
+        let rows =
+            found.into_iter().map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect());
+        Ok(Computed::estimated(rows.collect()))
     }
 }
 
@@ -93,8 +95,8 @@ impl Target for Rational {
         Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Rational>, Error> {
-        rates::in_fractions(asked)
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Rational>, Error> {
+        rates::in_fractions(asked).map(Computed::bounded)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::derivative::{Asked, Derivatives};
+use super::derivative::{Asked, Computed};
 use super::plan::{Engine, Goal, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer, UNOBSERVED};
 use crate::error::Error;
@@ -56,7 +56,7 @@ pub trait Target: Answer<Carried: IntoValue> {
     /// Computes the requested derivatives of a history with the engine `run`, by the method of this number system.
     ///
     /// **Errors**: the errors of runs with other values; [`Error::Derivative`].
-    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Derivatives<Self::Carried>, Error>;
+    fn derivatives(asked: &Asked<'_>, run: &Engined<Self>) -> Result<Computed<Self::Carried>, Error>;
 }
 
 /// A problem and its plan, for a sequence of attempts.

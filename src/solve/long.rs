@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::asked::{Longer, Open, Telling, not_told};
 use super::chain;
 use super::converted::{Converted, confirmed};
-use super::derivative::{Asked, Derivatives};
+use super::derivative::{Asked, Computed};
 pub(super) use super::differences::of as quotients;
 use super::in_floats::in_floats;
 use super::ladder::{Engined, Target, needs_bits};
@@ -70,8 +70,8 @@ impl Target for Float {
         }
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Estimate<Float>>, Error> {
-        quotients(asked, asked.plan.goal.digits.ceil() as u32)
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Estimate<Float>>, Error> {
+        quotients(asked, asked.plan.goal.digits.ceil() as u32).map(Computed::estimated)
     }
 }
 
@@ -83,7 +83,7 @@ impl Target for Interval {
         enclosures(problem, plan, rung.bits(), observe)
     }
 
-    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Derivatives<Interval>, Error> {
+    fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Interval>, Error> {
         Err(Error::Derivative { parameter: asked.by.name(), expected: "digits that need not be proved" })
     }
 }

@@ -10,7 +10,7 @@ use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
 };
 use crate::number::{Answer, Number, Scalar, show};
-use crate::problem::Problem;
+use crate::problem::{Parameter, Problem};
 use crate::quantity::{self, Flight, Quantity, Restitution, Slice, UnitSystem, Units, flights, restitution};
 use crate::reason::{Reason, Warning};
 use crate::threads::locked;
@@ -53,6 +53,8 @@ pub struct TypedHistory<S: Target> {
     end: S,
     /// Times that earlier attempts could not distinguish from those of events or rays.
     covered: Mutex<Vec<f64>>,
+    /// Values by which derivatives were computed whose errors are estimates.
+    pub(super) estimated: Mutex<Vec<Parameter>>,
 }
 
 impl<S: Target> TypedHistory<S> {
@@ -78,6 +80,7 @@ impl<S: Target> TypedHistory<S> {
             contacts: OnceLock::new(),
             end: S::strip(end),
             covered: Mutex::default(),
+            estimated: Mutex::default(),
             problem: problem.clone(),
             plan: plan.clone(),
             observe,
@@ -439,6 +442,8 @@ impl<S: Target> TypedHistory<S> {
         covered.sort_by(f64::total_cmp);
         covered.dedup();
         warnings.extend(covered.into_iter().map(|time| Warning::TimeNotTold { time }));
+        let estimated = locked(&self.estimated);
+        warnings.extend(estimated.iter().map(|by| Warning::EstimatedErrors { parameter: by.to_string() }));
         warnings
     }
 }

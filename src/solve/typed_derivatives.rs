@@ -1,6 +1,6 @@
 //! Derivatives of the numbers of a history with respect to a value of its problem.
 
-use super::derivative::{Asked, At, Derivatives};
+use super::derivative::{Asked, At, Computed, Derivatives};
 use super::ladder::Target;
 use super::plan::Plan;
 use super::question::Question;
@@ -10,6 +10,7 @@ use crate::motion::Side;
 use crate::number::Number;
 use crate::problem::Parameter;
 use crate::quantity::Quantity;
+use crate::threads::locked;
 
 impl<S: Target> TypedHistory<S> {
     /// Computes the derivatives of `quantities` of one kind with respect to a value of the problem, for each event,
@@ -20,7 +21,8 @@ impl<S: Target> TypedHistory<S> {
     /// **Accuracy**: *exact* in fractions; where first order does not decide the order of two events, difference
     /// quotients have confirmed the derivatives. In doubles with the default accuracy, the derivative for an undamped
     /// rod is carried through the run beside each number, *within a bound* of its own, in fractions if these decide an
-    /// order of events. The error of any other derivative is an *estimate*. The derivative for a damped rod takes three
+    /// order of events. The error of any other derivative is an *estimate*,
+    /// as [`TypedHistory::warnings`] then says. The derivative for a damped rod takes three
     /// more runs and is that of a cubic through all four; the difference from a quadratic serves as its error, within
     /// 1e-5 of its natural size, mostly 1e-8. If these do not settle it, if more accuracy is requested, and in digits,
     /// it is a difference quotient of runs in long numbers, with a step as small as the last of the digits, and the
@@ -41,7 +43,7 @@ impl<S: Target> TypedHistory<S> {
     /// # Ok::<(), dalembert::Error>(())
     /// ```
     pub fn derivatives(&self, by: Parameter, quantities: &[Quantity]) -> Result<Derivatives<S::Carried>, Error> {
-        S::derivatives(&self.asked(by, quantities), &self.first.engine)
+        self.computed(&self.asked(by, quantities))
     }
 
     /// Computes the derivatives of `quantities` at `times` with respect to a value of the problem, a row for each time;
@@ -86,7 +88,17 @@ impl<S: Target> TypedHistory<S> {
         let Question { want, numbers } = Question::between(from, last.clone(), self.plan().numbers);
         let plan = Plan::of(self.problem(), &Question { want: want.clone(), numbers })?;
         let at = Some(At { times, points, side });
-        S::derivatives(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) }, &self.first.engine)
+        self.computed(&Asked { plan: &plan, want, at, ..self.asked(by, quantities) })
+    }
+
+    /// Computes derivatives, and keeps for [`TypedHistory::warnings`] whether their errors are estimates.
+    fn computed(&self, asked: &Asked<'_>) -> Result<Derivatives<S::Carried>, Error> {
+        let Computed { rows, is_estimated } = S::derivatives(asked, &self.first.engine)?;
+        let mut estimated = locked(&self.estimated);
+        if is_estimated && !estimated.contains(&asked.by) {
+            estimated.push(asked.by);
+        }
+        Ok(rows)
     }
 
     fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {

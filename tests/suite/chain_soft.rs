@@ -268,6 +268,36 @@ fn a_free_rod_leaves_a_spring_ground_when_its_closed_form_says() {
     assert_eq!(digits.to_string(), "2.083917349500833032607362403");
 }
 
+/// **Source**: the force of a free rod of speed 1 on a spring, `1 − e^(−kt)` until the wave is back at `t = 2`.
+#[test]
+fn stress_pieces_are_the_series_of_the_force() {
+    for k in ["2", "20", "200"] {
+        let stiffness: f64 = k.parse().unwrap();
+        let rod = free_rod(k, "0", "4").problems().unwrap().swap_remove(0);
+        let history = rod.doubles().unwrap();
+        let pieces = history.ask(|motion| Ok(motion.stress_pieces()), |_| Vec::new()).unwrap();
+        assert!(pieces.windows(2).all(|pair| pair[0].end.value() == pair[1].start.value()), "k = {k}");
+        assert_eq!((*pieces[0].start.value(), *pieces[pieces.len() - 1].end.value()), (0.0, 4.0));
+        let mut impulse = 0.0;
+        for piece in &pieces {
+            let [from, to] = [&piece.start, &piece.end].map(|time| *time.value());
+            let late = stiffness * (piece.start.bound() + piece.end.bound());
+            for share in [0.0, 0.1, 0.5, 0.8, 1.0] {
+                let t = from + (to - from) * share;
+                let found = piece.eval(&Estimate::exact(t));
+                if t <= 2.0 {
+                    let off = (found.value() + 1.0 - (-stiffness * t).exp()).abs();
+                    assert!(off <= found.bound() + late + 1e-15, "{found:?} at {t} for k = {k}");
+                }
+                let field = if share == 0.5 { history.strain(t, Side::Right).unwrap() } else { *found.value() };
+                assert!((found.value() - field).abs() <= found.bound() + late + 1e-14 && found.bound() < 1e-9);
+            }
+            impulse -= piece.integral(&piece.end).value();
+        }
+        assert!((impulse - history.contacts()[0].impulse).abs() < 1e-10, "{impulse} for k = {k}");
+    }
+}
+
 /// A held rod that stretches at rest pushes a spring with `(Z/2)(1 − e^(−ks/Z))`: the force rises all along, and its
 /// slope is far below the errors of doubles at the end. **Source**: at `s = 2` the exponential is below 1e-173.
 #[test]

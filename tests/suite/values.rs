@@ -5,7 +5,7 @@ use dalembert::number::List;
 use dalembert::quantity::Table;
 use dalembert::quantity::{Slice, UnitSystem};
 use dalembert::solve::{Places, StressForm};
-use dalembert::{Error, Estimate, Numbers, Problem, Quantity, Side, Value};
+use dalembert::{Error, Estimate, Numbers, Parameter, Problem, Quantity, Side, Value, Warning};
 
 /// `ρS = 2`, `c = 2`, `t₁ = 1`, and `M = μ/(g t₁) = 3`.
 fn rod() -> Problem {
@@ -75,4 +75,21 @@ fn a_time_that_is_no_number_is_refused_by_name() {
     let error = rod().solve().unwrap().strain("soon", Side::Right).unwrap_err();
     assert!(matches!(&error, Error::Spelling { quantity: "time", .. }), "{error}");
     assert!(error.to_string().starts_with("time: "), "{error}");
+}
+
+/// Rates that are carried through a run have bounds; derivatives from other runs do not, and a warning says so.
+#[test]
+fn estimated_errors_of_derivatives_are_warned_of() {
+    let rod = |damping| Problem::builder().length(1).wave_speed(1).damping(damping).impact_speed(3).build().unwrap();
+    let warned = |problem: &Problem, by: Parameter| {
+        let history = problem.solve().unwrap();
+        history.derivatives(by, &[Quantity::EventTime]).unwrap();
+        let warnings = history.warnings();
+        let estimated = warnings.iter().filter(|warning| matches!(warning, Warning::EstimatedErrors { .. }));
+        estimated.map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(warned(&rod("0"), Parameter::Length), [""; 0]);
+    let by = |name: &str| vec![format!("the errors of the derivatives by {name} are estimates, no bounds")];
+    assert_eq!(warned(&rod("0.1"), Parameter::Length), by("length"));
+    assert_eq!(warned(&rod("0"), Parameter::Damping), by("damping"));
 }

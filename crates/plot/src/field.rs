@@ -62,7 +62,8 @@ impl FieldMap {
     /// Asks a history for a field, in units of `1/factor`.
     ///
     /// **Source**: between the rays of an undamped rod velocity and strain are linear in `x` and `t` (d'Alembert), and
-    /// a cell is one polygon. Between the rays of a damped rod they are smooth, and a cell is divided.
+    /// a cell is one polygon. Between the rays of a damped rod they are smooth, and a cell is divided. A spring makes
+    /// fronts that are as steep as it is stiff, and a grid shows them.
     pub(crate) fn new(
         history: &TypedHistory<f64>,
         quantity: FieldQuantity,
@@ -74,7 +75,8 @@ impl FieldMap {
         let width = extent.is_damped().then(|| extent.trip() / parts());
         let [rising, falling] = [0.0, extent.trip()].map(|delay| extent.characteristics(&rays, delay, width));
         let mut greatest = 0.0f64;
-        let (values, coarse_columns) = if let Some(polygons) = extent.polygons(&rising, &falling) {
+        let polygons = if extent.is_soft { None } else { extent.polygons(&rising, &falling) };
+        let (values, coarse_columns) = if let Some(polygons) = polygons {
             let points: Vec<DVec2> = polygons.iter().flat_map(|polygon| samples(polygon)).collect();
             let values = values_at(history, quantity, extent, &points)?;
             let values: Vec<f64> = values.into_iter().map(|value| factor * value).collect();
@@ -186,6 +188,8 @@ fn slope([a, b]: [DVec2; 2], [da, db]: [f64; 2]) -> DVec2 {
 pub(crate) struct Extent {
     pub(crate) rod: Parameters<f64>,
     pub(crate) span: [f64; 2],
+    /// Whether the rod is a body of a chain with springs, whose fronts are too steep for polygons.
+    pub(crate) is_soft: bool,
     /// Whether two travelling waves describe the rod: it is undamped and by itself.
     pub(crate) has_waves: bool,
 }

@@ -117,19 +117,16 @@ impl Request {
 
     /// Asks a history for all that the pictures show.
     ///
-    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach; [`Error::Curved`]
-    /// for a body of a chain with springs, dashpots or masses.
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
-        // Pictures are drawn from lines between rays.
-        if history.problem().chain().is_some_and(|(chain, _)| chain.is_soft()) {
-            return Err(Error::Curved);
-        }
         let rod = Parameters::<f64>::of(history.problem(), &())?;
         let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
         let contacts = history.contacts().iter().map(|contact| [contact.impact, contact.release.unwrap_or(end)]);
-        let has_waves = rod.damping == 0.0 && history.problem().chain().is_none();
-        let extent = Extent { rod: rod.clone(), span, has_waves };
+        let chain = history.problem().chain();
+        let is_soft = chain.as_ref().is_some_and(|(chain, _)| chain.is_soft());
+        let has_waves = rod.damping == 0.0 && chain.is_none();
+        let extent = Extent { rod: rod.clone(), span, is_soft, has_waves };
         let rays = rays(history, &extent)?;
         let mut data = SceneData {
             name,

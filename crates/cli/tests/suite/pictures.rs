@@ -60,6 +60,18 @@ fn a_scene_is_told_in_four_pictures() {
     assert!(count(&damped, "cells") > Some(200) && count(&damped, "contacts") == Some(1));
 }
 
+/// A rod on a penalty has the ray of its start, drawn leg by leg; the contact makes fronts without a jump, where rigid
+/// contact makes a ray and two jumps.
+#[test]
+fn a_penalty_makes_fronts_without_a_jump() {
+    let jumps = |scene| {
+        let svg = quiet(&["plot", scene, "--to", "3", "--quantity", "xt,stress", "-o", "-"]);
+        (count(&svg, "rays"), count(&svg, "jumps"), count(&svg, "contacts"))
+    };
+    assert_eq!(jumps("getfem-penalty"), (Some(3), None, Some(1)));
+    assert_eq!(jumps("getfem-dynamic-contact"), (Some(2), Some(2), Some(1)));
+}
+
 #[test]
 fn units_stand_on_the_axes() {
     let folder = tempfile::tempdir().unwrap();

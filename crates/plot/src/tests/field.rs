@@ -4,7 +4,7 @@ use super::*;
 #[test]
 fn cells_cover_the_rectangle() {
     let rod = Parameters { length: 2.0, wave_speed: 3.0, damping: 0.0, gravity: 0.0, speed: 1.0 };
-    let extent = Extent { rod, span: [0.3, 5.1], has_waves: true };
+    let extent = Extent { rod, span: [0.3, 5.1], is_soft: false, has_waves: true };
     let rays: Vec<Ray> = (-3..40)
         .map(|k| Ray { departure: 0.17 * f64::from(k * k) - 1.0, jump: true, share: 1.0, legs: [true; 2] })
         .collect();
