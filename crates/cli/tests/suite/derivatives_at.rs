@@ -56,8 +56,9 @@ fn euler_identities(cases: u32, least: [u32; 3], rods: impl Strategy<Value = Pro
         let (times, points) = ([text(&time)], [text(&point)]);
         let columns = COLUMNS.map(|(quantity, _)| quantity);
         let values = history.columns(&columns, std::slice::from_ref(&time), Some(Side::Right)).unwrap();
-        let field =
-            history.field(std::slice::from_ref(&point), std::slice::from_ref(&time), Side::Right).unwrap().remove(0);
+        let [before, field] = [Side::Left, Side::Right].map(|side| {
+            history.field(std::slice::from_ref(&point), std::slice::from_ref(&time), side).unwrap().remove(0)
+        });
         let of = |quantities: &[Quantity], points: &[Number]| -> Vec<(Parameter, Rational, Table)> {
             let table = |by| history.derivatives_at(by, quantities, &times, points, Side::Right).unwrap();
             given(&problem).into_iter().map(|(by, value)| (by, value, table(by))).collect()
@@ -77,7 +78,10 @@ fn euler_identities(cases: u32, least: [u32; 3], rods: impl Strategy<Value = Pro
             }
         }
         if let (Some(length), Some(by_time)) = (sum(&along, (0, 0), 0), sum(&along, (0, 0), 1)) {
-            prop_assert_eq!(length, field.displacement - point * &field.strain);
+            // A ray that meets the top is still on its way there in a longer rod.
+            let strains = [&before.strain, &field.strain];
+            let expected = strains.map(|strain| field.displacement.clone() - point.clone() * strain);
+            prop_assert!(expected.contains(&length), "{:?} {:?}", length, expected);
             prop_assert_eq!(by_time, -(time * &field.velocity));
             fields += 1;
         }
