@@ -148,8 +148,8 @@ impl<N: Bounded> BodyMotion<N> {
         let mut aside = (4.0 * time.log2_error().exp2()).max(roundings);
         let mut at = time.clone();
         loop {
-            match self.run.means(self.body, &at) {
-                Ok([height, rate]) => {
+            match self.run.sums(self.body, &at) {
+                Ok(BodySums { displacement: height, velocity: rate, .. }) => {
                     let late = (time.clone() - &at).magnitude();
                     let faster = most.clone() * &late;
                     let higher = (rate.magnitude() + &faster) * &late;
@@ -218,7 +218,10 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
                 let Field { displacement, velocity, .. } = self.run.end_field(self.body, false, time, side)?;
                 [displacement, velocity]
             }
-            Pair::Centre => self.run.means(self.body, time)?,
+            Pair::Centre => {
+                let BodySums { displacement, velocity, .. } = sums()?;
+                [displacement, velocity]
+            }
             Pair::EnergyParts => {
                 let BodySums { kinetic, strain, .. } = sums()?;
                 [kinetic / self.density(), strain / self.density()]

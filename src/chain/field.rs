@@ -185,51 +185,28 @@ impl<N: Bounded> ChainRun<N> {
     /// energies are `(Z/8) ∫ (p + q − 2gt)² ds` and `(Z/8) ∫ (q − p)² ds`, where `q` is taken at `2t − T − s`.
     fn window_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { impedance, travel, wave_speed, .. } = &self.bars[body];
-        let windows = self.windows(body, time)?;
-        let [displacement, velocity] = self.window_means(body, time, &windows);
+        let windows = self.waves[body].each_ref().map(|wave| Window::new(wave, time, travel));
         let [rising, falling] = windows;
+        let (rising, falling) = (rising?, falling?);
         let fall = self.gravity.clone() * time;
         let total = rising.total.clone() + &falling.total;
         let squares = rising.square() + falling.square();
         let cross = rising.product(&falling);
         let density = impedance.clone() / wave_speed;
+        let mean = |sum: N| sum.halved() / travel;
         // ∫ (p + q − 2gt)² = ∫p² + ∫q² + 2∫pq − 4gt ∫(p + q) + 4g²t² T.
         let moved =
             squares.clone() + cross.clone().doubled() - (total.clone() * &fall - fall.square() * travel) * fall.int(4);
         let stretched = squares - cross.doubled();
         let energy = |sum: N| sum * impedance / impedance.int(8);
+        let displacement = mean(rising.height + &falling.height) - (fall.clone() * time).halved();
         Ok(BodySums {
-            velocity,
+            velocity: mean(total) - &fall,
             kinetic: energy(moved),
             strain: energy(stretched),
             potential: displacement.clone() * &density * &self.bars[body].length * &self.gravity,
             displacement,
         })
-    }
-
-    /// Returns the mean displacement and the mean velocity of a body: those of [`ChainRun::sums`], without the energies.
-    ///
-    /// **Errors**: those of [`ChainRun::sums`].
-    pub(super) fn means(&self, body: usize, time: &N) -> Result<[N; 2], Error> {
-        if self.bars[body].mass.is_none() && self.waves[body].iter().any(Wave::is_curved) {
-            self.check_time(time)?;
-            return Ok(self.window_means(body, time, &self.windows(body, time)?));
-        }
-        self.sums(body, time).map(|sums| [sums.displacement, sums.velocity])
-    }
-
-    /// Returns both waves of a body over the travel time before a time.
-    fn windows(&self, body: usize, time: &N) -> Result<[Window<N>; 2], Error> {
-        let [rising, falling] =
-            self.waves[body].each_ref().map(|wave| Window::new(wave, time, &self.bars[body].travel));
-        Ok([rising?, falling?])
-    }
-
-    fn window_means(&self, body: usize, time: &N, [rising, falling]: &[Window<N>; 2]) -> [N; 2] {
-        let mean = |sum: N| sum.halved() / &self.bars[body].travel;
-        let fall = self.gravity.clone() * time;
-        let height = mean(rising.height.clone() + &falling.height) - (fall.clone() * time).halved();
-        [height, mean(rising.total.clone() + &falling.total) - fall]
     }
 
     /// Returns `½ ∫ ((v_t − h′)² + c² v_x²) dx` of a body with these sums.

@@ -116,8 +116,8 @@ impl<N: ToValue> Answers for ChainRun<N> {
             ChainQuantity::EndVelocity => end(false)?.velocity,
             ChainQuantity::TopDisplacement => end(true)?.displacement,
             ChainQuantity::TopVelocity => end(true)?.velocity,
-            ChainQuantity::Centre => self.means(place, &time)?[0].clone(),
-            ChainQuantity::CentreVelocity => self.means(place, &time)?[1].clone(),
+            ChainQuantity::Centre => sums()?.displacement,
+            ChainQuantity::CentreVelocity => sums()?.velocity,
             ChainQuantity::Kinetic => sums()?.kinetic,
             ChainQuantity::StrainEnergy => sums()?.strain,
             ChainQuantity::Energy => {

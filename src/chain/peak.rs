@@ -3,7 +3,6 @@
 use super::curve::{
     Curve, Fall, Signal, centred, derivative, first_fall, rough_bound, rough_slope, shifted, upper, value,
 };
-use super::march::SOFT;
 use super::wave::is_exact_zero;
 use crate::number::Bounded;
 
@@ -139,13 +138,13 @@ impl<N: Bounded> Signal<N> {
     /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
     /// and a factor whose product is the slope of the signal, if they are known.
     pub(super) fn greatest(&self, from: &N, to: &N, slope: Option<(&Curve<N>, &N)>) -> (N, N) {
-        let line = match self {
-            Signal::Curve(curve) if SOFT => return curve.greatest(from, to, slope),
-            // A build without springs has lines alone.
-            signal => signal.clone().into_line(),
-        };
-        let [first, last] = [from, to].map(|t| line.value_at(t));
-        if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }
+        match self {
+            Signal::Curve(curve) => curve.greatest(from, to, slope),
+            Signal::Line(line) => {
+                let [first, last] = [from, to].map(|t| line.value_at(t));
+                if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }
+            }
+        }
     }
 }
 
