@@ -55,10 +55,8 @@ function serve() {
 }
 
 export class Engine {
-  /** Unpacks the module and starts the worker. */
-  async load(packed, glue) {
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const module = await new Response(stream).arrayBuffer();
+  /** Starts the worker with the module. */
+  async load(module, glue) {
     try {
       this.waiting = new Map();
       const text = [glue, answers, `(${serve})()`].join("\n");

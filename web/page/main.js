@@ -527,21 +527,6 @@ async function open() {
   performance.mark("shown");
 }
 
-/** Decodes five characters to four bytes; `pack` writes them. The last group may be shorter. */
-function unpacked(text) {
-  const bytes = new Uint8Array(Math.floor((text.length * 4) / 5));
-  for (let k = 0; k * 5 < text.length; k += 1) {
-    let group = 0;
-    for (let j = 0; j < 5; j += 1) {
-      // The codes pass over the less-than sign and the backslash.
-      const code = text.charCodeAt(5 * k + j);
-      group = group * 85 + (Number.isNaN(code) ? 84 : code - 35 - (code > 60) - (code > 92));
-    }
-    for (let j = 0; j < 4; j += 1) bytes[4 * k + j] = Math.floor(group / 2 ** (24 - 8 * j)) % 256;
-  }
-  return bytes;
-}
-
 const buttons = [...PRESETS, ...CHAINS].map(({ name }, k) => {
   const button = Object.assign(document.createElement("button"), { type: "button", textContent: name });
   button.addEventListener("click", () => choose(k));
@@ -555,9 +540,9 @@ const sliders = new Sliders($("sliders"), async () => {
   if (shot && !playing) settle();
 });
 try {
-  await engine.load(unpacked($("engine").textContent), $("glue").textContent);
+  await engine.load(unpacked.module, unpacked.glue);
   await open();
   listen();
 } catch (error) {
-  say(`This browser cannot run the page, which needs WebAssembly and DecompressionStream: ${error.message}`, []);
+  say(`This browser cannot run the page, which needs WebAssembly: ${error.message}`, []);
 }

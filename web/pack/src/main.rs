@@ -17,11 +17,13 @@ fn main() -> Result<()> {
     bindgen.input_path(wasm).no_modules(true)?.typescript(false).remove_name_section(true);
     let mut bound = bindgen.generate_output()?;
     let module = bound.wasm_mut().emit_wasm();
-    let mut packed = Vec::new();
-    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, &module[..], &mut packed)?;
-
     let page = Path::new(page);
     let read = |name: &str| fs::read_to_string(page.join(name)).with_context(|| format!("cannot read {name}"));
+    let (glue, script) = (code(bound.js()), modules(&read)?);
+    let whole = [glue.as_bytes(), script.as_bytes(), &module].concat();
+    let mut packed = Vec::new();
+    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, &whole[..], &mut packed)?;
+
     let mut html = read("index.html")?;
     let mut fill = |mark: &str, text: &str| {
         let place = format!("<!-- {mark} -->");
@@ -32,21 +34,22 @@ fn main() -> Result<()> {
         Ok(())
     };
     fill("style", &format!("<style>\n{}</style>", read("style.css")?))?;
-    fill("glue", &format!("<script id=\"glue\">\n{}</script>", code(bound.js())))?;
-    fill("engine", &format!("<script type=\"text/plain\" id=\"engine\">{}</script>", encoded(&packed)))?;
-    fill("script", &format!("<script type=\"module\">\n{}</script>", modules(&read)?))?;
+    let ends = format!("{} {}", glue.len(), glue.len() + script.len());
+    let text = encoded(&packed);
+    fill("packed", &format!("<script type=\"text/plain\" id=\"packed\" data-ends=\"{ends}\">{text}</script>"))?;
+    fill("loader", &format!("<script type=\"module\">\n{}</script>", code(&read("loader.js")?)))?;
 
     if html.len() > MAX_BYTES {
         bail!("the page has {} bytes, expected at most {MAX_BYTES}", html.len());
     }
     fs::write(out, &html).with_context(|| format!("cannot write {out}"))?;
     let (html, module, packed) = (html.len(), module.len(), packed.len());
-    println!("{out}: {html} bytes, with the engine of {module} bytes, compressed to {packed}");
+    println!("{out}: {html} bytes, with the engine of {module} bytes, compressed with the scripts to {packed}");
     Ok(())
 }
 
 /// Writes four bytes as five characters, from `#` to `y` without the less-than sign and the backslash: a sixteenth
-/// shorter than base64. The function `unpacked` of the page reads them.
+/// shorter than base64. The function `decoded` of the page reads them.
 fn encoded(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
     for group in bytes.chunks(4) {
