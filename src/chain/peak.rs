@@ -27,7 +27,7 @@ impl<N: Bounded> Curve<N> {
         };
         let mut rest = begin.zero();
         let mut falls = slopes.terms[0].negative() == Ok(true);
-        // Possible height of maxima that are not found.
+        // Possible height of maxima that are not found, any of which may be the greatest value.
         let mut spare = begin.zero();
         // Maxima and minima of the curve alternate.
         for turn in 0..own.terms.len() {
@@ -77,7 +77,7 @@ impl<N: Bounded> Curve<N> {
             (rest, falls) = (here, !falls);
         }
         let (value, time) = highest(best, last);
-        if is_exact_zero(&spare) { (value, time) } else { (value.widened(&spare), time) }
+        if is_exact_zero(&spare) { (value, time) } else { (value.widened(&spare), time.widened(&width)) }
     }
 
     /// Returns the time of a smooth maximum, which is near the time `here` after the origin, within its bound.

@@ -1,6 +1,6 @@
 //! Rays of a body of a chain, each of which passes the body once.
 
-use super::register::{MAX_LATE, Passing, is_open, is_rounded};
+use super::register::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
 use super::{Motion, Scales};
 use crate::number::Scalar;
 
@@ -19,9 +19,6 @@ pub(super) struct ListedRays<S> {
     reach: f64,
 }
 
-/// Distance, in travel times, within which rays are compared in the numbers of the run.
-const NEAR: f64 = 1e-6;
-
 impl<S: Scalar> ListedRays<S> {
     /// Returns the rays with these [`Motion::departures`].
     pub(super) fn new(motion: &dyn Motion<S>, departures: [Vec<(S, S)>; 2]) -> Self {
@@ -30,23 +27,19 @@ impl<S: Scalar> ListedRays<S> {
             rays.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
             rays
         });
-        Self::with(motion.scales(), ends)
-    }
-
-    fn with(Scales { length, wave_speed, time, .. }: Scales<S>, ends: [Vec<(S, bool)>; 2]) -> Self {
-        let bounds = ends.iter().flatten().map(|(time, _)| time.log2_error().exp2());
-        let widest = bounds.filter(|bound| bound.is_finite()).fold(0.0, f64::max);
-        ListedRays { reach: NEAR * time.to_f64() + widest, length, wave_speed, ends }
+        let Scales { length, wave_speed, time, .. } = motion.scales();
+        let reach = NEAR * time.to_f64() + widest_bound(ends.iter().flatten().map(|(time, _)| time));
+        ListedRays { length, wave_speed, ends, reach }
     }
 
     /// Returns the rays whose times are known to `roundings` roundings, and the others.
     pub(super) fn parted(self, roundings: f64) -> [Self; 2] {
         let ListedRays { length, wave_speed, ends, reach } = self;
-        let most = (length.to_f64() / wave_speed.to_f64() * 2.0 * MAX_LATE).log2();
+        let round_trip = length.clone() * length.int(2) / &wave_speed;
         let (mut known, mut displaced) = ([vec![], vec![]], [vec![], vec![]]);
         for (rays, parts) in ends.into_iter().zip(known.iter_mut().zip(&mut displaced)) {
             (*parts.0, *parts.1) = rays.into_iter().partition(|(time, _)| is_rounded(time, roundings));
-            parts.1.retain(|(time, _)| time.log2_error() < most);
+            parts.1.retain(|(time, _)| is_displaced(time, &round_trip));
         }
         let rays = |ends| ListedRays { length: length.clone(), wave_speed: wave_speed.clone(), ends, reach };
         [rays(known), rays(displaced)]

@@ -35,13 +35,18 @@ pub struct Passing<S> {
 
 /// Maximum error of a displaced ray in round trips; rays with a greater error are left out, because the run already
 /// warns that its events are in doubt.
-pub(super) const MAX_LATE: f64 = 0.01;
+const MAX_LATE: f64 = 0.01;
+
+/// Difference of times, in round trips, below which rays are compared in the numbers of the run: doubles hold the
+/// fraction of a million round trips to 1e-10.
+pub(super) const NEAR: f64 = 1e-6;
 
 impl<S: Scalar> RayRegister<S> {
     /// Returns the rays of `motion`.
     pub fn of(motion: &dyn Motion<S>) -> Self {
         let rays = match motion.departures() {
             Ok(ends) => Rays::Listed(ListedRays::new(motion, ends)),
+            // Only a body of a chain lists its rays.
             Err(_) => Rays::Repeated(RepeatedRays::of(motion)),
         };
         RayRegister { rays, end: motion.end() }
@@ -87,6 +92,16 @@ impl<S: Scalar> RayRegister<S> {
             Rays::Listed(rays) => rays.passing(point, from, to),
         }
     }
+}
+
+/// Returns whether the error of a time is small enough for a displaced ray.
+pub(super) fn is_displaced<S: Scalar>(time: &S, round_trip: &S) -> bool {
+    time.log2_error() < (round_trip.to_f64() * MAX_LATE).log2()
+}
+
+/// Returns the greatest finite bound of some times; zero if there is none.
+pub(super) fn widest_bound<'a, S: Scalar>(times: impl Iterator<Item = &'a S>) -> f64 {
+    times.map(|time| time.log2_error().exp2()).filter(|bound| bound.is_finite()).fold(0.0, f64::max)
 }
 
 /// Returns whether the error of a time is at most `roundings` of its roundings.

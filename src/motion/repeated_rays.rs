@@ -1,6 +1,6 @@
 //! Rays of a rod by itself, which both ends reflect for ever.
 
-use super::register::{MAX_LATE, Passing, is_open, is_rounded};
+use super::register::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
 use super::{Event, EventKind, Motion, Scales};
 use crate::number::Scalar;
 
@@ -30,9 +30,6 @@ struct Phase<S> {
     rays: Vec<(S, bool)>,
 }
 
-/// Difference of fractions of a round trip below which rays are compared in the numbers of the run: doubles hold the
-/// fraction of a million round trips to 1e-10.
-const NEAR: f64 = 1e-6;
 impl<S: Scalar> RepeatedRays<S> {
     /// Returns the rays of `motion`.
     pub(super) fn of(motion: &dyn Motion<S>) -> Self {
@@ -48,9 +45,9 @@ impl<S: Scalar> RepeatedRays<S> {
     pub(super) fn parted(motion: &dyn Motion<S>, roundings: f64) -> [Self; 2] {
         let start = Self::with(motion, Self::of_start(motion));
         let own = |time: &S| is_rounded(time, roundings) && !start.near(&time.zero(), time).is_empty();
-        let most = (motion.scales().time.to_f64() * MAX_LATE).log2();
+        let round_trip = motion.scales().time;
         let times = motion.events().iter().map(|event| &event.t);
-        let off = times.filter(|time| time.log2_error() < most && time.to_f64() > 0.0 && !own(time));
+        let off = times.filter(|time| is_displaced(*time, &round_trip) && time.to_f64() > 0.0 && !own(time));
         let displaced = Self::with(motion, off.map(|time| (time.clone(), true)).collect());
         [start, displaced]
     }
@@ -73,8 +70,7 @@ impl<S: Scalar> RepeatedRays<S> {
         let fraction = |time: &S| fraction(&(time.clone() / &round_trip));
         let mut phases: Vec<_> = found.into_iter().map(|ray| (fraction(&ray.0), ray)).collect();
         phases.sort_by(|(a, (at_a, _)), (b, (at_b, _))| a.total_cmp(b).then(at_a.to_f64().total_cmp(&at_b.to_f64())));
-        let bounds = phases.iter().map(|(_, (time, _))| time.log2_error().exp2()).filter(|bound| bound.is_finite());
-        let widest = bounds.fold(0.0, f64::max) / round_trip.to_f64();
+        let widest = widest_bound(phases.iter().map(|(_, (time, _))| time)) / round_trip.to_f64();
         let mut rays = RepeatedRays { round_trip, wave_speed, known: Vec::new(), widest };
         for (fraction, ray) in phases {
             match rays.known.last() {
