@@ -187,10 +187,10 @@ class Problem(Frozen):
             return scene
         text = _text(scene)
         # A chain of one body is that body.
-        return _problem((text, 0)) if _core.body_count(text) == 1 else _problem(text)
+        return _problem((text, 0)) if len(_core.bars(text)) == 1 else _problem(text)
 
     @classmethod
-    def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem, ...]:
+    def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem | None, ...]:
         """Read the bodies of a chain, each as a problem: its ground is the body or the stop below it.
 
         Parameters
@@ -200,8 +200,8 @@ class Problem(Frozen):
 
         Returns
         -------
-        tuple of Problem
-            The bodies from the bottom up; of a single rod the rod.
+        tuple of Problem or None
+            The bodies from the bottom up, None for a rigid mass; of a single rod the rod.
 
         Examples
         --------
@@ -212,7 +212,8 @@ class Problem(Frozen):
         array([0.])
         """
         text = _text(scene)
-        return tuple(_problem((text, body)) for body in range(_core.body_count(text))) or (_problem(text),)
+        bars = enumerate(_core.bars(text))
+        return tuple(_problem((text, body)) if is_bar else None for body, is_bar in bars) or (_problem(text),)
 
     def replace(self, **values: Any) -> Problem:
         """Return a problem with other values in place of some.

@@ -63,7 +63,7 @@ mod _core {
     #[pymodule_export]
     use super::problem::Problem;
     #[pymodule_export]
-    use super::problem::body_count;
+    use super::problem::bars;
     #[pymodule_export]
     use super::problem::unknown_parameter;
     #[pymodule_export]

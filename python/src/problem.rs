@@ -45,21 +45,22 @@ fn scene(text: &str, body: Option<usize>) -> PyResult<Scene> {
     if !ChainScene::is_chain(text) {
         return Scene::parse(text).map_err(refuse);
     }
-    let mut bodies = ChainScene::parse(text).map_err(refuse)?.bodies().map_err(refuse)?;
-    match (body, bodies.len()) {
-        (Some(body), count) if body < count => Ok(bodies.swap_remove(body)),
-        (None, 1) => Ok(bodies.swap_remove(0)),
-        (_, count) => Err(refuse(format!("found a chain of {count} bodies, expected one of Problem.bodies(scene)"))),
+    let chain = ChainScene::parse(text).map_err(refuse)?;
+    match (body, chain.chain.bodies().len()) {
+        (Some(body), _) => chain.body(body).map_err(refuse),
+        (None, 1) => chain.body(0).map_err(refuse),
+        (None, count) => Err(refuse(format!("found a chain of {count} bodies, expected one of Problem.bodies(scene)"))),
     }
 }
 
-/// Returns the number of bodies of a chain; 0 for a rod on rigid ground.
+/// Returns for each body of a chain whether it is a bar; nothing for a rod on rigid ground.
 #[pyfunction]
-pub(crate) fn body_count(text: &str) -> PyResult<usize> {
-    match ChainScene::is_chain(text) {
-        true => Ok(ChainScene::parse(text).map_err(refuse)?.chain.bodies().len()),
-        false => Ok(0),
+pub(crate) fn bars(text: &str) -> PyResult<Vec<bool>> {
+    if !ChainScene::is_chain(text) {
+        return Ok(Vec::new());
     }
+    let chain = ChainScene::parse(text).map_err(refuse)?.chain;
+    Ok(chain.bodies().iter().map(|body| body.rigid_mass().is_none()).collect())
 }
 
 /// A problem, with the accuracy, the title and the units of its scene.

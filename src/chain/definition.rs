@@ -120,9 +120,14 @@ impl Chain {
         self.springs.iter().find(|(at, _)| *at == node).map(|(_, spring)| spring)
     }
 
+    /// Returns whether the chain has a spring or a dashpot.
+    pub(crate) fn has_springs(&self) -> bool {
+        !self.springs.is_empty()
+    }
+
     /// Returns whether the chain has a spring, a dashpot or a rigid mass, so that its signals are curves.
     pub fn is_soft(&self) -> bool {
-        !self.springs.is_empty() || self.bodies.iter().any(|body| body.rigid_mass().is_some())
+        self.has_springs() || self.bodies.iter().any(|body| body.rigid_mass().is_some())
     }
 
     /// Returns the acceleration of gravity, downward.

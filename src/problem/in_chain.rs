@@ -35,9 +35,9 @@ impl InChain {
 }
 
 impl Chain {
-    /// Returns a problem for each body, from the bottom up. Its history is the motion of the body in the chain: events
-    /// and contacts are those with the body or the stop below, and displacements are counted from the undeformed body
-    /// in its place at the start.
+    /// Returns a problem for each bar, in the order of the bodies, from the bottom up; `None` for a rigid body. Its
+    /// history is the motion of the bar in the chain: events and contacts are those with the body or the stop below,
+    /// and displacements are counted from the undeformed bar in its place at the start.
     ///
     /// The problems share their runs. A body that is given by its impedance gets the modulus `Zc` and the density `Z/c`
     /// of a cross-section of one, so that a stress is a force.
@@ -49,29 +49,26 @@ impl Chain {
     /// use dalembert::{Quantity, Side};
     /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 2.into()).with_velocity(velocity.into());
     /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
-    /// let upper = chain.problems()?[1].solve()?;
+    /// let upper = chain.problem(1)?.solve()?;
     /// // Equal bars exchange their velocities: the contact begins at t = 1 and lasts 2L/c with f = Zv/2.
     /// assert_eq!(upper.contacts()?[0].release.as_ref().map(|t| t.to_f64()), Some(3.0));
     /// assert_eq!(upper.at_time(Quantity::Force, 2, Side::Right)?, 1.0);
     /// assert_eq!(upper.at_time(Quantity::CentreVelocity, 4, Side::Right)?, 0.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn problems(&self) -> Result<Vec<Problem>, ProblemError> {
-        if let Some(k) = self.bodies().iter().position(|body| body.rigid_mass().is_some()) {
-            let found = "a body of a chain with a rigid mass by itself";
-            let expected = "the whole chain: ChainHistory, or solve, sample and explain of the command";
-            return Err(ProblemError::new(Kind::Contradiction, &format!("body[{k}].mass"), found, expected));
-        }
+    pub fn problems(&self) -> Result<Vec<Option<Problem>>, ProblemError> {
         let materials = self.bodies().iter().enumerate().map(|(k, body)| material(k, body));
         let materials = materials.collect::<Result<Vec<_>, _>>()?;
         let mut chain = self.clone();
         for (k, material) in materials.iter().enumerate() {
-            chain = chain.with_body(k, body_of(material, &self.bodies()[k]));
+            if let Some(material) = material {
+                chain = chain.with_body(k, body_of(material, &self.bodies()[k]));
+            }
         }
         let (chain, runs) = (Arc::new(chain), Runs::default());
-        let problem = |(body, material): (usize, Material)| {
-            let profile = &self.bodies()[body];
-            Problem {
+        let problem = |(body, material): (usize, Option<Material>)| {
+            let (profile, material) = (&self.bodies()[body], material?);
+            Some(Problem {
                 length: profile.length().clone(),
                 material,
                 damping: None,
@@ -89,9 +86,26 @@ impl Chain {
                     stiffness: chain.spring(body).map(|spring| spring.stiffness.clone()),
                     runs: runs.clone(),
                 }),
-            }
+            })
         };
         Ok(materials.into_iter().enumerate().map(problem).collect())
+    }
+
+    /// Returns the problem of the bar with this index, as [`Chain::problems`] does.
+    ///
+    /// **Errors**: [`ProblemError`] for a rigid body, an index that no body has, and as [`Chain::problems`].
+    pub fn problem(&self, body: usize) -> Result<Problem, ProblemError> {
+        let problem = self.problems()?.into_iter().nth(body).flatten();
+        problem.ok_or_else(|| self.no_bar(body))
+    }
+
+    /// Returns the refusal of a body that is no bar.
+    pub(crate) fn no_bar(&self, body: usize) -> ProblemError {
+        let (found, expected) = match self.bodies().get(body) {
+            Some(_) => ("a rigid mass".to_string(), format!("a bar: the whole chain has v_end.{} of a mass", body + 1)),
+            None => (format!("body {} of {}", body + 1, self.bodies().len()), "a bar".to_string()),
+        };
+        ProblemError::new(Kind::OutOfRange, &format!("body[{body}]"), found, expected)
     }
 }
 
@@ -113,12 +127,12 @@ fn body_of(material: &Material, body: &Body) -> Body {
     }
 }
 
-/// Returns the material of the body with this index.
-fn material(k: usize, body: &Body) -> Result<Material, ProblemError> {
-    match body.material() {
+/// Returns the material of the body with this index; `None` for a rigid body.
+fn material(k: usize, body: &Body) -> Result<Option<Material>, ProblemError> {
+    Ok(match body.material() {
         BodyMaterial::Elastic { modulus, density, area } => {
             let area = Some(area.clone());
-            Ok(Material::Elastic { modulus: modulus.clone(), density: density.clone(), area })
+            Some(Material::Elastic { modulus: modulus.clone(), density: density.clone(), area })
         }
         BodyMaterial::Impedance { wave_speed, impedance } => {
             let [speed, impedance]: [Rational; 2] = [wave_speed, impedance].map(Number::to_rational);
@@ -129,13 +143,10 @@ fn material(k: usize, body: &Body) -> Result<Material, ProblemError> {
                 })
             };
             let modulus = number(impedance.clone() * &speed)?;
-            Ok(Material::Elastic { modulus, density: number(impedance / speed)?, area: Some(1.into()) })
+            Some(Material::Elastic { modulus, density: number(impedance / speed)?, area: Some(1.into()) })
         }
-        BodyMaterial::Rigid { mass } => {
-            let found = format!("mass = {mass}");
-            Err(ProblemError::new(Kind::Contradiction, &format!("body[{k}].mass"), found, "a bar"))
-        }
-    }
+        BodyMaterial::Rigid { .. } => None,
+    })
 }
 
 impl Problem {
@@ -223,7 +234,7 @@ impl Problem {
             .gravity(self.gravity.clone().unwrap_or_else(|| 0.into()))
             .until(until)
             .build()?;
-        Ok(chain.problems()?.swap_remove(0))
+        chain.problem(0)
     }
 
     /// Returns the same body of its chain with rigid joints and ends in place of springs and dashpots; `None` for a rod
@@ -231,8 +242,8 @@ impl Problem {
     ///
     /// **Errors**: [`ProblemError`] if rigid masses would touch.
     pub fn rigid_contact(&self) -> Result<Option<Problem>, ProblemError> {
-        let Some((chain, body)) = self.chain().filter(|(chain, _)| chain.is_soft()) else { return Ok(None) };
-        Ok(Some(chain.without_springs()?.problems()?.swap_remove(body)))
+        let Some((chain, body)) = self.chain().filter(|(chain, _)| chain.has_springs()) else { return Ok(None) };
+        Ok(Some(chain.without_springs()?.problem(body)?))
     }
 
     /// Returns the problem itself if it describes a rod by itself, or a valid body of its chain.

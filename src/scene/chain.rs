@@ -180,14 +180,23 @@ impl ChainScene {
         Reader { source, document: document.get_ref() }.chain()
     }
 
-    /// Returns a scene for each body, from the bottom up, with the problem of [`Chain::problems`].
+    /// Returns a scene for each bar, in the order of the bodies, with the problem of [`Chain::problems`]; `None` for a
+    /// rigid body.
     ///
     /// **Errors**: those of [`Chain::problems`].
-    pub fn bodies(&self) -> Result<Vec<Scene>, ProblemError> {
-        Ok(self.chain.problems()?.into_iter().enumerate().map(|(body, problem)| self.body(body, problem)).collect())
+    pub fn bodies(&self) -> Result<Vec<Option<Scene>>, ProblemError> {
+        let problems = self.chain.problems()?.into_iter().enumerate();
+        Ok(problems.map(|(body, problem)| Some(self.of_body(body, problem?))).collect())
     }
 
-    fn body(&self, body: usize, problem: Problem) -> Scene {
+    /// Returns the scene of the bar with this index.
+    ///
+    /// **Errors**: those of [`Chain::problem`].
+    pub fn body(&self, body: usize) -> Result<Scene, ProblemError> {
+        Ok(self.of_body(body, self.chain.problem(body)?))
+    }
+
+    fn of_body(&self, body: usize, problem: Problem) -> Scene {
         let own = format!("body[{body}].");
         let line = |(key, line): &(String, usize)| match key.strip_prefix(&own) {
             Some(key @ ("velocity" | "displacement" | "strain")) => (format!("start.{key}"), *line),

@@ -150,7 +150,15 @@ impl<'a> Reader<'a> {
                 (Some(chain), Some((name, span))) if name.contains('.') => {
                     targets.1.push(reader.chain_target((name, span), value.span(), chain)?);
                 }
-                _ => targets.0.push(reader.target(value.span(), materials)?),
+                _ => {
+                    let target = reader.target(value.span(), materials)?;
+                    if chain.is_some_and(|chain| chain.bodies()[target.0].rigid_mass().is_some()) {
+                        let found = format!("the {} of a rigid mass in [[target]]", target.1.quantity);
+                        let expected = format!("a quantity with its place: u_end.{}", target.0 + 1);
+                        return Err(self.error(value.span(), Kind::Contradiction, found, expected));
+                    }
+                    targets.0.push(target);
+                }
             }
         }
         Ok(targets)

@@ -249,7 +249,9 @@ impl Stack {
             let history = TypedHistory::solve(&body.problem, &plan, observe).map_err(failed)?;
             Ok((name(k), Units::new(&body.problem, body.units), history))
         };
-        let bodies = scene.bodies().map_err(refuse)?.into_iter().enumerate().map(solve);
+        let bodies: Option<Vec<Scene>> = scene.bodies().map_err(refuse)?.into_iter().collect();
+        let bars = || JsError::new("found a rigid mass, expected bars: `dalembert plot` draws both");
+        let bodies = bodies.ok_or_else(bars)?.into_iter().enumerate().map(solve);
         let bodies = bodies.collect::<Result<_, JsError>>()?;
         Ok(Stack { scene, bodies })
     }

@@ -31,7 +31,7 @@ impl AnyScene {
                 (Some(body), count) if body == 0 || body > count => {
                     Err(failure!("found --body {body} of `{name}`, expected a body from 1, the lowest, to {count}"))
                 }
-                (Some(_), _) | (None, 1) => Ok(scene.bodies()?.swap_remove(body.unwrap_or(1) - 1)),
+                (Some(_), _) | (None, 1) => Ok(scene.body(body.unwrap_or(1) - 1)?),
                 (None, count) => {
                     let failure = failure!("found {count} bodies in `{name}`, expected one of them to be chosen");
                     Err(failure.help(format!("--body N, from 1, the lowest, to {count}, takes a body as a rod")))

@@ -2,7 +2,6 @@
 
 use dalembert::Error;
 use dalembert::chain::{Chain, Joint};
-use dalembert::problem::Parameters;
 use dalembert::quantity::Units;
 use dalembert::solve::TypedHistory;
 
@@ -65,6 +64,8 @@ impl Drawing {
             Canvas::Screen { .. } => &Picture::CHAIN[..2],
         };
         let request = Request { heights: heights(chain), ..self.request(pictures) };
+        let spans = bodies.iter().map(|(.., history)| request.span(history)).collect::<Result<Vec<_>, _>>()?;
+        let request = request.over(&spans);
         let gather = |(name, units, history): &(String, Units, TypedHistory<f64>)| {
             request.gather(name.clone(), units.clone(), history)
         };
@@ -90,7 +91,7 @@ impl Drawing {
     ///
     /// **Errors**: as [`Drawing::draw`].
     pub fn drawn_span(&self, history: &TypedHistory<f64>) -> Result<[f64; 2], Error> {
-        self.request(&[]).span(history, Parameters::<f64>::of(history.problem(), &())?.round_trip())
+        self.request(&[]).span(history)
     }
 }
 

@@ -28,6 +28,7 @@ mod drawing;
 mod field;
 mod panels;
 mod picture;
+mod rigid;
 mod rod;
 mod scene_data;
 

@@ -28,6 +28,8 @@ const RAYS: [(f64, Stroke); 4] = [
     (0.01, Stroke::new("#a8a8a8", 0.06)),
 ];
 const ZERO: Stroke = Stroke::new("#808080", 0.15);
+/// Style of a rigid body.
+const RIGID: Stroke = Stroke::new("#000000", 1.2);
 /// Style of rays across which only the slope of the field jumps.
 const KINK: Stroke = Stroke::new("#707070", 0.1).dashed("0.8 0.6");
 const JUMP: Stroke = Stroke::new("#000000", 0.15).dashed("0.5 0.5");
@@ -126,10 +128,16 @@ impl Request {
             let closed = scene.contacts.iter().map(|[from, to]| rectangle([*from, below], [*to, *height])).collect();
             panel.areas("contacts", closed, CONTACT);
             below = height + scene.rod.length;
-            [*height, below].into_iter().for_each(|y| panel.level("end", y, ZERO));
+            match scene.rod.length {
+                0.0 => panel.level("mass", *height, RIGID),
+                _ => [*height, below].into_iter().for_each(|y| panel.level("end", y, ZERO)),
+            }
         }
         if scenes.iter().any(|scene| !scene.contacts.is_empty()) {
             panel.legend.push(Key::area("contact", CONTACT));
+        }
+        if scenes.iter().any(|scene| scene.rod.length == 0.0) {
+            panel.legend.push(Key::line("rigid mass", RIGID));
         }
         panel
     }
@@ -245,6 +253,9 @@ fn curves(picture: Picture, scenes: &[SceneData], dashed: bool) -> Result<Panel,
         let jumps: Vec<Curve> = jumps.collect();
         if !jumps.is_empty() && jumps.len() <= MAX_JUMPS {
             panel.lines("jumps", jumps, Stroke { color, ..JUMP });
+        }
+        if curves.is_empty() {
+            continue;
         }
         panel.lines("curve", curves.into_iter().filter(|curve| curve.len() > 1).map(thinned).collect(), stroke);
         if !single_scene && q == 0 {

@@ -39,7 +39,7 @@ pub(crate) type Curve = Vec<DVec2>;
 pub struct SceneData {
     /// Name in legends and titles.
     pub name: String,
-    /// Parameters of the rod.
+    /// Parameters of the rod; a rigid body of a chain has no length.
     pub rod: Parameters<f64>,
     /// First and last time.
     pub span: [f64; 2],
@@ -115,12 +115,18 @@ impl Request {
         self.pictures.iter().any(|picture| *picture != Picture::Restitution)
     }
 
+    /// Returns the request for the bodies of a chain, which are drawn over one span: that of all of these.
+    pub fn over(&self, spans: &[[f64; 2]]) -> Request {
+        let from = spans.iter().map(|span| span[0]).reduce(f64::min);
+        Request { from, to: spans.iter().map(|span| span[1]).reduce(f64::max), ..self.clone() }
+    }
+
     /// Asks a history for all that the pictures show.
     ///
     /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
         let rod = Parameters::<f64>::of(history.problem(), &())?;
-        let (end, span) = (settled_until(history), self.span(history, rod.round_trip())?);
+        let (end, span) = (settled_until(history), self.span(history)?);
         let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
         let contacts = history.contacts().iter().map(|contact| [contact.impact, contact.release.unwrap_or(end)]);
         let chain = history.problem().chain();
@@ -163,8 +169,11 @@ impl Request {
         Ok(data)
     }
 
-    /// Returns the span to be drawn: the one asked for, or a part of the history that shows its first contacts.
-    pub(crate) fn span(&self, history: &TypedHistory<f64>, trip: f64) -> Result<[f64; 2], Error> {
+    /// Returns the span that is drawn of a history: the one asked for, or a part that shows its first contacts.
+    ///
+    /// **Errors**: those of the history; [`Error::TimeOutside`] for a span that it does not reach.
+    pub fn span(&self, history: &TypedHistory<f64>) -> Result<[f64; 2], Error> {
+        let trip = Parameters::<f64>::of(history.problem(), &())?.round_trip();
         let end = settled_until(history);
         let events: Vec<_> = history.events().iter().map(|event| (event.t, event.kind)).collect();
         let first = events.first().map(|first| first.0).filter(|first| *first > TRIPS * trip && self.to.is_none());

@@ -55,7 +55,9 @@ impl PublishedScene {
         if !scene.targets.is_empty() {
             let bodies = scene.bodies()?;
             let several = bodies.len() > 1;
-            for (body, number) in bodies.iter().zip(1..).filter(|(body, _)| !body.targets.is_empty()) {
+            for (body, number) in bodies.iter().zip(1..) {
+                // Targets of a rigid body belong to the whole chain.
+                let Some(body) = body.as_ref().filter(|body| !body.targets.is_empty()) else { continue };
                 let of = |_: &Target| if several { format!(" of body {number}") } else { String::new() };
                 published.add_body(body, numbers, of)?;
             }

@@ -41,7 +41,7 @@ fn a_rod_on_the_ground_moves_alike() {
         format!("[rod]\nlength = 2\nmodulus = 9\ndensity = 1\n{bottom}[impact]\nspeed = 3\ngap = 1\n[run]\ntime = 8\n")
     };
     let rod = Scene::parse(&text("")).unwrap().problem.exact().unwrap();
-    let body = ChainScene::parse(&text("bottom = 'ground'\n")).unwrap().bodies().unwrap().remove(0);
+    let body = ChainScene::parse(&text("bottom = 'ground'\n")).unwrap().body(0).unwrap();
     let body = body.problem.exact().unwrap();
     let times = |history: &crate::TypedHistory<Rational>| -> Vec<_> {
         history.contacts().iter().map(|contact| (contact.impact.clone(), contact.release.clone())).collect()
@@ -60,11 +60,11 @@ fn published_values_belong_to_bodies() {
     let duration = "quantity = 'duration'\npublished = 0.15\n";
     let scene = ChainScene::parse(&two(&format!("body = 2\n{duration}"))).unwrap();
     assert_eq!(scene.targets.len(), 1);
-    assert_eq!(scene.bodies().unwrap().iter().map(|scene| scene.targets.len()).collect::<Vec<_>>(), [0, 1]);
+    assert_eq!(scene.bodies().unwrap().iter().flatten().map(|scene| scene.targets.len()).collect::<Vec<_>>(), [0, 1]);
     let one = format!(
         "[rod]\n{PILE}bottom = 'fixed'\n[run]\ntime = 1\n[[target]]\nquantity = 'u_top'\ntime = 1\npublished = 0\nsource = 'by hand'\n"
     );
-    assert_eq!(ChainScene::parse(&one).unwrap().bodies().unwrap()[0].targets.len(), 1);
+    assert_eq!(ChainScene::parse(&one).unwrap().body(0).unwrap().targets.len(), 1);
     for (target, found) in
         [(duration.to_string(), "no body in [[target]]"), (format!("body = 3\n{duration}"), "body = 3")]
     {

@@ -13,10 +13,10 @@ use crate::output::RunInfo;
 use crate::quantities::{NameParser, Scope};
 use crate::source::AnyScene;
 use crate::terminal;
-use dalembert::Ending;
-use dalembert::Scene;
 use dalembert::number::{Number, Scalar};
+use dalembert::quantity::Units;
 use dalembert::solve::{History, Numbers, Question};
+use dalembert::{ChainScene, Ending, Scene};
 use dalembert_plot::draw::{Size, without_subscripts};
 use dalembert_plot::{FieldQuantity, Picture, Request, SceneData, heights};
 
@@ -61,19 +61,11 @@ pub(crate) struct Plot {
 }
 
 /// Scenes to be drawn.
-struct Drawn {
-    /// Scenes with their names.
-    scenes: Vec<(String, Scene)>,
-    /// Heights of the bodies if the scenes are those of one chain.
-    heights: Vec<f64>,
-    /// Title of the chain.
-    title: Option<String>,
-}
-
-impl Drawn {
-    fn rods(scenes: Vec<(String, Scene)>) -> Self {
-        Self { scenes, heights: Vec::new(), title: None }
-    }
+enum Drawn {
+    /// Scenes by themselves, with their names.
+    Rods(Vec<(String, Scene)>),
+    /// All bodies of one chain.
+    Chain(Box<ChainScene>),
 }
 
 /// Accuracy of a picture without --accuracy: finer than any line.
@@ -100,12 +92,12 @@ impl Plot {
             let from = from.unwrap_or(0.0);
             return Err(failure!("found --to {to}, expected a time after {from}, where the picture begins"));
         }
-        let Drawn { scenes, heights, title: chain_title } = self.read()?;
-        let pictures = match (self.quantity.is_empty(), scenes.len()) {
+        let drawn = self.read()?;
+        let pictures = match (self.quantity.is_empty(), &drawn) {
             (false, _) => self.pictures()?,
-            (true, _) if !heights.is_empty() => Picture::CHAIN.to_vec(),
-            (true, 1) => Picture::SHEET.to_vec(),
-            (true, _) => Picture::COMPARED.to_vec(),
+            (true, Drawn::Chain(_)) => Picture::CHAIN.to_vec(),
+            (true, Drawn::Rods(scenes)) if scenes.len() == 1 => Picture::SHEET.to_vec(),
+            (true, Drawn::Rods(_)) => Picture::COMPARED.to_vec(),
         };
         let has_field = pictures.contains(&Picture::SpaceTime);
         if !has_field && (self.deformed || self.field != FieldQuantity::default()) {
@@ -115,28 +107,38 @@ impl Plot {
         if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
         }
-        if self.deformed && !heights.is_empty() {
-            return Err(failure!("found --deformed of a chain, expected it with --body N"));
-        }
-        let request = Request { pictures, field: self.field, deformed: self.deformed, from, to, heights };
-        let gather = |(name, scene): &(String, Scene)| self.gather(name, scene, &request);
-        let mut gathered = scenes.iter().map(gather).collect::<Result<Vec<_>, _>>()?;
-        let title = match scenes.as_slice() {
-            [(_, scene)] => {
-                // What comes from standard input has no name.
-                let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
-                gathered[0].heading(scene.title.as_deref().or(name), &scene.problem, &request)
+        let mut request =
+            Request { pictures, field: self.field, deformed: self.deformed, from, to, heights: Vec::new() };
+        let (gathered, title) = match drawn {
+            Drawn::Chain(_) if self.deformed => {
+                return Err(failure!("found --deformed of a chain, expected it with --body N"));
             }
-            _ if !request.heights.is_empty() => {
-                let name = Some(self.scenes[0].as_str()).filter(|name| *name != "-");
-                chain_title.as_deref().or(name).map(without_subscripts).into_iter().collect()
+            Drawn::Chain(scene) => {
+                request.heights = heights(&scene.chain);
+                let title = scene.title.as_deref().or(self.name()).map(without_subscripts);
+                (self.gather_chain(&scene, &request)?, title.into_iter().collect())
             }
-            _ => {
-                name_by_differences(&mut gathered);
-                let part = |scene: &SceneData| {
-                    Some(format!("{}: {}", without_subscripts(&scene.name), scene.shown_part(&request)?))
+            Drawn::Rods(scenes) => {
+                let gather = |(name, scene): &(String, Scene)| {
+                    let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
+                    let (history, found) = gather(file, self.solve(scene)?, &request)?;
+                    note_span(file, &request, &found, &history);
+                    Ok(found)
                 };
-                gathered.iter().filter_map(part).collect()
+                let mut gathered = scenes.iter().map(gather).collect::<Result<Vec<_>, Failure>>()?;
+                let title = match scenes.as_slice() {
+                    [(_, scene)] => {
+                        gathered[0].heading(scene.title.as_deref().or(self.name()), &scene.problem, &request)
+                    }
+                    _ => {
+                        name_by_differences(&mut gathered);
+                        let part = |scene: &SceneData| {
+                            Some(format!("{}: {}", without_subscripts(&scene.name), scene.shown_part(&request)?))
+                        };
+                        gathered.iter().filter_map(part).collect()
+                    }
+                };
+                (gathered, title)
             }
         };
         let sheet = request.sheet(&gathered, title).map_err(|error| failure!("{error}"))?;
@@ -144,21 +146,68 @@ impl Plot {
         write_all(&destinations, |format| file::picture(format, svg.clone(), self.size))
     }
 
-    /// Reads the scenes: those that are named, or the bodies of one chain.
+    /// Reads the scenes: those that are named, or one chain.
     fn read(&self) -> Result<Drawn, Failure> {
         if let [name] = self.scenes.as_slice() {
             return match self.body.read_any(name)? {
-                AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => {
-                    let bodies = scene.chain.bodies().iter().zip(1..);
-                    let names = bodies.map(|(body, k)| body.name().map_or_else(|| format!("body {k}"), str::to_string));
-                    let scenes = names.zip(scene.bodies()?).collect();
-                    Ok(Drawn { scenes, heights: heights(&scene.chain), title: scene.title })
-                }
-                scene => Ok(Drawn::rods(vec![(name.clone(), scene.into_rod(name, None)?)])),
+                AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => Ok(Drawn::Chain(scene)),
+                scene => Ok(Drawn::Rods(vec![(name.clone(), scene.into_rod(name, None)?)])),
             };
         }
         let read = |name: &String| Ok((name.clone(), self.body.read(name)?));
-        Ok(Drawn::rods(self.scenes.iter().map(read).collect::<Result<_, Failure>>()?))
+        Ok(Drawn::Rods(self.scenes.iter().map(read).collect::<Result<_, Failure>>()?))
+    }
+
+    /// Asks the bars of a chain and, for its rigid bodies, the chain, all over the same span.
+    fn gather_chain(&self, scene: &ChainScene, request: &Request) -> Result<Vec<SceneData>, Failure> {
+        let name = |k: usize| {
+            let name = scene.chain.bodies()[k].name();
+            name.map_or_else(|| format!("body {}", k + 1), str::to_string)
+        };
+        let bodies = scene.bodies()?;
+        let Some(bar) = bodies.iter().flatten().next() else {
+            return Err(failure!("found a chain without bars, expected one: the pictures show its waves"));
+        };
+        let units = Units::new(&bar.problem, bar.units);
+        let solve = |bar: &Option<Scene>| bar.as_ref().map(|bar| self.solve(bar)).transpose();
+        let answers = bodies.iter().map(solve).collect::<Result<Vec<_>, _>>()?;
+        let span = |answer: &Answer| Ok(answer.history.in_doubles(|doubles| request.span(doubles))??);
+        let spans = answers.iter().flatten().map(span).collect::<Result<Vec<_>, Failure>>()?;
+        let shared = request.over(&spans);
+        let chain = if answers.iter().all(Option::is_some) {
+            None
+        } else {
+            let until = self.to.as_ref().unwrap_or(scene.chain.until());
+            let longer = bar.problem.to_builder().time(until.clone()).build()?;
+            let chain = longer.chain().map_or_else(|| scene.chain.clone(), |(chain, _)| chain);
+            Some(chain.solve(self.picture_numbers(bar))?)
+        };
+        let mut all = Vec::new();
+        for (k, answer) in answers.into_iter().enumerate() {
+            if let Some(answer) = answer {
+                let (history, found) = gather(&name(k), answer, &shared)?;
+                if all.iter().all(|data: &SceneData| data.rod.length == 0.0) {
+                    note_span(self.name().unwrap_or("the chain"), request, &found, &history);
+                }
+                all.push(found);
+            } else if let Some(chain) = &chain {
+                all.push(shared.gather_rigid(name(k), units.clone(), chain, k)?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Returns the name of the first scene; what comes from standard input has none.
+    fn name(&self) -> Option<&str> {
+        Some(self.scenes[0].as_str()).filter(|name| *name != "-")
+    }
+
+    /// Returns the numbers in which a scene is drawn.
+    fn picture_numbers(&self, scene: &Scene) -> Numbers {
+        match self.numbers.numbers(scene) {
+            Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
+            numbers => numbers,
+        }
     }
 
     /// Returns the requested pictures.
@@ -178,23 +227,23 @@ impl Plot {
         Ok(pictures)
     }
 
-    fn gather(&self, name: &str, scene: &Scene, request: &Request) -> Result<SceneData, Failure> {
-        let numbers = match self.numbers.numbers(scene) {
-            Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
-            numbers => numbers,
-        };
+    fn solve(&self, scene: &Scene) -> Result<Answer, Failure> {
+        let numbers = self.picture_numbers(scene);
         let question = match &self.to {
             Some(to) => Question::between(0.into(), to.clone(), numbers),
             None => Question::run(numbers),
         };
-        let file = Path::new(name).file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
-        let Answer { history, info, progress } = solve(scene, &question)?;
-        let found = history.in_doubles(|doubles| request.gather(file.into(), info.units.clone(), doubles))??;
-        drop(progress);
-        RunInfo { warnings: history.warnings(), ..info }.print_warnings();
-        note_span(file, request, &found, &history);
-        Ok(found)
+        solve(scene, &question)
     }
+}
+
+/// Asks the history of an answer for all that the pictures show, and prints its warnings.
+fn gather(name: &str, answer: Answer, request: &Request) -> Result<(History, SceneData), Failure> {
+    let Answer { history, info, progress } = answer;
+    let found = history.in_doubles(|doubles| request.gather(name.into(), info.units.clone(), doubles))??;
+    drop(progress);
+    RunInfo { warnings: history.warnings(), ..info }.print_warnings();
+    Ok((history, found))
 }
 
 /// Prints notes on the part of a history that is drawn.

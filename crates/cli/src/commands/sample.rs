@@ -142,9 +142,7 @@ impl SampleArgs {
         let scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             // One body is a rod, unless its two ends are told apart.
-            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.are_of_rod(is_golden) => {
-                scene.bodies()?.swap_remove(0)
-            }
+            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.are_of_rod(is_golden) => scene.body(0)?,
             AnyScene::Chain(scene) if is_golden => {
                 let name = scene.title.as_deref().unwrap_or(&self.scene.scene);
                 let failure = failure!("found a chain of bodies, {name}, expected one of them");

@@ -121,12 +121,33 @@ fn bodies_that_are_not_there_are_refused() {
     }
 }
 
-/// Pictures are drawn from lines between rays, which a soft chain does not have.
+/// A chain with a mass: its bar is a rod like others, and the pictures show both.
 #[test]
-fn pictures_of_chains_with_masses_are_refused() {
+fn a_bar_below_a_mass_is_compared_and_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    let picture = folder.path().join("soft.svg");
-    refused(&["plot", "saint-venant-mass", "-o", picture.to_str().unwrap()], &["rigid mass", "the whole chain"]);
-    assert!(!picture.exists());
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    run(&format!("plot saint-venant-mass -o {}", path("both.svg")));
+    let svg = std::fs::read_to_string(path("both.svg")).unwrap();
+    assert_eq!(svg.matches("class=\"panel\"").count(), 4);
+    for text in ["rigid mass", "mass", "rod"] {
+        assert!(svg.contains(&format!(">{text}<")), "{text}");
+    }
+    // A panel has a curve of each body.
+    let panel = svg.split("class=\"panel\"").find(|panel| panel.contains(">energy<")).unwrap();
+    assert_eq!(panel.matches("class=\"curve\"").count(), 2, "{panel}");
+    run(&format!("plot saint-venant-mass --body 1 --to 5 -o {}", path("bar.svg")));
+    let times = "--quantity t,force,u_top,h --times 0..12:241 --format csv --bare";
+    std::fs::write(path("run.csv"), run(&format!("sample saint-venant-mass --body 1 {times}"))).unwrap();
+    let fails = "--fail-above force.linf_off_jumps=1e-9,u_top.linf=1e-9,h.linf=1e-9";
+    let compared = |scene: &str| run_coded(&format!("compare {scene} {} --body 1 {fails}", path("run.csv"))).0;
+    assert_eq!([compared("saint-venant-mass"), compared("saint-venant-mass-4")], [Some(0), Some(1)]);
+    // The force jumps by twice as much as at an impact, which is no hint; nothing in the chain yields.
+    let report = run(&format!("compare saint-venant-mass {} --body 1", path("run.csv")));
+    assert!(report.contains("no hint") && !report.contains("yields"), "{report}");
+    refused(&["solve", "saint-venant-mass", "--body", "2"], &["found a rigid mass", "v_end.2"]);
     refused(&["solve", "saint-venant-mass", "--exact"], &["exponentials"]);
+    let swinging = "[[body]]\nmass = 1\n[[body]]\nmass = 1\njoint = { stiffness = 3, bonded = true }\n\
+                    [ends]\nbottom = { stiffness = 4 }\n[run]\ntime = 4\n";
+    let Run { code, err, .. } = run_with(&["plot", "-", "-o", &path("none.svg")], swinging);
+    assert_eq!((code, err.contains("a chain without bars")), (Some(2), true), "{err}");
 }
