@@ -444,9 +444,9 @@ class History(Frozen):
         t : number or array_like
             Times.
         names : str or sequence of str
-            Names out of ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``, ``u_top``, ``v_top``, ``h``,
-            ``h_rate``, ``E_total``, ``E_h``, ``E_z``, ``kinetic``, ``strain_energy``, ``gravity``, ``contact``,
-            ``impulse``, ``t`` and ``side``; or of the groups ``end``, ``top``, ``centre`` and ``energy``.
+            Names out of ``u_end``, ``v_end``, ``strain``, ``stress``, ``force``, ``u_top``, ``v_top``,
+            ``force_top``, ``h``, ``h_rate``, ``E_total``, ``E_h``, ``E_z``, ``kinetic``, ``strain_energy``,
+            ``gravity``, ``contact``, ``impulse``, ``t`` and ``side``; or of the groups ``end``, ``top``, ``centre`` and ``energy``.
         side : {"left", "right"}, optional
             Which limit at a jump. Without it a time has two rows where they differ, the earlier one first.
 

@@ -3,7 +3,7 @@
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::motion::{Motion, Side, StressPiece};
+use crate::motion::{Field, Motion, Side, StressPiece};
 use crate::number::Scalar;
 use crate::threads::Threads;
 
@@ -205,7 +205,10 @@ impl Source {
             Source::Time => row.push(time.clone()),
             Source::End => row.extend(pair(motion.ground_end(time, side)?)),
             Source::Strain => row.push(motion.strain(time, side)?),
-            Source::Top => row.extend(pair(motion.top_end(time, side)?)),
+            Source::Top => {
+                let Field { displacement, velocity, strain } = motion.field(&motion.scales().length, time, side)?;
+                row.extend([displacement, velocity, strain]);
+            }
             Source::Contact => row.push(motion.in_contact(time, side)?),
             Source::Centre => row.extend(pair(motion.centre(time)?)),
             Source::Energy => {

@@ -155,6 +155,8 @@ quantities! {
         Top 0, "displacement of the upper end";
     TopVelocity: "v_top" also ["top_velocity", "v_tip", "tip_velocity"], "v_t(L,t)", Some(Velocity), Top 1,
         "velocity of the upper end";
+    TopForce: "force_top" also ["top_force", "reaction_top"], "−E S v_x(L,t)", Some(Force), Top 2,
+        "force at the upper end, positive in compression";
     Centre: "h" also ["centre"], "h", Some(Length), Centre 0,
         "centre of mass above its place in the undeformed rod on the ground";
     CentreVelocity: "h_rate" also ["h'", "h_dot"], "h′", Some(Velocity), Centre 1, "velocity of the centre of mass";
@@ -243,8 +245,8 @@ impl Source {
     /// Returns the number of its answers.
     pub(super) fn answers(self) -> usize {
         match self {
-            Source::Energy => 3,
-            Source::End | Source::Top | Source::Centre | Source::Parts => 2,
+            Source::Energy | Source::Top => 3,
+            Source::End | Source::Centre | Source::Parts => 2,
             _ => 1,
         }
     }
@@ -340,7 +342,7 @@ impl Quantity {
     pub fn jumps(self) -> bool {
         match self.source() {
             (Source::Strain | Source::Contact, _) => true,
-            (Source::End | Source::Top, answer) => answer == 1,
+            (Source::End | Source::Top, answer) => answer > 0,
             (Source::Field, answer) => answer > 1,
             _ => false,
         }

@@ -3,7 +3,7 @@
 use crate::random_chain::Random;
 use dalembert::Numbers;
 use dalembert::Side;
-use dalembert::chain::{Chain, ChainColumn};
+use dalembert::chain::{Chain, ChainColumn, ChainQuantity};
 use dalembert::number::{Bounded, Number, Rational, Scalar, Value};
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Quantity, Units};
@@ -20,7 +20,8 @@ fn exact(problem: &Problem, quantity: Quantity, time: &Number, side: Side) -> Va
 #[test]
 fn bodies_move_as_in_the_chain() {
     let mut random = Random(4711);
-    let quantities = ["u_end", "v_end", "u_top", "v_top", "h", "h_rate", "kinetic", "strain_energy", "E_total"];
+    let quantities =
+        ["u_end", "v_end", "u_top", "v_top", "force_top", "h", "h_rate", "kinetic", "strain_energy", "E_total"];
     let mut compared = 0;
     for _ in 0..25 {
         let chain = random.chain();
@@ -33,7 +34,11 @@ fn bodies_move_as_in_the_chain() {
                 }
                 for name in quantities {
                     let quantity = name.parse::<Quantity>().unwrap();
-                    let column = ChainColumn::read(&format!("{name}.{}", k + 1), &chain).unwrap();
+                    let column = match name {
+                        // The node above the body.
+                        "force_top" => ChainColumn { quantity: ChainQuantity::Force, place: k + 1 },
+                        _ => ChainColumn::read(&format!("{name}.{}", k + 1), &chain).unwrap(),
+                    };
                     for side in [Side::Left, Side::Right] {
                         let expected = whole.value(column, &time, side).unwrap();
                         let found = exact(problem, quantity, &time, side);

@@ -121,6 +121,8 @@ impl<'a> Model<'a> {
         for ComparedColumn { what, ours, theirs, norms } in &agreement.quantities {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
+                // No quantity is its integral.
+                _ if *what == Quantity::TopForce => continue,
                 Some(Measure::Energy) => mass * speed * speed / trip,
                 Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => {
                     reference.line_density() * wave_speed * speed

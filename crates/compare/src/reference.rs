@@ -226,7 +226,7 @@ impl<'a> Reference<'a> {
         let at = |(k, time): (usize, &f64)| match (what, &grid.points) {
             // Contact begins and ends without a jump of the stress too.
             (Quantity::Contact, _) => nearest(&self.switches, *time),
-            (Quantity::TopDisplacement | Quantity::TopVelocity, _) => {
+            (Quantity::TopDisplacement | Quantity::TopVelocity | Quantity::TopForce, _) => {
                 self.nearest_ray_at(self.rod.round_trip() / 2.0, *time)
             }
             (_, Some(points)) => self.nearest_ray_at(points[k] / self.rod.wave_speed, *time),
@@ -247,12 +247,14 @@ impl<'a> Reference<'a> {
         moved(time, self.nearest_ray_at(self.rod.round_trip() / 2.0, time))
     }
 
-    /// Returns the scale of a displacement or a velocity; zero for other quantities, whose zeros are exact.
+    /// Returns the scale of a displacement, a velocity or the force at the top, which is zero where that is free; zero
+    /// for other quantities, whose zeros are exact.
     pub(super) fn scale(&self, what: Quantity) -> f64 {
         let scales = self.history.scales();
         match what.measure() {
             Some(Measure::Length) => scales.velocity * scales.time,
             Some(Measure::Velocity) => scales.velocity,
+            _ if what == Quantity::TopForce => self.line_density() * scales.wave_speed * scales.velocity,
             _ => 0.0,
         }
     }
@@ -307,7 +309,7 @@ impl<'a> Reference<'a> {
             energy if energy.measure() == Some(Measure::Energy) => {
                 vec![(2.0, "is ½ missing?"), (0.5, "is ½ there twice?")]
             }
-            Quantity::Force => vec![(1.0 / area, "is it a stress?")],
+            Quantity::Force | Quantity::TopForce => vec![(1.0 / area, "is it a stress?")],
             Quantity::Stress => vec![(*area, "is it a force?"), (1.0 / modulus, "is it a strain?")],
             Quantity::Strain => vec![(*modulus, "is it a stress?")],
             _ => Vec::new(),
