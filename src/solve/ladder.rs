@@ -83,10 +83,17 @@ pub(crate) struct Size {
     /// Magnitude as `log₂`.
     log2: f64,
     log2_error: f64,
+    /// Whether it is indistinguishable from zero.
+    may_vanish: bool,
 }
 
 fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
-    numbers.into_iter().map(|x| Size { log2: x.to_f64().abs().log2(), log2_error: x.log2_error() }).collect()
+    let size = |x: &S| Size {
+        log2: x.to_f64().abs().log2(),
+        log2_error: x.log2_error(),
+        may_vanish: x.vanishes() != Ok(false),
+    };
+    numbers.into_iter().map(size).collect()
 }
 
 /// The query that the ladder puts to each attempt. It returns the index of the answer, counted from 0, and the sizes of
@@ -247,14 +254,14 @@ impl Ladder<'_> {
         let greatest = numbers.iter().map(|number| number.log2).fold(f64::NEG_INFINITY, f64::max);
         let floor = greatest - bits(digits + spare);
         let mut most = f64::NEG_INFINITY;
-        for Size { log2: size, log2_error: error } in numbers {
+        for Size { log2: size, log2_error: error, may_vanish } in numbers {
             let mut missing = error - (size - bits(digits)).max(floor);
             // The number is unknown, whatever its size.
             if error.is_nan() || *error == f64::INFINITY {
                 return f64::INFINITY;
             }
             // The natural scale decides when a number that is indistinguishable from zero is small enough.
-            if missing > 0.0 && size <= error {
+            if missing > 0.0 && *may_vanish {
                 missing = missing.min(error - least_scale(engine) + bits(digits + faint));
             }
             most = most.max(missing);

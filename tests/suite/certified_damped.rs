@@ -433,3 +433,22 @@ fn a_release_has_the_time_error_of_the_ray_that_brings_it() {
     }
     assert_eq!(compared, 48);
 }
+
+/// At the start of a rod that is undeformed and still at its top, all three numbers are zero, and no bits give them a
+/// leading digit: their bounds are held against the scale of the motion.
+#[test]
+fn zeros_at_the_start_need_no_digits() {
+    let start = [("0", "9/8"), ("7/24", "-15/8"), ("7/24", "0"), ("3/8", "3/8"), ("3/8", "-15/8"), ("1/2", "0")];
+    let rod = Problem::builder().length("1/2").wave_speed(5).damping("34.9845").gravity(15).impacts(1);
+    let history = rod.velocity(start).build().unwrap().certified(18).unwrap();
+    for side in [Side::Left, Side::Right] {
+        let query = |motion: &dyn dalembert::engine::Motion<Interval>| {
+            let top = motion.scales().length;
+            motion.field(&top, &top.zero(), side)
+        };
+        let found = history.ask(query, |field| field.numbers().to_vec()).unwrap();
+        for number in found.numbers() {
+            assert!(number.vanishes() != Ok(false) && number.log2_error() < -60.0, "{number:?} {side}");
+        }
+    }
+}
