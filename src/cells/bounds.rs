@@ -39,6 +39,9 @@ impl Bounds {
     }
 }
 
+/// Share of the bound of a peak within which the peak is searched.
+const PEAK_TOLERANCE: f64 = 1.0 / 16.0;
+
 impl<S: RoundedSpecial> Damped<S> {
     /// Adds the contacts, and the bounds of the events.
     ///
@@ -60,17 +63,17 @@ impl<S: RoundedSpecial> Damped<S> {
         };
         let events: Vec<_> = self.course.events.iter().enumerate().map(event).collect::<Result<_, Error>>()?;
         self.course.events = events;
-        let mut pushes = self.pushes();
+        let mut pieces = self.contact_pieces();
         let contacts = Contact::between(&self.course.events, |k| {
-            let none = || (self.data.slope.zero(), self.data.slope.zero());
-            let (impulse, peak) = pushes.next().unwrap_or_else(none);
             let found = self.uncertainty(self.course.events[k].t.value());
             let Scales { velocity, wave_speed, .. } = self.scales;
             // A peak lies next to a ray, or where the slope vanishes.
             let strain = self.scaled(found).strain + found.slope * found.rays * velocity / wave_speed;
-            (within(&impulse, self.impulse_off(k)), within(&peak, strain))
+            let tolerance = strain * PEAK_TOLERANCE;
+            let (impulse, peak) = self.push_of(pieces.next().unwrap_or_default(), tolerance);
+            (within(&impulse, self.impulse_off(k)), within(&peak, strain + tolerance))
         });
-        drop(pushes);
+        drop(pieces);
         self.course.contacts = contacts;
         Ok(self)
     }

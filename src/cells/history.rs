@@ -212,25 +212,28 @@ impl<S: RoundedSpecial> Damped<S> {
         sum
     }
 
-    /// Computes the impulse and the peak of each contact, in order.
-    pub(super) fn pushes(&self) -> impl Iterator<Item = (S, S)> {
+    /// Returns the pieces of each contact, in order.
+    pub(super) fn contact_pieces(&self) -> impl Iterator<Item = &[Piece<S>]> {
+        self.pieces.chunk_by(|a, b| a.contact == b.contact).filter(|pieces| pieces[0].contact)
+    }
+
+    /// Computes the impulse of a contact with these pieces, and its peak within `tolerance`.
+    pub(super) fn push_of(&self, pieces: &[Piece<S>], tolerance: f64) -> (S, S) {
         let (units, zero) = (&self.data.units, &self.data.slope);
-        let contacts = self.pieces.chunk_by(|a, b| a.contact == b.contact).filter(|pieces| pieces[0].contact);
-        contacts.map(|pieces| {
-            let (mut impulse, mut peak) = (zero.zero(), zero.zero());
-            for piece in pieces {
-                let mut area = piece.trace.clone();
-                self.medium.basis.integrate(&mut area);
-                let push = at_one(&area, &piece.len.zero()) * &piece.len * &self.data.displacement * &units.wave_speed;
-                impulse = impulse - push;
-                let least = smallest(&self.medium.basis, &piece.trace);
-                let strain = least.map(|least| least * &units.velocity / &units.wave_speed);
-                if let Some(strain) = strain.filter(|strain| *strain < peak) {
-                    peak = strain;
-                }
+        let (mut impulse, mut peak) = (zero.zero(), zero.zero());
+        let tolerance = tolerance * units.wave_speed.to_f64() / units.velocity.to_f64();
+        for piece in pieces {
+            let mut area = piece.trace.clone();
+            self.medium.basis.integrate(&mut area);
+            let push = at_one(&area, &piece.len.zero()) * &piece.len * &self.data.displacement * &units.wave_speed;
+            impulse = impulse - push;
+            let least = smallest(&self.medium.basis, &piece.trace, tolerance);
+            let strain = least.map(|least| least * &units.velocity / &units.wave_speed);
+            if let Some(strain) = strain.filter(|strain| *strain < peak) {
+                peak = strain;
             }
-            (impulse, peak)
-        })
+        }
+        (impulse, peak)
     }
 
     /// Computes quadrature nodes along the rod, from the ground to the first of `points` and from each to the next, and

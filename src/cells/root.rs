@@ -87,13 +87,13 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
 
 /// Computes the smallest value on `0 … 1`.
 ///
-/// **Accuracy**: within `16u Σ|c_k|`. Parts are halved until they are monotone, convex or concave, cannot fall below
+/// **Accuracy**: within `tolerance` and `16u Σ|c_k|`. Parts are halved until they are monotone, convex or concave, cannot fall below
 /// the least value found by more than that, or are shorter than `√u`, where an end is within a few `u` of the least
 /// value. A convex part has its least value at the root of its slope or at an end.
-pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
+pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S], tolerance: f64) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();
-    let roundoff = 16.0 * unit.exp2() * bound(c, 0);
+    let allowed = tolerance + 16.0 * unit.exp2() * bound(c, 0);
     let mut least = at_zero(c, &zero);
     let mut parts = vec![(0.0, c.to_vec())];
     while let Some((log2_width, c)) = parts.pop() {
@@ -104,7 +104,7 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S]) -> Option<S> {
         }
         let slope = derivative(&c);
         // Largest amount by which the part can fall below the least value found.
-        let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= roundoff;
+        let above = bound(&c, 1) - (c[0].clone() - &least).to_f64() <= allowed;
         if above || slope[0].to_f64().abs() >= bound(&slope, 1) || log2_width < unit / 2.0 {
             continue;
         }
