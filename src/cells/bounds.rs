@@ -52,12 +52,16 @@ impl<S: RoundedSpecial> Damped<S> {
             // A zero is proved where the rod lies on the ground, and where it leaves without a jump of the stress.
             let known = |value: &Estimate<S>| self.proved && value.value().is_zero();
             let (moves, push) = (event.h_rate.to_f64().abs(), self.push(event.t.value(), late)?);
+            let h = within(event.h.value(), if known(&event.h) { 0.0 } else { centre + late * (moves + push) });
+            let means = [h, within(event.h_rate.value(), rate + push)];
+            let is_start = event.t.value().is_zero() && event.t_error == 0.0;
+            let [h, h_rate] = if is_start { self.at_start(means) } else { means };
             Ok(Event {
                 kind: event.kind,
                 t: within(event.t.value(), event.t_error),
                 v_end: within(event.v_end.value(), if known(&event.v_end) { 0.0 } else { end }),
-                h: within(event.h.value(), if known(&event.h) { 0.0 } else { centre + late * (moves + push) }),
-                h_rate: within(event.h_rate.value(), rate + push),
+                h,
+                h_rate,
                 t_error: event.t_error,
             })
         };
@@ -76,6 +80,12 @@ impl<S: RoundedSpecial> Damped<S> {
         drop(pieces);
         self.course.contacts = contacts;
         Ok(self)
+    }
+
+    /// Returns `h` and `h′` at the start, as exact zeros where the given data have no mean.
+    fn at_start(&self, found: [Estimate<S>; 2]) -> [Estimate<S>; 2] {
+        let mut exact = self.data.zero_means.iter();
+        found.map(|value| if exact.next() == Some(&true) { Estimate::exact(value.value().zero()) } else { value })
     }
 
     /// Bounds the error of the impulse of a contact: by the balance of momentum between two followed events, or by the
@@ -311,7 +321,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
                 let near = self.near(time);
                 let (moves, push) = (rate.to_f64().abs(), self.push(time.value(), near.late)?);
                 let moves = moves + self.change(time.value(), near.late) + push;
-                [within(&height, near.centre + near.late * moves), within(&rate, near.rate + push)]
+                let found = [within(&height, near.centre + near.late * moves), within(&rate, near.rate + push)];
+                if time.value().is_zero() && time.bound() == 0.0 { self.at_start(found) } else { found }
             }
             Pair::Energy => {
                 let (height, rate) = self.centre(time)?;

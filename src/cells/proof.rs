@@ -239,7 +239,26 @@ impl<S: RoundedSpecial> Proof<S> {
         }
     }
 
+    /// Finds, in the first strip of a run, a stretch from its beginning on which the stress falls from zero; returns its
+    /// end, as a part of the strip, and the time τ from which on the end is proved to press.
+    ///
+    /// **Source**: a stress that is σ̂₀ at first and falls at least at the rate s is below −F from `(F + |σ̂₀|)/s` on.
+    fn pressing_from(&self, trace: &[S], len: f64, fast: f64) -> Option<(S, f64)> {
+        let zero = trace[0].zero();
+        let start = at_zero(trace, &zero).to_f64();
+        let rate = doubles(&derivative(trace));
+        let rate = Part::in_doubles(&self.doubles, &rate);
+        (0..64).map(|k| (-f64::from(k)).exp2()).find_map(|part| {
+            let (_, most) = rate.range(&zero, &zero.double(part));
+            let late = 4.0 * (fast + start.abs()) * len / -most * (1.0 + SLACK);
+            (most < 0.0 && 4.0 * late <= part * len).then(|| (zero.double(part), late))
+        })
+    }
+
     /// Proves a strip in contact.
+    ///
+    /// **Contact without a force at first**: where the first stress of the run is zero within F and falls, the end
+    /// presses from τ on. Until then it may leave the ground and come back, as at a release.
     ///
     /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets
     /// go in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
@@ -254,9 +273,17 @@ impl<S: RoundedSpecial> Proof<S> {
         let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
         let (zero, one) = (trace[0].zero(), trace[0].one());
+        let is_first = run.pieces.is_empty() && at_zero(trace, &zero).to_f64() >= -fast * (1.0 + SLACK);
+        let begun = if is_first { self.pressing_from(trace, len, fast) } else { None };
+        if let Some((_, late)) = &begun {
+            let most = at_zero(trace, &zero).to_f64().abs() + 4.0 * self.slope * late + fast;
+            let off = late + 64.0 * self.steps.unit;
+            self.starts(run.state.segments[0].at.clone(), 0.0, [off; 2], 4.0 * off * most);
+        }
+        let pressing = begun.map_or_else(|| zero.clone(), |(part, _)| part);
         let pressed = |to: S| {
-            let part = (zero.clone(), to);
-            part.1.is_zero()
+            let part = (pressing.clone(), to);
+            part.1 <= part.0
                 || Part::in_doubles(&self.doubles, &doubles(trace)).below(part.clone(), fast)
                 || Part::of(&run.medium.basis, trace).below(part, fast)
         };

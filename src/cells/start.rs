@@ -126,6 +126,8 @@ pub(super) struct Data<S> {
     pub(super) ground: S,
     /// Whether the rod starts undeformed, with one velocity.
     pub(super) rigid: bool,
+    /// Whether `h(0)` and `h′(0)` are exactly zero.
+    pub(super) zero_means: [bool; 2],
     /// Dimensionless data on the whole rod, without its mirror image.
     half: Vec<Linear<S>>,
     /// Bound of the terms in the dimensionless data, before differences of displacements are taken.
@@ -193,8 +195,12 @@ impl<S: Rounded> Data<S> {
         let most = 2.0 * far / shortest + 2.0 * fast / shortest + strained + gravity.to_f64() + slope.to_f64().abs();
         let damping = parameters.damping.clone() * &time;
         let units = Scales { time, velocity: scale, ..Scales::of(parameters) };
-        let rigid = !matches!(problem.start(), Start::Profile(_));
-        Data { units, displacement, damping, gravity, slope, given, ground, rigid, half, most, shortest }
+        let zero_means = match problem.start() {
+            Start::Profile(profile) => Some(profile.has_zero_means()),
+            _ => None,
+        };
+        let (rigid, zero_means) = (zero_means.is_none(), zero_means.unwrap_or_default());
+        Data { units, displacement, damping, gravity, slope, given, ground, rigid, zero_means, half, most, shortest }
     }
 
     /// Returns `v_t(0⁺, 0)`.

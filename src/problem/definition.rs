@@ -4,7 +4,7 @@ use super::given::{Given, UNITS};
 use super::in_chain::InChain;
 use super::validate::{DAMPING_RATIO, Draft};
 use super::{Builder, Parameter, ProblemError};
-use crate::number::Number;
+use crate::number::{Number, Rational};
 
 /// The initial-boundary-value problem: `v_tt + 2r v_t − c² v_xx = −g` on `0 < x < L`, unilateral contact at `x = 0`.
 ///
@@ -111,6 +111,30 @@ pub struct Profile {
     pub strain: Vec<(Number, Number)>,
     /// Pairs `(x, v_t)`.
     pub velocity: Vec<(Number, Number)>,
+}
+
+impl Profile {
+    /// Returns whether the means of displacement and velocity over the rod are zero, which fractions decide.
+    pub(crate) fn has_zero_means(&self) -> [bool; 2] {
+        let exact = |(x, value): &(Number, Number)| [x.to_rational(), value.to_rational()];
+        let area = |points: &[(Number, Number)]| {
+            let twice = |pair: &[(Number, Number)]| {
+                let [[from, low], [to, high]] = [exact(&pair[0]), exact(&pair[1])];
+                (to - from) * (low + high)
+            };
+            points.windows(2).map(twice).fold(Rational::from(0), |sum, part| sum + part)
+        };
+        // The strain s displaces all that lies above: `∫ (L − x) s dx`.
+        let length = self.strain.last().map_or_else(|| Rational::from(0), |(x, _)| x.to_rational());
+        let lift = |pair: &[(Number, Number)]| {
+            let [[from, low], [to, high]] = [exact(&pair[0]), exact(&pair[1])];
+            let width = to - &from;
+            let (three, twice) = (Rational::from(3), high.clone() + &high);
+            ((length.clone() - from) * (low.clone() + high) * three - width.clone() * (low + twice)) * width
+        };
+        let lifted = self.strain.windows(2).map(lift).fold(Rational::from(0), |sum, part| sum + part);
+        [lifted.is_zero() && area(&self.displacement).is_zero(), area(&self.velocity).is_zero()]
+    }
 }
 
 /// The end of the run.

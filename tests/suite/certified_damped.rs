@@ -2,7 +2,7 @@
 
 use crate::common::{Random, number, problem, reference};
 use dalembert::number::Scalar;
-use dalembert::quantity::{Needs, Slice, slices};
+use dalembert::quantity::{Needs, Slice, Undefined, slices};
 use dalembert::{
     Ending, Error, Estimate, EventKind, Field, Float, Interval, Number, Numbers, Parameters, Problem, Quantity, Run,
     Side, Speed, Start, Top, TypedHistory, Warning,
@@ -449,6 +449,62 @@ fn zeros_at_the_start_need_no_digits() {
         let found = history.ask(query, |field| field.numbers().to_vec()).unwrap();
         for number in found.numbers() {
             assert!(number.vanishes() != Ok(false) && number.log2_error() < -60.0, "{number:?} {side}");
+        }
+    }
+}
+
+/// A rod that starts at rest has no momentum, exactly, so that its first contact has no coefficients of restitution and
+/// says so, in place of more and more bits; and one whose displacement has no mean starts at `h = 0`.
+#[test]
+fn contacts_from_rest_are_proved() {
+    let points = |list: &[(&'static str, &'static str)]| list.to_vec();
+    let starts =
+        [points(&[("0", "0"), ("0.8", "-0.2"), ("1", "-0.3")]), points(&[("0", "0"), ("1/2", "-1/8"), ("1", "1/4")])];
+    for (k, start) in starts.into_iter().enumerate() {
+        for gravity in ["0.02", "0"] {
+            let rod = Problem::builder().length(1).wave_speed(1).damping("0.2").gravity(number_of(gravity));
+            let rod = rod.displacement(start.clone()).time(2).build().unwrap();
+            let history = rod.certified(15).unwrap();
+            let found = history.restitution(0).unwrap();
+            assert!(matches!(found.e_p, Err(Undefined::NoMomentum)), "{k} {gravity}");
+            assert!(matches!(found.e_e2, Err(Undefined::NotPositiveBefore)), "{k} {gravity}");
+            let first = &history.events()[0];
+            assert!(first.h_rate.vanishes() == Ok(true) && (first.h.vanishes() == Ok(true)) == (k == 1));
+        }
+    }
+}
+
+/// A damped rod that is let go on the ground, without a force at first, is proved. **Source**: by the Laplace transform
+/// the strain at the ground is `−(g/c) t e^(−rt) (I₀(rt) + I₁(rt))` until the wave comes back.
+#[test]
+fn a_rod_that_is_let_go_on_the_ground_is_proved() {
+    let bessel = |order: u32, x: f64| -> f64 {
+        let factorials = |k: u32| (1..=k).chain(1..=k + order).map(f64::from).product::<f64>();
+        (0..40).map(|k| (x / 2.0).powi((2 * k + order) as i32) / factorials(k)).sum()
+    };
+    let query = [Quantity::Strain, Quantity::Centre, Quantity::TopDisplacement, Quantity::Energy];
+    for (damping, top) in [("0.1", Top::Free), ("2", Top::Free), ("0.4", Top::Fixed)] {
+        let rod = Problem::builder().length(1).wave_speed(1).damping(number_of(damping)).gravity(1).top(top);
+        let rod = rod.velocity([("0", "0"), ("1", "0")]).time(7).build().unwrap();
+        let (proved, digits) = (rod.certified(15).unwrap(), rod.digits(40).unwrap());
+        assert_eq!(proved.ending(), &Ending::Time, "{damping} {top:?}");
+        for time in ["0", "0.001", "0.75", "1.9", "2.6", "6.9"] {
+            let found = proved.ask_columns(&query, Some(Side::Right), |motion| {
+                Ok(vec![Interval::from_number(&number_of(time), &motion.end().precision())])
+            });
+            let found = found.unwrap();
+            let expected = digits.ask_columns(&query, Some(Side::Right), |motion| {
+                Ok(vec![Estimate::<Float>::from_number(&number_of(time), &motion.end().precision())])
+            });
+            for (found, expected) in found.iter().zip(expected.unwrap()) {
+                let off = (found[0].lo().to_f64() - expected[0].to_f64()).abs();
+                assert!(off < 1e-14 && found[0].log2_error() < -48.0, "{found:?} against {expected:?} at {time}");
+            }
+            let (r, t): (f64, f64) = (damping.parse().unwrap(), time.parse().unwrap());
+            if top == Top::Free && t < 2.0 {
+                let closed = -t * (-r * t).exp() * (bessel(0, r * t) + bessel(1, r * t));
+                assert!((found[0][0].lo().to_f64() - closed).abs() < 1e-14, "{found:?} against {closed} at {time}");
+            }
         }
     }
 }
