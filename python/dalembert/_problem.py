@@ -190,8 +190,8 @@ class Problem(Frozen):
         return _problem((text, 0)) if len(_core.bars(text)) == 1 else _problem(text)
 
     @classmethod
-    def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem | None, ...]:
-        """Read the bodies of a chain, each as a problem: its ground is the body or the stop below it.
+    def bodies(cls, scene: str | os.PathLike[str]) -> tuple[Problem, ...]:
+        """Read the bars of a chain, each as a problem: its ground is the body or the stop below it.
 
         Parameters
         ----------
@@ -200,8 +200,8 @@ class Problem(Frozen):
 
         Returns
         -------
-        tuple of Problem or None
-            The bodies from the bottom up, None for a rigid mass; of a single rod the rod.
+        tuple of Problem
+            The bars from the bottom up, without the rigid masses between them; of a single rod the rod.
 
         Examples
         --------
@@ -213,7 +213,7 @@ class Problem(Frozen):
         """
         text = _text(scene)
         bars = enumerate(_core.bars(text))
-        return tuple(_problem((text, body)) if is_bar else None for body, is_bar in bars) or (_problem(text),)
+        return tuple(_problem((text, body)) for body, is_bar in bars if is_bar) or (_problem(text),)
 
     def replace(self, **values: Any) -> Problem:
         """Return a problem with other values in place of some.

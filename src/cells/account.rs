@@ -74,6 +74,10 @@ pub(super) struct Proof<S> {
     pub(super) summed: f64,
     /// Mass that the last release has left.
     pub(super) left: f64,
+    /// Bound of the height to which the end may have risen in contact without a force, and whether the last strip was
+    /// such a contact, as before the first strip.
+    pub(super) lifted: f64,
+    pub(super) silent: bool,
     /// Greatest error of `v(0,·)` in the last flight.
     pub(super) height: f64,
     /// Greatest defect of a leap.
@@ -112,6 +116,8 @@ impl<S: RoundedSpecial> Proof<S> {
             trip: 0.0,
             summed: 0.0,
             left: 0.0,
+            lifted: 0.0,
+            silent: true,
             height: 0.0,
             leapt: 0.0,
             rising: false,

@@ -366,14 +366,16 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                         self.not_told(left.to_f64(), Near::End, 0.0);
                     }
                 }
-                if left.to_f64() <= 4.0 * unit * end.to_f64().max(1.0) {
+                let rounding = 4.0 * unit * end.to_f64().max(1.0);
+                if left.to_f64() <= rounding {
                     // The strip after a release proves it: a run that ends with a release looks that far ahead.
                     let cut = found.map(|x| x.clone() / x.double(2.0));
                     let cut = cut.as_ref().map(|cut| (cut, false));
                     self.prove(|proof, run| proof.last_release(run, cut, &trace, &height));
                     return Ok(Ending::Time);
                 }
-                let ends = left < len && found.as_ref().is_none_or(|x| *x > left);
+                // A ray that only roundings separate from the end may release it.
+                let ends = (len.clone() - &left).to_f64() > rounding && found.as_ref().is_none_or(|x| *x > left);
                 if ends {
                     self.advance(Some((&left, false)), Off::default(), &trace, &height);
                     return Ok(Ending::Time);

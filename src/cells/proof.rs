@@ -239,8 +239,8 @@ impl<S: RoundedSpecial> Proof<S> {
         }
     }
 
-    /// Finds, in the first strip of a run, a stretch from its beginning on which the stress falls from zero; returns its
-    /// end, as a part of the strip, and the time τ from which on the end is proved to press.
+    /// Finds a stretch from the beginning of a strip on which the stress falls from zero; returns its end, as a part of
+    /// the strip, and the time τ from which on the end is proved to press.
     ///
     /// **Source**: a stress that is σ̂₀ at first and falls at least at the rate s is below −F from `(F + |σ̂₀|)/s` on.
     fn pressing_from(&self, trace: &[S], len: f64, fast: f64) -> Option<(S, f64)> {
@@ -257,8 +257,9 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// Proves a strip in contact.
     ///
-    /// **Contact without a force at first**: where the first stress of the run is zero within F and falls, the end
-    /// presses from τ on. Until then it may leave the ground and come back, as at a release.
+    /// **Contact without a force at first**: a stress of at most ε sends the same wave up in contact and in flight, to
+    /// within 2ε, and the end rises by no more than F times the duration. Where the stress then falls, the end presses
+    /// from τ on; until then it may leave the ground and come back, as at a release.
     ///
     /// **Release at a root**: before, the stress is below −F; around `t̂` it has at least the slope s. So the end lets
     /// go in `t̂ ± τ`, `τ = (F + |σ̂(t̂)|)/s`, at least once.
@@ -273,12 +274,22 @@ impl<S: RoundedSpecial> Proof<S> {
         let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let open = Open { what: Near::Release, differ: 2.0 * (bound(trace, 0) + fast) };
         let (zero, one) = (trace[0].zero(), trace[0].one());
-        let is_first = run.pieces.is_empty() && at_zero(trace, &zero).to_f64() >= -fast * (1.0 + SLACK);
-        let begun = if is_first { self.pressing_from(trace, len, fast) } else { None };
+        let was_silent = std::mem::take(&mut self.silent) && at_zero(trace, &zero).to_f64() >= -fast * (1.0 + SLACK);
+        let size = bound(trace, 0) + own;
+        if was_silent && size <= fast && cut.is_none_or(|(_, event)| !event) {
+            let off = 4.0 * run.damping().exp() * size;
+            let lifted = len * (fast + off) * (1.0 + SLACK);
+            self.add(off);
+            self.masses += 2.0 * lifted;
+            (self.lifted, self.silent) = (self.lifted + lifted, true);
+            self.note(run, time, 0.0);
+            return Ok(());
+        }
+        let begun = if was_silent { self.pressing_from(trace, len, fast) } else { None };
         if let Some((_, late)) = &begun {
             let most = at_zero(trace, &zero).to_f64().abs() + 4.0 * self.slope * late + fast;
             let off = late + 64.0 * self.steps.unit;
-            self.starts(run.state.segments[0].at.clone(), 0.0, [off; 2], 4.0 * off * most);
+            self.starts(run.state.segments[0].at.clone(), run.state.time().to_f64(), [off; 2], 4.0 * off * most);
         }
         let pressing = begun.map_or_else(|| zero.clone(), |(part, _)| part);
         let pressed = |to: S| {
@@ -351,7 +362,7 @@ impl<S: RoundedSpecial> Proof<S> {
         let late_ray = late + 64.0 * self.steps.unit;
         // One motion has contact while the other flies, for the time error: once at a ray, but maybe twice at a root.
         let times = if release.left.is_some() { 2.0 } else { 4.0 };
-        self.left = times * late_ray * most;
+        self.left = times * late_ray * most + self.lifted;
         let off = [release.ray.min(self.clock + late), late];
         self.starts(release.at.clone(), time, off.map(|off| off + 64.0 * self.steps.unit), self.left);
         (self.summed, self.rising) = (0.0, true);
@@ -382,6 +393,7 @@ impl<S: RoundedSpecial> Proof<S> {
         if let Some(release) = self.release.clone() {
             late = Some((self.released(run, &release, trace, own)?, release.left.is_none()));
         }
+        self.silent = false;
         // The height of this flight sums up the error of the trace.
         self.summed += own * len;
         self.trip += own * len;

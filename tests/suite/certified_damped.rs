@@ -388,10 +388,14 @@ fn a_release_at_the_end_of_the_run_is_listed() {
     let moving = Problem::builder().length("3/4").wave_speed("6/5").damping("1.21392e-1").gravity("4/5").time("5/8");
     let moving = moving.displacement([("0", "15/16"), ("1/4", "5/16"), ("3/8", "5/16"), ("3/4", "-5/16")]);
     let moving = moving.velocity([("0", "-3/4"), ("7/16", "-1/2"), ("7/16", "-1"), ("3/4", "1/2")]).build().unwrap();
+    // Here a ray releases the end, whose time 15 is rounded apart from that of the run.
+    let folded = Problem::builder().length(4).wave_speed("2/5").damping("9.2775e-3").gravity("1/5").fixed_top();
+    let folded = folded.displacement([("0", "0"), ("1/3", "-10"), ("2", "10"), ("8/3", "0"), ("4", "-10")]);
+    let folded = folded.velocity([("0", "3/2"), ("4", "1/2")]).time(15).build().unwrap();
     // The time of this release is rounded to a later one than the end.
     let run = moving.digits(28).unwrap();
     assert!(run.ground_end(run.events()[1].t.clone(), Side::Left).is_ok());
-    for (problem, end, impacts) in [(free, 2.0, 1), (fixed, 12.8, 2), (moving, 0.625, 1)] {
+    for (problem, end, impacts) in [(free, 2.0, 1), (fixed, 12.8, 2), (moving, 0.625, 1), (folded, 15.0, 2)] {
         for numbers in [Numbers::Double(None), Numbers::Digits(10), Numbers::Digits(40), Numbers::Certified(25)] {
             let history = problem.solve_in(numbers).unwrap();
             let (events, contacts) = (history.events().unwrap(), history.contacts().unwrap());
@@ -505,6 +509,27 @@ fn a_rod_that_is_let_go_on_the_ground_is_proved() {
                 let closed = -t * (-r * t).exp() * (bessel(0, r * t) + bessel(1, r * t));
                 assert!((found[0][0].lo().to_f64() - closed).abs() < 1e-14, "{found:?} against {closed} at {time}");
             }
+        }
+    }
+}
+
+/// A rod that stands on the ground without a force, and is struck at its top half: the force is zero until the wave
+/// comes, `−μ e^(−rt)` just after it, and the proof holds what digits say.
+#[test]
+fn a_rod_that_is_struck_at_its_top_is_proved() {
+    let start = [("0", "0"), ("1/2", "0"), ("1/2", "-1"), ("1", "-1")];
+    for (damping, gravity) in [("0.1", "0"), ("1.5", "0"), ("0.3", "0.2")] {
+        let rod = Problem::builder().length(1).wave_speed(1).damping(number_of(damping)).gravity(number_of(gravity));
+        let rod = rod.velocity(start).time(6).build().unwrap();
+        let (proved, digits) = (rod.certified(15).unwrap(), rod.digits(40).unwrap());
+        assert_eq!(proved.ending(), &Ending::Time, "{damping} {gravity}");
+        assert_eq!(proved.events().len(), digits.events().len());
+        assert!(compare(&format!("{damping} {gravity}"), &proved, &digits, 40) > 20);
+        if gravity == "0" {
+            let time = Interval::from_number(&number_of("0.5"), &proved.end().precision());
+            let strain = proved.strain(time, Side::Right).unwrap();
+            let expected = -(-0.5 * damping.parse::<f64>().unwrap()).exp();
+            assert!((strain.lo().to_f64() - expected).abs() < 1e-15, "{strain:?} for {damping}");
         }
     }
 }
