@@ -82,6 +82,13 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self)
     }
 
+    /// Returns whether the end is on the ground only within its bounds: before the release of a contact that begins
+    /// without a force.
+    fn may_rise_at(&self, time: &S) -> bool {
+        let release = self.course.events.iter().find(|event| event.kind == EventKind::Release);
+        self.may_rise && release.is_none_or(|release| time < release.t.value())
+    }
+
     /// Returns `h` and `h′` at the start, as exact zeros where the given data have no mean.
     fn at_start(&self, found: [Estimate<S>; 2]) -> [Estimate<S>; 2] {
         let mut exact = self.data.zero_means.iter();
@@ -311,7 +318,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             Pair::GroundEnd => {
                 let [height, rate] = self.ground_of(time.value(), side)?;
                 let known = height.is_zero() && rate.is_zero();
-                if self.proved && known && self.presses(time.value(), side) != Some(false) {
+                let lies = self.proved && self.presses(time.value(), side) != Some(false);
+                if known && lies && !self.may_rise_at(time.value()) {
                     return Ok([Estimate::exact(height), Estimate::exact(rate)]);
                 }
                 self.moved(time, &height, &rate)

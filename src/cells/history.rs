@@ -57,6 +57,8 @@ pub struct Damped<S> {
     /// Error bounds at each event, where better ones are known.
     pub(super) at_events: Vec<Option<AtEvent>>,
     pub(super) proved: bool,
+    /// Whether the end may have risen in the first contact, which begins without a force, within the bounds.
+    pub(super) may_rise: bool,
     /// Cells marched by earlier queries.
     pool: Pool<S>,
 }
@@ -93,6 +95,7 @@ impl<S: RoundedSpecial> Damped<S> {
         found: Found<S>,
     ) -> Result<Self, Error> {
         let proved = found.proof.is_some();
+        let may_rise = found.proof.as_ref().is_some_and(|proof| proof.lifted > 0.0);
         let Found { pieces, checkpoints, flights, marks, mut warnings, unresolved, before, ending, end_error, .. } =
             found.proved(&medium, &data)?;
         warnings.extend(unresolved);
@@ -119,6 +122,7 @@ impl<S: RoundedSpecial> Damped<S> {
             at_events: marks.iter().map(|mark| mark.at).collect(),
             uncertain: std::iter::once(before).chain(marks.iter().map(|mark| mark.after)).collect(),
             proved,
+            may_rise,
             pool: Pool::default(),
         };
         let event = |mark: Mark<S>| {

@@ -289,6 +289,7 @@ impl<S: RoundedSpecial> Proof<S> {
         if let Some((_, late)) = &begun {
             let most = at_zero(trace, &zero).to_f64().abs() + 4.0 * self.slope * late + fast;
             let off = late + 64.0 * self.steps.unit;
+            self.lifted += off * most;
             self.starts(run.state.segments[0].at.clone(), run.state.time().to_f64(), [off; 2], 4.0 * off * most);
         }
         let pressing = begun.map_or_else(|| zero.clone(), |(part, _)| part);

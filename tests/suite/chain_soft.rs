@@ -340,8 +340,8 @@ fn a_peak_that_doubles_do_not_find_is_not_dated() {
     }
 }
 
-/// The bar below a mass is a rod like others, in doubles and in digits. **Source**: below the first wave of the mass the
-/// force is `e^(−(t − (L − x)/c)/m)`.
+/// The bar below a mass is a rod like others, in doubles and in digits. **Source**: below the first wave of the mass
+/// the force is `e^(−(t − (L − x)/c)/m)`.
 #[test]
 fn a_bar_below_a_mass_is_a_rod() {
     let chain = striker("6", "4");

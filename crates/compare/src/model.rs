@@ -139,7 +139,7 @@ impl<'a> Model<'a> {
             let factor = reference.force_factor(*what);
             let mut values: Vec<f64> = theirs.iter().map(|value| value * factor).collect();
             if what.jumps() && norms.l1.absolute * factor <= step * rate {
-                // The difference is less than one step in time: its integral has no error from the jumps that both have.
+                // The data are off by less than one step in time: jumps that both have cancel in the difference.
                 let differences: Vec<f64> =
                     values.iter().zip(ours).map(|(theirs, ours)| theirs - ours * factor).collect();
                 let exact = history.columns(&[model], times, Some(Side::Right))?.remove(0);
