@@ -331,7 +331,8 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// Proves, in the first strip of a flight, the release that it begins with; returns the time errors of the release.
     ///
-    /// **At a ray**: the stress is below −F on one side of it, and the velocity above F on the other. **At a root**: by
+    /// **At a ray**: the stress is below −F on one side of it, or the end has stood without a force there, and the
+    /// velocity is above F on the other. **At a root**: by
     /// `t̂ + τ` the velocity is above F; τ is as great as this requires.
     fn released(
         &mut self,
@@ -348,7 +349,8 @@ impl<S: RoundedSpecial> Proof<S> {
         let fast = self.trace_off(run.damping(), time) + own + 8.0 * self.slope * self.latest();
         let late = match release.left {
             Some(left) => {
-                if left > -fast - slack || right < fast + slack {
+                // An end that has stood without a force need not have pressed.
+                if left > -fast - slack && !self.silent || right < fast + slack {
                     return Err(open);
                 }
                 release.late

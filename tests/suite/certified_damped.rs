@@ -533,3 +533,20 @@ fn a_rod_that_is_struck_at_its_top_is_proved() {
         }
     }
 }
+
+/// A wave that pulls lifts a rod which stands on the ground without a force, with the velocity `μ e^(−rt)`.
+#[test]
+fn a_rod_that_is_pulled_up_is_proved() {
+    let start = [("0", "0"), ("1/2", "0"), ("1/2", "1"), ("1", "1")];
+    for damping in ["0.1", "1.5"] {
+        let rod = Problem::builder().length(1).wave_speed(1).damping(number_of(damping)).gravity("0");
+        let rod = rod.velocity(start).time(3).build().unwrap();
+        let (proved, digits) = (rod.certified(15).unwrap(), rod.digits(40).unwrap());
+        assert_eq!(proved.ending(), &Ending::Time, "{damping}");
+        let release = &proved.events()[1];
+        assert_eq!((proved.events().len(), release.kind), (2, EventKind::Release), "{damping}");
+        let expected = (-0.5 * damping.parse::<f64>().unwrap()).exp();
+        assert!((release.v_end.lo().to_f64() - expected).abs() < 1e-15, "{release:?} for {damping}");
+        assert!(compare(damping, &proved, &digits, 40) > 20);
+    }
+}

@@ -71,6 +71,14 @@ fn published_values_belong_to_bodies() {
         let error = ChainScene::parse(&two(&target)).unwrap_err();
         assert!(error.to_string().contains(found), "{error}");
     }
+    // A rigid mass has values in the whole chain alone.
+    let struck = |target: &str| {
+        format!("[[body]]\n{PILE}[[body]]\nmass = 1\n[run]\ntime = 1\n[[target]]\n{target}source = 'by hand'\n")
+    };
+    let error = ChainScene::parse(&struck(&format!("body = 2\n{duration}"))).unwrap_err();
+    assert!(error.to_string().contains("found the duration of a rigid mass in [[target]]"), "{error}");
+    let scene = ChainScene::parse(&struck("quantity = 'v_end.2'\ntime = 1\npublished = 0\n")).unwrap();
+    assert_eq!((scene.targets.len(), scene.chain_targets.len()), (0, 1));
 }
 
 #[test]
