@@ -74,9 +74,9 @@ pub(super) struct Proof<S> {
     pub(super) summed: f64,
     /// Mass that the last release has left.
     pub(super) left: f64,
-    /// Bound of the height to which the end may have risen in contact without a force, and whether the last strip was
-    /// such a contact, as before the first strip.
+    /// Bound of the height to which the end may have risen in contact without a force.
     pub(super) lifted: f64,
+    /// Whether the end has been in contact without a force since the start of the run.
     pub(super) silent: bool,
     /// Greatest error of `v(0,·)` in the last flight.
     pub(super) height: f64,

@@ -82,14 +82,14 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self)
     }
 
-    /// Returns whether the end is on the ground only within its bounds: before the release of a contact that begins
+    /// Returns whether the end is on the ground only within its bounds: up to the release of a contact that begins
     /// without a force.
     fn may_rise_at(&self, time: &S) -> bool {
         let release = self.course.events.iter().find(|event| event.kind == EventKind::Release);
-        self.may_rise && release.is_none_or(|release| time < release.t.value())
+        self.may_rise && release.is_none_or(|release| time <= release.t.value())
     }
 
-    /// Returns `h` and `h′` at the start, as exact zeros where the given data have no mean.
+    /// Returns `h` and `h′` at the start: exactly zero where the mean of the given data is zero.
     fn at_start(&self, found: [Estimate<S>; 2]) -> [Estimate<S>; 2] {
         let mut exact = self.data.zero_means.iter();
         found.map(|value| if exact.next() == Some(&true) { Estimate::exact(value.value().zero()) } else { value })

@@ -374,7 +374,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     self.prove(|proof, run| proof.last_release(run, cut, &trace, &height));
                     return Ok(Ending::Time);
                 }
-                // A ray that only roundings separate from the end may release it.
+                // Where only roundings separate the next ray from the end of the run, that ray may bring a release.
                 let ends = (len.clone() - &left).to_f64() > rounding && found.as_ref().is_none_or(|x| *x > left);
                 if ends {
                     self.advance(Some((&left, false)), Off::default(), &trace, &height);

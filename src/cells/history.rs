@@ -225,7 +225,8 @@ impl<S: RoundedSpecial> Damped<S> {
     pub(super) fn push_of(&self, pieces: &[Piece<S>], tolerance: f64) -> (S, S) {
         let (units, zero) = (&self.data.units, &self.data.slope);
         let (mut impulse, mut peak) = (zero.zero(), zero.zero());
-        let tolerance = tolerance * units.wave_speed.to_f64() / units.velocity.to_f64();
+        // A bound that is no number allows nothing.
+        let tolerance = (tolerance * units.wave_speed.to_f64() / units.velocity.to_f64()).max(0.0);
         for piece in pieces {
             let mut area = piece.trace.clone();
             self.medium.basis.integrate(&mut area);

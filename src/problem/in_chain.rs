@@ -100,7 +100,7 @@ impl Chain {
     }
 
     /// Returns the refusal of a body that is no bar.
-    pub(crate) fn no_bar(&self, body: usize) -> ProblemError {
+    fn no_bar(&self, body: usize) -> ProblemError {
         let (found, expected) = match self.bodies().get(body) {
             Some(_) => ("a rigid mass".to_string(), format!("a bar: the whole chain has v_end.{} of a mass", body + 1)),
             None => (format!("body {} of {}", body + 1, self.bodies().len()), "a bar".to_string()),

@@ -128,15 +128,16 @@ impl Request {
             let closed = scene.contacts.iter().map(|[from, to]| rectangle([*from, below], [*to, *height])).collect();
             panel.areas("contacts", closed, CONTACT);
             below = height + scene.rod.length;
-            match scene.rod.length {
-                0.0 => panel.level("mass", *height, RIGID),
-                _ => [*height, below].into_iter().for_each(|y| panel.level("end", y, ZERO)),
+            if scene.is_rigid() {
+                panel.level("mass", *height, RIGID);
+            } else {
+                [*height, below].into_iter().for_each(|y| panel.level("end", y, ZERO));
             }
         }
         if scenes.iter().any(|scene| !scene.contacts.is_empty()) {
             panel.legend.push(Key::area("contact", CONTACT));
         }
-        if scenes.iter().any(|scene| scene.rod.length == 0.0) {
+        if scenes.iter().any(SceneData::is_rigid) {
             panel.legend.push(Key::line("rigid mass", RIGID));
         }
         panel

@@ -82,6 +82,11 @@ const WORLD_LINES: usize = 5;
 const FADED: f64 = 1e-3;
 
 impl SceneData {
+    /// Returns whether the scene is a rigid body of a chain, which has no length.
+    pub fn is_rigid(&self) -> bool {
+        self.rod.length == 0.0
+    }
+
     /// Returns the lines above the pictures of the scene: its title, its values, and what its span leaves out.
     pub fn heading(&self, title: Option<&str>, problem: &Problem, request: &Request) -> Vec<String> {
         let axis = time_axis(std::slice::from_ref(self));

@@ -186,7 +186,7 @@ impl Plot {
         for (k, answer) in answers.into_iter().enumerate() {
             if let Some(answer) = answer {
                 let (history, found) = gather(&name(k), answer, &shared)?;
-                if all.iter().all(|data: &SceneData| data.rod.length == 0.0) {
+                if all.iter().all(SceneData::is_rigid) {
                     note_span(self.name().unwrap_or("the chain"), request, &found, &history);
                 }
                 all.push(found);
