@@ -54,9 +54,9 @@
 //! Minnesota, August 2016: "the paper" throughout.
 //!
 //! The feature `mp` computes fractions and long numbers with GMP and MPFR: faster, above all in hundreds of digits.
-//! Without the default feature `long` an answer in doubles takes no longer numbers, and a program that asks for no
-//! others is a quarter as large. Without the default feature `chain` the bodies of a chain are not solved as rods, and
-//! [`Error::NoChains`] says so.
+//! Without the default feature `long` an answer in doubles takes no longer numbers, or with `wide` those of 128 bits
+//! alone, and a program that asks for no others is a third as large, or less than half. Without the default feature
+//! `chain` the bodies of a chain are not solved as rods, and [`Error::NoChains`] says so.
 
 #[cfg(test)]
 extern crate self as dalembert;

@@ -36,7 +36,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// Runs `work` on the account of the proof, if there is one.
     pub(super) fn prove(&mut self, work: impl FnOnce(&mut Proof<S>, &Self)) {
         // Only runs in long numbers are proved.
-        if cfg!(feature = "long")
+        if cfg!(feature = "wide")
             && let Some(mut proof) = self.proof.take()
         {
             work(&mut proof, self);

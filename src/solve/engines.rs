@@ -6,7 +6,7 @@ use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Computed};
 use super::ladder::{Engined, Target};
-use super::plan::{DEFAULT_ACCURACY, Engine, LONG, Plan, Rung};
+use super::plan::{DEFAULT_ACCURACY, Engine, LONG, LONGEST, Plan, Rung};
 use super::planned::estimates;
 use super::question::Observer;
 use super::{chain, interpolated, long, rates};
@@ -41,7 +41,7 @@ impl Target for f64 {
                 let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
                 return confirmed(problem, plan, exact, longer, observe);
             }
-            rung if LONG => return long::in_doubles(problem, plan, (rung, longer), observe),
+            rung if rung.bits() <= LONGEST => return long::in_doubles(problem, plan, (rung, longer), observe),
             _ => return Err(not_in_doubles()),
         }
         let problem = &*plan.reaching(problem);
@@ -110,7 +110,7 @@ fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Lon
             let exact: Engined<Rational> = Arc::new(plan.lattice(&problem, &(), &observe)?);
             Ok(Arc::new(Converted::new(exact)) as Engined<f64>)
         }
-        rung if LONG => long::read(&problem, &plan, rung, &observe),
+        rung if rung.bits() <= LONGEST => long::read(&problem, &plan, rung, &observe),
         _ => Err(not_in_doubles()),
     };
     Longer { rungs, exact_contacts, run: Box::new(run) }

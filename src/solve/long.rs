@@ -9,7 +9,7 @@ use super::derivative::{Asked, Computed};
 pub(super) use super::differences::of as quotients;
 use super::in_floats::in_floats;
 use super::ladder::{Engined, Target, needs_bits};
-use super::plan::{Engine, Lacks, MOST_PROVED, Plan, Rung};
+use super::plan::{Engine, LONG, Lacks, MOST_PROVED, Plan, Rung};
 use super::planned::{self, March};
 use super::question::{Numbers, Observer};
 use crate::cells::{Damped, Effort, Task};
@@ -22,17 +22,18 @@ use crate::problem::{Parameters, Problem};
 use crate::special::RoundedSpecial;
 
 /// Evaluates an expression in the numbers for this many bits: up to 384 bits in numbers on the stack, which are several
-/// times as fast, beyond in MPFR's. In the expression the first name is their type, the second their precision.
+/// times as fast, beyond in MPFR's. A build without numbers of any length has those of 128 bits. In the expression the
+/// first name is their type, the second their precision.
 macro_rules! in_numbers {
     ($bits:expr, |$s:ident, $precision:ident| $body:expr) => {
         in_numbers!($bits, |$s, $precision| $body, $body)
     };
     ($bits:expr, |$s:ident, $precision:ident| $stack:expr, $any:expr) => {
         match $bits {
-            ..=128 => in_numbers!(@ Wide<2>, &(), $s, $precision, $stack),
-            129..=256 => in_numbers!(@ Wide<4>, &(), $s, $precision, $stack),
-            257..=384 => in_numbers!(@ Wide<6>, &(), $s, $precision, $stack),
-            385.. => in_numbers!(@ Float, &$bits, $s, $precision, $any),
+            bits if !LONG || bits <= 128 => in_numbers!(@ Wide<2>, &(), $s, $precision, $stack),
+            ..=256 => in_numbers!(@ Wide<4>, &(), $s, $precision, $stack),
+            ..=384 => in_numbers!(@ Wide<6>, &(), $s, $precision, $stack),
+            _ => in_numbers!(@ Float, &$bits, $s, $precision, $any),
         }
     };
     (@ $type:ty, $with:expr, $s:ident, $precision:ident, $body:expr) => {{
@@ -96,8 +97,10 @@ pub(super) fn in_doubles(
     observe: &Observer,
 ) -> Result<Engined<f64>, Error> {
     Ok(match rung {
-        Rung::Enclosures(bits) => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
-        Rung::Confirmed(bits) => confirmed(problem, plan, roots(problem, plan, bits, observe)?, longer, observe)?,
+        Rung::Enclosures(bits) if LONG => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
+        Rung::Confirmed(bits) if LONG => {
+            confirmed(problem, plan, roots(problem, plan, bits, observe)?, longer, observe)?
+        }
         rung => Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer)),
     })
 }

@@ -205,9 +205,15 @@ const MOST_ENCLOSED: u32 = 1 << 13;
 /// Maximum bits of a damped march that is proved: its error account is kept in doubles, which end at 2⁻¹⁰²².
 pub(super) const MOST_PROVED: u32 = 900;
 
-/// Whether answers in doubles may take longer numbers. The tests inside the library leave them out, to shorten their
-/// build; `tests/suite` has them.
+/// Whether answers in doubles may take numbers of any length, and enclosures. The tests inside the library leave them
+/// out, to shorten their build; `tests/suite` has them.
 pub(crate) const LONG: bool = cfg!(feature = "long") && !cfg!(test);
+/// Maximum bits of the numbers that may follow doubles; those of doubles if none may.
+pub(super) const LONGEST: u32 = match (LONG, cfg!(feature = "wide") && !cfg!(test)) {
+    (true, _) => MOST_BITS,
+    (false, true) => FEWEST_BITS,
+    (false, false) => f64::MANTISSA_DIGITS,
+};
 
 /// Returns the bits of the shortest numbers on the stack with at least `bits − SHORTER`, or `bits` if there are none.
 fn size(bits: u32) -> u32 {
@@ -243,6 +249,24 @@ impl Plan {
         };
         let settles_events = keep_from.is_none() && !single;
         Ok(Self::with(problem, numbers, engine, reach, (keep_from, settles_events)))
+    }
+
+    /// Returns the plan without numbers longer than doubles; undamped rods keep fractions, for events that coincide. Its
+    /// answers come at once, with whatever bounds they have.
+    ///
+    /// ```
+    /// use dalembert::{Numbers, Plan, Problem, Question, TypedHistory};
+    /// // Fifteen damped impacts lose too many digits for doubles.
+    /// let rod = Problem::builder().length(1).wave_speed(1).gravity(1).damping("0.1").impact_speed(20).impacts(15);
+    /// let rod = rod.build()?;
+    /// let plan = Plan::of(&rod, &Question::run(Numbers::default()))?.in_doubles();
+    /// let history = TypedHistory::<f64>::solve(&rod, &plan, dalembert::solve::unobserved())?;
+    /// assert!(history.error_estimate() > 1e-9);
+    /// # Ok::<(), dalembert::Error>(())
+    /// ```
+    pub fn in_doubles(mut self) -> Self {
+        self.climb.most_bits = f64::MANTISSA_DIGITS;
+        self
     }
 
     /// Completes the plan with the fields that follow from engine, numbers and reach.
@@ -296,7 +320,7 @@ impl Plan {
         let (wanted, lattice) = (bits_for_digits(goal.digits.ceil() as u32), engine == Engine::Lattice);
         let climb = Climb {
             bits: size(wanted + GUARD_BITS),
-            most_bits: MOST_BITS,
+            most_bits: if doubles { LONGEST } else { MOST_BITS },
             near_miss: wanted + NEAR_MISS,
             exact_roots: lattice.then_some(wanted * EXACT_ROOT + 1024),
             most_enclosed: match marched && wanted + GUARD_BITS < MOST_PROVED {
@@ -338,8 +362,12 @@ impl Plan {
             return chain::rungs(self.numbers).into_iter().skip_while(|known| *known != rung).nth(1);
         }
         let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
-        if !LONG && matches!(self.numbers, Numbers::Double(_)) {
-            return matches!((rung, lacks), (Rung::Double, Lacks::Exactness)).then_some(Rung::Fractions);
+        if most_bits <= FEWEST_BITS {
+            return match (rung, lacks) {
+                (Rung::Double, Lacks::Exactness) => Some(Rung::Fractions),
+                (Rung::Double | Rung::Fractions, Lacks::Bits(_)) if after <= most_bits => Some(Rung::Bits(after)),
+                _ => None,
+            };
         }
         let Lacks::Bits(missing) = lacks else {
             // Fractions are fast, and end early if they do not apply; more bits distinguish a near miss from a meeting.
@@ -377,7 +405,7 @@ impl Plan {
     pub(super) fn telling(&self, rung: Rung) -> Vec<Rung> {
         let exact = self.engine == Engine::Lattice && !matches!(rung, Rung::Bits(_));
         let longer = [1, 2, 4].map(|times| times * self.climb.bits).into_iter();
-        let longer = longer.filter(|bits| LONG && *bits > rung.bits()).map(Rung::Bits);
+        let longer = longer.filter(|bits| *bits > rung.bits() && *bits <= self.climb.most_bits).map(Rung::Bits);
         exact.then_some(Rung::Fractions).into_iter().chain(longer).collect()
     }
 
@@ -451,7 +479,10 @@ impl Plan {
         if let Some(contacts) = exact_contacts.filter(|_| matches!(self.numbers, Numbers::Double(_))) {
             limits.push(format!("exact numbers decide meetings of events through {contacts} contacts"));
         }
-        limits.push(format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}"));
+        limits.push(match bits <= most_bits {
+            true => format!("longer numbers have {bits} to {most_bits} bits, enclosures up to {most_enclosed}"),
+            false => "no longer numbers than doubles".into(),
+        });
         if let Some(CellLimits { double_digits, double_cells, long_cells, most_digits }) = self.cells {
             let long = long_cells.map_or(String::new(), |cells| format!(", {cells} in {FEWEST_BITS} bits"));
             limits.push(format!(
@@ -486,7 +517,7 @@ impl Plan {
             }
             _ => (double_digits, double_cells),
         };
-        Effort { digits, cells, until_lost: LONG }
+        Effort { digits, cells, until_lost: self.climb.bits <= self.climb.most_bits }
     }
 
     /// Returns the plan after a run in doubles that lacks this many bits.

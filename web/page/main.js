@@ -5,8 +5,8 @@ import { Engine } from "./engine.js";
 import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
-/** Time limit of a scene in milliseconds. */
-const MOST = 1000;
+/** Time limit of a scene in milliseconds, and the rest after which longer numbers settle what doubles do not. */
+const [MOST, REST] = [1000, 200];
 const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
 const JOINT_COLUMNS = ["joint", "contact from", "to", "duration", "impulse", "greatest force"];
 
@@ -17,6 +17,8 @@ const diagram = new Diagram($("diagram"), engine);
 let [shot, now, view, playing, last, frame] = [null, 0, null, false, 0, 0];
 /** Scene to be solved next, number of the last one, whether the cursor has moved, and the running tasks. */
 let [wanted, number, moved, solving, posing, doing] = [null, 0, false, null, null, 0];
+/** Sentences about results that are not settled. */
+let doubts = [];
 /** Index of the chain that is shown, or −1. */
 let chain = -1;
 
@@ -33,12 +35,23 @@ function solve(another = false) {
     while (wanted) {
       const next = wanted;
       wanted = null;
-      const fresh = await solved(next);
+      const fresh = await solved(next, false);
       document.querySelector("main").classList.toggle("stale", !fresh);
       if (fresh) await show(fresh);
+      if (doubts.length) await settleDoubts(next, fresh);
     }
     solving = null;
   }));
+}
+
+/** Solves a scene that doubles do not settle in longer numbers, and shows it, if no other scene is wanted. */
+async function settleDoubts(scene, shown) {
+  await new Promise((rested) => setTimeout(rested, REST));
+  if (wanted) return;
+  const settled = await solved(scene, true);
+  if (!settled) return;
+  document.querySelector("main").classList.remove("stale");
+  await show(shown ? { ...settled, another: false } : settled);
 }
 
 /** Runs a task, during which the page is marked as busy. */
@@ -78,26 +91,27 @@ function show(fresh) {
   return draw();
 }
 
-/** Returns the answer to a scene; null, after showing the reason, if there is none. */
-async function solved({ text, ...rest }) {
+/** Returns the answer to a scene, in doubles or in longer numbers; null, after showing the reason, if there is none. */
+async function solved({ text, ...rest }, longer) {
   try {
     performance.mark("asked");
     number += 1;
-    const found = await engine.ask("solve", number, text, MOST);
-    performance.measure("solve", "asked");
-    say("", found.doubts);
+    const found = await engine.ask("solve", number, text, MOST, longer);
+    if (!longer) performance.measure("solve", "asked");
+    say("", found.doubts, longer);
     return { ...found, ...rest };
   } catch (error) {
-    refused(error);
+    if (longer && !error.failed) say("", doubts);
+    else refused(error, longer);
     return null;
   }
 }
 
 /** Shows the reason for which there is no answer. */
-function refused(error) {
+function refused(error, last = true) {
   const [, beyond] = error.message.match(/^not settled: ([^]*)/) ?? [];
   const failed = "The engine has failed at this scene; please report it, and load the page again";
-  say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : []);
+  say(beyond ? "" : error.failed ? failed : named(error.message), beyond ? [beyond] : [], last);
 }
 
 /** Splits a text such as `E_h` into parts, of which every other one is a subscript. */
@@ -106,13 +120,17 @@ const withSubscripts = (text) => text.split(/_([A-Za-z])/).map((part, k) => {
   return Object.assign(document.createElement("sub"), { textContent: part });
 });
 
-/** Shows a mistake, or the doubts: sentences about results that are not settled. */
-function say(mistake, doubts) {
+/**
+ * Shows a mistake, or the doubts: sentences about results that are not settled. They are the `last` word where longer
+ * numbers do not settle them either; then the command is shown too.
+ */
+function say(mistake, found, last = true) {
+  doubts = found;
   const text = mistake || doubts.map((doubt) => `Not settled: ${doubt}.`).join(" ");
   $("doubt").textContent = text;
   $("doubt").hidden = text === "";
   if (chain >= 0 && text) $("status").textContent = text;
-  $("beyond").hidden = doubts.length === 0;
+  $("beyond").hidden = doubts.length === 0 || !last;
 }
 
 /** Shows a span by its name, which stays selected until another span is shown. */

@@ -71,14 +71,15 @@ pub struct Run {
 
 #[wasm_bindgen]
 impl Run {
-    /// Solves the scene of `toml` in doubles, within a limit of milliseconds.
+    /// Solves the scene of `toml` within a limit of milliseconds: in doubles, or also in `longer` numbers.
     #[wasm_bindgen(constructor)]
-    pub fn new(toml: &str, milliseconds: f64) -> Result<Run, JsError> {
+    pub fn new(toml: &str, milliseconds: f64, longer: bool) -> Result<Run, JsError> {
         // Line and column are left out: the page does not show the text.
         let found = |error: SceneError| JsError::new(&format!("found {}, expected {}", error.found, error.expected));
         let scene = Scene::parse(toml).map_err(found)?;
         let numbers = Numbers::Double(Some(ACCURACY));
         let plan = Plan::of(&scene.problem, &Question::run(numbers)).map_err(refuse)?;
+        let plan = if longer { plan } else { plan.in_doubles() };
         let until = now() + milliseconds;
         let observe = Arc::new(move |_, _| match now() > until {
             true => ControlFlow::Break(()),

@@ -3,7 +3,7 @@
 use dalembert::number::{Estimate, Scalar};
 use dalembert::problem::Parameters;
 use dalembert::solve::TypedHistory;
-use dalembert::{Error, Field, Side};
+use dalembert::{Error, Field};
 use glam::DVec2;
 
 use crate::draw::{FieldPiece, clip};
@@ -130,8 +130,10 @@ fn values_at(
     let values = history.ask(
         |motion| {
             let end = motion.end();
-            let field = |point: &DVec2| motion.field(&end.double(point.y), &end.double(point.x), Side::Right);
-            points.iter().map(|point| Ok(quantity.of_field(field(point)?))).collect::<Result<Vec<_>, Error>>()
+            // The displacement of a damped rod would be an integral along it.
+            let rates = |point: &DVec2| motion.rates(&[end.double(point.y)], &[end.double(point.x)]);
+            let values = points.iter().map(|point| Ok(rates(point)?.into_iter().map(|rates| quantity.of_rates(rates))));
+            Ok(values.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect::<Vec<_>>())
         },
         |values| values.iter().collect(),
     )?;
@@ -154,18 +156,20 @@ fn grid(history: &TypedHistory<f64>, quantity: FieldQuantity, extent: &Extent) -
         },
         |rates| rates.iter().flatten().collect(),
     )?;
-    let value = |k: usize| {
-        let [velocity, strain] = &rates[(k % COLUMNS) * ROWS + k / COLUMNS];
-        settled(if quantity == FieldQuantity::Velocity { velocity } else { strain })
-    };
+    let value = |k: usize| settled(&quantity.of_rates(rates[(k % COLUMNS) * ROWS + k / COLUMNS].clone()));
     Ok((0..COLUMNS * ROWS).map(value).collect())
 }
 
 impl FieldQuantity {
     fn of_field<S>(self, field: Field<S>) -> S {
+        self.of_rates([field.velocity, field.strain])
+    }
+
+    /// Returns the quantity from `v_t` and `v_x`.
+    fn of_rates<S>(self, [velocity, strain]: [S; 2]) -> S {
         match self {
-            FieldQuantity::Stress | FieldQuantity::Strain => field.strain,
-            FieldQuantity::Velocity => field.velocity,
+            FieldQuantity::Stress | FieldQuantity::Strain => strain,
+            FieldQuantity::Velocity => velocity,
         }
     }
 }

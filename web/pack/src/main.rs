@@ -2,9 +2,11 @@
 //! the page, and writes one HTML file that loads no other.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use lzma_rust2::{LzmaOptions, LzmaWriter};
 use wasm_bindgen_cli_support::Bindgen;
 
 /// Maximum size of the page.
@@ -21,8 +23,7 @@ fn main() -> Result<()> {
     let read = |name: &str| fs::read_to_string(page.join(name)).with_context(|| format!("cannot read {name}"));
     let (glue, script) = (code(bound.js()), modules(&read)?);
     let whole = [glue.as_bytes(), script.as_bytes(), &module].concat();
-    let mut packed = Vec::new();
-    zopfli::compress(zopfli::Options::default(), zopfli::Format::Gzip, &whole[..], &mut packed)?;
+    let packed = compressed(&whole)?;
 
     let mut html = read("index.html")?;
     let mut fill = |mark: &str, text: &str| {
@@ -34,7 +35,7 @@ fn main() -> Result<()> {
         Ok(())
     };
     fill("style", &format!("<style>\n{}</style>", read("style.css")?))?;
-    let ends = format!("{} {}", glue.len(), glue.len() + script.len());
+    let ends = format!("{} {} {}", glue.len(), glue.len() + script.len(), whole.len());
     let text = encoded(&packed);
     fill("packed", &format!("<script type=\"text/plain\" id=\"packed\" data-ends=\"{ends}\">{text}</script>"))?;
     fill("loader", &format!("<script type=\"module\">\n{}</script>", code(&read("loader.js")?)))?;
@@ -48,18 +49,27 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Writes four bytes as five characters, from `#` to `y` without the less-than sign and the backslash: a sixteenth
-/// shorter than base64. The function `decoded` of the page reads them.
+/// Compresses by LZMA, without a header; the function `decompressed` of the page knows the properties.
+fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
+    let nice_len = LzmaOptions::NICE_LEN_MAX;
+    let options = LzmaOptions { lc: 4, lp: 0, pb: 0, nice_len, ..LzmaOptions::with_preset(9) };
+    let mut writer = LzmaWriter::new_no_header(Vec::new(), &options, false)?;
+    writer.write_all(bytes)?;
+    Ok(writer.finish()?)
+}
+
+/// Writes seven bits as one character: its code modulo 128. The characters that the text of a script cannot hold, zero,
+/// carriage return and the less-than sign, are moved up by 256. The function `decoded` of the page reads them.
 fn encoded(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
-    for group in bytes.chunks(4) {
-        let mut whole = [0; 4];
-        whole[..group.len()].copy_from_slice(group);
-        let number = u32::from_be_bytes(whole);
+    let mut text = String::with_capacity(bytes.len() / 7 * 8 + 8);
+    for group in bytes.chunks(7) {
+        let mut whole = [0; 8];
+        whole[1..=group.len()].copy_from_slice(group);
+        let number = u64::from_be_bytes(whole);
         for k in 0..=group.len() {
-            let code = 35 + (number / 85u32.pow(4 - k as u32) % 85) as u8;
-            let code = if code < b'<' { code } else { code + 1 };
-            text.push(char::from(if code < b'\\' { code } else { code + 1 }));
+            let code = (number >> (49 - 7 * k) & 127) as u8;
+            let is_held = !matches!(code, 0 | b'\r' | b'<');
+            text.extend(char::from_u32(u32::from(code) + if is_held { 0 } else { 256 }));
         }
     }
     text
@@ -98,12 +108,16 @@ mod tests {
 
     /// The inverse of `encoded`, as the page has it.
     fn decoded(text: &str) -> Vec<u8> {
-        let value = |code: u8| i64::from(code) - 35 - i64::from(code > 60) - i64::from(code > 92);
-        let groups = text.as_bytes().chunks(5).flat_map(|group| {
-            let number = (0..5).fold(0, |sum, k| sum * 85 + group.get(k).map_or(84, |code| value(*code)));
-            (0..group.len() - 1).map(move |k| (number >> (24 - 8 * k)) as u8)
-        });
-        groups.collect()
+        let (mut bytes, mut rest, mut bits) = (Vec::new(), 0, 0);
+        for letter in text.chars() {
+            rest = (rest << 7 | u32::from(letter) & 127) & 0xffff;
+            bits += 7;
+            if bits >= 8 {
+                bits -= 8;
+                bytes.push((rest >> bits) as u8);
+            }
+        }
+        bytes
     }
 
     #[test]
@@ -113,7 +127,7 @@ mod tests {
         for length in [0, 1, 2, 3, 4, 5, 6, 7, 8, 255, bytes.len()] {
             for part in [&bytes[..length], &bytes[bytes.len() - length..]] {
                 let text = encoded(part);
-                assert!(!text.contains(['<', '\\', '"', ' ']), "{text}");
+                assert!(!text.contains(['<', '\r', '\0']), "{text}");
                 assert_eq!(decoded(&text), part);
             }
         }
