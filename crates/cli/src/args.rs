@@ -105,6 +105,11 @@ impl BodyArgs {
         source::read(name)?.into_rod(name, self.body)
     }
 
+    /// Returns the number of the chosen body.
+    pub(crate) fn number(self) -> Option<usize> {
+        self.body
+    }
+
     /// Reads the scene called `name`: a rod or the chosen body of a chain, or a chain of which no body is chosen.
     pub(crate) fn read_any(self, name: &str) -> Result<AnyScene, Failure> {
         match self.body {

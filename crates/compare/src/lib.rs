@@ -28,6 +28,7 @@
 mod agreement;
 pub mod aligned;
 mod audit;
+mod body;
 mod cause;
 mod cause_fits;
 mod comparison;
@@ -50,10 +51,11 @@ mod symptoms;
 mod wording;
 
 pub use agreement::Agreement;
+pub use body::Bar;
 pub use comparison::{CompareError, ComparedFile, Comparison, Prepared};
 pub use fit::FitError;
 pub use limit::{Limit, LimitError, Outcome};
 pub use map::MapError;
 pub use norms::{ComparedColumn, Grid};
 pub use options::{Axis, Compression, Options, Origin};
-pub use report::{FileReport, LEGEND, SchemaVersion, SeriesReport};
+pub use report::{BodiesReport, BodyReport, FileReport, LEGEND, SchemaVersion, SeriesReport};

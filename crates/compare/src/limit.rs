@@ -106,6 +106,19 @@ impl Limit {
         Limit { is_minimum: true, ..self }
     }
 
+    /// Returns the bound of the quantity that `rename` gives; of an audit, the same. `None` if it gives none.
+    pub(crate) fn renamed(&self, rename: impl Fn(&str) -> Option<String>) -> Option<Limit> {
+        let (order, name) = match self.name.strip_prefix(ORDER) {
+            Some(name) => (ORDER, name),
+            None => ("", self.name.as_str()),
+        };
+        let (quantity, norm) = match split(name) {
+            Some((quantity, _)) => name.split_at(quantity.len()),
+            None => (name, ""),
+        };
+        Some(Limit { name: format!("{order}{}{norm}", rename(quantity)?), ..self.clone() })
+    }
+
     fn outcome(&self, file: &str, found: Option<f64>) -> Outcome {
         let is_within = |found: f64| if self.is_minimum { found >= self.bound } else { found <= self.bound };
         let text = || found.map_or_else(|| "none".into(), |found| format!("{found:.3e}"));

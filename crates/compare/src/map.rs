@@ -72,7 +72,7 @@ const PLACES: [(Quantity, &[&str]); 3] =
     [(Quantity::Time, &["t", "time"]), (Quantity::Point, &["x", "point"]), (Quantity::Side, &["side"])];
 
 /// Returns the name and the unit of `force [N]` or `t (s)`; `u[0]` is a name.
-fn name_and_unit(header: &str) -> (&str, Option<&str>) {
+pub(crate) fn name_and_unit(header: &str) -> (&str, Option<&str>) {
     let bracketed = [('[', ']'), ('(', ')')].into_iter().find_map(|(open, close)| {
         let (name, unit) = header.strip_suffix(close)?.rsplit_once(open)?;
         Some((name.trim(), unit.trim())).filter(|(name, unit)| !name.is_empty() && unit.parse::<usize>().is_err())
@@ -105,7 +105,7 @@ impl ColumnMap {
             match found {
                 Some(quantity) if !twice => map.columns.push((quantity, *place)),
                 // Columns without a map may be anything; of several of one quantity the first is taken.
-                _ if text.is_none() => map.unused.push(name.clone()),
+                _ if text.is_none() => map.unused.extend(Some(name.clone()).filter(|name| !name.is_empty())),
                 Some(_) => return Err(MapError::Twice { found: name.clone() }),
                 None => return Err(MapError::Name { found: name.clone(), field }),
             }

@@ -347,6 +347,33 @@ pub struct FileReport<'a> {
     file: ComparedReport<'a>,
 }
 
+/// The report of a comparison with data of several bodies of a chain.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "comparisons_of_bodies")]
+pub struct BodiesReport<'a> {
+    schema: SchemaVersion,
+    title: Option<&'a str>,
+    /// The bodies with data, from the bottom up.
+    bodies: Vec<BodyReport<'a>>,
+}
+
+impl<'a> BodiesReport<'a> {
+    /// Builds the report of a scene from those of its bodies, from the bottom up.
+    pub fn new(title: Option<&'a str>, bodies: Vec<BodyReport<'a>>) -> Self {
+        BodiesReport { schema: SchemaVersion, title, bodies }
+    }
+}
+
+/// The report of a body of a chain.
+#[derive(Serialize, JsonSchema)]
+pub struct BodyReport<'a> {
+    body: usize,
+    name: Option<&'a str>,
+    files: Vec<ComparedReport<'a>>,
+    /// The observed order of convergence between each file and the next.
+    orders: &'a [Order],
+}
+
 /// The report of a comparison with several files.
 #[derive(Serialize, JsonSchema)]
 #[schemars(rename = "comparisons")]
@@ -469,6 +496,12 @@ impl Comparison {
         let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
         tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
         tables.join("\n")
+    }
+
+    /// Returns the report for the body of a chain with this number, from 1, and name.
+    pub fn of_body<'a>(&'a self, body: usize, name: Option<&'a str>, units: &Units) -> BodyReport<'a> {
+        let files = self.files.iter().map(|file| ComparedReport::new(file, units)).collect();
+        BodyReport { body, name, files, orders: &self.orders }
     }
 
     /// Returns the report as JSON, schema 1: the members of a single file stand at the top, those of several under

@@ -5,16 +5,21 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use serde_json::{Value, json};
 
 use crate::args::{BodyArgs, OutputArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{self, Destination, Format, ROWS, ROWS_OR_PICTURE, write_all, write_with_rows};
 use crate::output::{compare_data, compare_svg, json_bytes, rows_bytes};
 use crate::progress::Progress;
+use crate::source::{self, AnyScene};
 use crate::terminal;
 use dalembert::quantity::Units;
+use dalembert::{ChainScene, Scene};
 use dalembert_compare::data::Source;
-use dalembert_compare::{CompareError, LEGEND, Limit, Options, Outcome, Prepared};
+use dalembert_compare::{
+    Bar, BodiesReport, BodyReport, CompareError, Comparison, LEGEND, Limit, Options, Outcome, Prepared,
+};
 use dalembert_plot::draw::Size;
 
 const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv\n  \
@@ -23,8 +28,9 @@ const EXAMPLES: &str = "Examples:\n  dalembert compare doyen-ern-piperno run.csv
     Quantities are called as in `dalembert reference`; u and v are short for u_end and v_end. With a column x, u, v, \
     strain and stress are those at the point x. Two rows at one time are the limits at a jump, as `reference` writes \
     them; a column side (left, right, both) says which. A unit in a name, as in `force [kN]`, is brought to that of \
-    the scene. A CSV has every sample; beside a picture the table is printed as well. The exit code is 1 where a bound fails; with any bound, data \
-    that end before the run of the scene do, or before --to, fail.";
+    the scene. Among several bodies each column has the number of its body, or its joint, as those of `sample` do: \
+    u_end.2, force.1. A CSV has every sample; beside a picture the table is printed as well. The exit code is 1 where a \
+    bound fails; with any bound, data that end before the run of the scene do, or before --to, fail.";
 
 #[derive(Args, Debug)]
 #[command(mut_arg("format", known_formats(ROWS)))]
@@ -86,28 +92,108 @@ fn junit(outcomes: &[Outcome]) -> String {
     out + "</testsuite>\n"
 }
 
+/// A rod, or one of several bars of a chain, beside its data.
+struct Compared<'a> {
+    /// One of several bars.
+    bar: Option<Bar<'a>>,
+    /// The title of the scene of all bars.
+    title: Option<String>,
+    scene: Scene,
+    units: Units,
+    comparison: Comparison,
+    /// The bounds by the names of a rod; `None` where one is of another bar.
+    limits: Vec<Option<Limit>>,
+}
+
+impl Compared<'_> {
+    /// Returns the report of one of several bars.
+    fn report(&self) -> Option<BodyReport<'_>> {
+        self.bar.map(|Bar { chain, body }| self.comparison.of_body(body + 1, chain.bodies()[body].name(), &self.units))
+    }
+}
+
+/// Returns the report of a rod, or of several bars.
+fn json(compared: &[Compared<'_>]) -> Value {
+    let title = compared[0].title.as_deref();
+    match compared {
+        [Compared { bar: None, units, comparison, .. }] => comparison.json(title, units),
+        several => json!(BodiesReport::new(title, several.iter().filter_map(Compared::report).collect())),
+    }
+}
+
+/// Checks the `limits` of each bar that has what they bound.
+///
+/// **Errors**: a bound of something that no bar has.
+fn outcomes(compared: &[Compared<'_>], limits: &[Limit]) -> Result<Vec<Outcome>, Failure> {
+    let mut held = vec![Vec::new(); compared.len()];
+    for (k, limit) in limits.iter().enumerate() {
+        let (mut is_known, mut refused) = (false, None);
+        for (one, held) in compared.iter().zip(&mut held) {
+            let Some(own) = &one.limits[k] else { continue };
+            match one.comparison.outcomes(std::slice::from_ref(own)) {
+                Ok(_) => {
+                    is_known = true;
+                    held.push(own.clone());
+                }
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        if !is_known {
+            let other = || format!("found the bound {limit}, expected one of a body or joint that has data");
+            let text = refused.map_or_else(other, |error| error.to_string());
+            return Err(failure!("{text}").help(BOUNDS));
+        }
+    }
+    let mut all = Vec::new();
+    for (one, held) in compared.iter().zip(held) {
+        let found = one.comparison.outcomes(&held).map_err(|error| failure!("{error}").help(BOUNDS))?;
+        all.extend(found.into_iter().map(|outcome| match one.bar {
+            Some(Bar { body, .. }) => Outcome { file: format!("{}, body {}", outcome.file, body + 1), ..outcome },
+            None => outcome,
+        }));
+    }
+    Ok(all)
+}
+
 impl Compare {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let destinations = self.destinations()?;
-        let scene = self.body.read(&self.scene)?;
         let limits = self.limits()?;
-        let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
-        let units = Units::new(&scene.problem, scene.units);
-        let prepared =
-            Prepared::new(&scene.problem, &units, scene.accuracy, sources, &self.options).map_err(with_flag)?;
-        let progress = Progress::new(&scene, &prepared.plan);
-        let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
-        drop(progress);
-        comparison.warnings.iter().for_each(terminal::warn);
-        let (title, first) = (scene.title.as_deref(), &comparison.files[0]);
+        let scene = source::read(&self.scene)?;
+        let chain = match &scene {
+            AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => Some(scene.clone()),
+            _ => None,
+        };
+        // Refuses a body that is not there.
+        let rod = match (&chain, self.body.number()) {
+            (Some(_), None) => None,
+            (_, body) => Some(scene.into_rod(&self.scene, body)?),
+        };
+        let compared = match (&chain, rod) {
+            (Some(scene), _) => self.compare_bars(scene, &limits, &destinations)?,
+            (None, None) => Vec::new(),
+            (None, Some(scene)) => {
+                let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
+                vec![self.compare_rod((None, scene.title.clone()), scene, sources, &limits)?]
+            }
+        };
         let bytes = |format| match format {
-            Format::Json => Ok(json_bytes(&comparison.json(title, &units))),
-            Format::Csv => rows_bytes(&compare_data(first), format),
-            Format::Table => Ok(comparison.table(title, &units).into_bytes()),
-            picture => file::picture(picture, compare_svg(first, title, &units), Size::Page),
+            Format::Json => Ok(json_bytes(&json(&compared))),
+            Format::Csv => {
+                let files = compared.iter().map(|one| (one.bar, &one.comparison.files[0]));
+                rows_bytes(&compare_data(&files.collect::<Vec<_>>()), format)
+            }
+            Format::Table => {
+                let table = |one: &Compared<'_>| one.comparison.table(one.scene.title.as_deref(), &one.units);
+                Ok(compared.iter().map(table).collect::<Vec<_>>().join("\n").into_bytes())
+            }
+            picture => {
+                let Compared { comparison, scene, units, .. } = &compared[0];
+                file::picture(picture, compare_svg(&comparison.files[0], scene.title.as_deref(), units), Size::Page)
+            }
         };
         // Before anything is written.
-        let outcomes = comparison.outcomes(&limits).map_err(|error| failure!("{error}").help(BOUNDS))?;
+        let outcomes = outcomes(&compared, &limits)?;
         write_with_rows(destinations, self.output.format, bytes)?;
         if let Some(path) = &self.junit {
             let destination = Destination { path: Some(path.clone()), format: Format::Table };
@@ -118,6 +204,75 @@ impl Compare {
             eprintln!("failed: {failure}");
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// Compares the chosen bar of a chain, or each bar that the data have columns of.
+    fn compare_bars<'a>(
+        &self,
+        scene: &'a ChainScene,
+        limits: &[Limit],
+        destinations: &[Destination],
+    ) -> Result<Vec<Compared<'a>>, Failure> {
+        let chain = &scene.chain;
+        let open = || self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>();
+        let mut opened = Some(open()?);
+        let first = opened.iter().flatten().next();
+        let bars = match self.body.number() {
+            Some(body) => vec![Bar { chain, body: body - 1 }],
+            None => first.map_or_else(Vec::new, |first| Bar::of(chain, first, &self.options)),
+        };
+        let (count, chosen) = (chain.bodies().len(), self.body.number().is_some());
+        let choose = format!("--body N, from 1, the lowest, to {count}, takes the columns for those of one body");
+        if bars.is_empty() {
+            let expected = "columns with the number of a bar or the name of a joint, such as u_end.2 and force.1";
+            let failure = failure!("found {count} bodies in `{}`, expected {expected}", self.scene);
+            return Err(failure.help(choose));
+        }
+        if !chosen {
+            let picture =
+                destinations.iter().find(|to| !matches!(to.format, Format::Table | Format::Json | Format::Csv));
+            let refused = picture.map(|_| "a picture").or((!self.options.fit.is_empty()).then_some("--fit"));
+            if let Some(refused) = refused {
+                return Err(failure!("found {refused} of all bodies, expected one body").help(choose));
+            }
+            if bars.len() > 1 && self.data.iter().any(|path| path == Path::new("-")) {
+                let expected = "a file, which is read once for each";
+                return Err(failure!("found `-` with data of {} bodies, expected {expected}", bars.len()).help(choose));
+            }
+            let others = first.map_or_else(Vec::new, |first| Bar::of_none(chain, first)).join(", ");
+            if !others.is_empty() {
+                terminal::warn(format!("not compared: {others}; `sample` has the exact values"));
+            }
+        }
+        let compare = |bar: Bar<'a>| {
+            let sources = opened.take().map_or_else(open, Ok)?;
+            let sources = sources.into_iter().map(|source| bar.source(source, &self.options)).collect();
+            let one = scene.body(bar.body)?;
+            let title = if chosen { one.title.clone() } else { scene.title.clone() };
+            let compared = self.compare_rod((Some(bar), title), one, sources, limits)?;
+            Ok(Compared { bar: (!chosen).then_some(bar), ..compared })
+        };
+        bars.into_iter().map(compare).collect()
+    }
+
+    /// Compares one rod, or one bar of a chain.
+    fn compare_rod<'a>(
+        &self,
+        (bar, title): (Option<Bar<'_>>, Option<String>),
+        scene: Scene,
+        sources: Vec<Source>,
+        limits: &[Limit],
+    ) -> Result<Compared<'a>, Failure> {
+        let units = Units::new(&scene.problem, scene.units);
+        let options = bar.map_or_else(|| self.options.clone(), |bar| bar.options(&self.options));
+        let prepared = Prepared::new(&scene.problem, &units, scene.accuracy, sources, &options).map_err(with_flag)?;
+        let progress = Progress::new(&scene, &prepared.plan);
+        let comparison = prepared.compare(progress.observer()).map_err(with_flag)?;
+        drop(progress);
+        comparison.warnings.iter().for_each(terminal::warn);
+        let own = |limit: &Limit| bar.map_or_else(|| Some(limit.clone()), |bar| bar.limit(limit));
+        let limits = limits.iter().map(own).collect();
+        Ok(Compared { bar: None, title, scene, units, comparison, limits })
     }
 
     /// Returns the bounds of the command line and of the file.

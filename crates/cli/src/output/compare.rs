@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::column::Column;
 use super::dataset::Dataset;
 use dalembert::quantity::{Measure, Units};
-use dalembert_compare::{ComparedColumn, ComparedFile};
+use dalembert_compare::{Bar, ComparedColumn, ComparedFile};
 use dalembert_plot::draw::{Axis, Key, Panel, Sheet, Size, Stroke, thinned, without_subscripts};
 
 /// Returns two panels for each quantity: the exact values as a thin line over the data, and the difference.
@@ -37,16 +37,22 @@ pub(crate) fn compare_svg(compared: &ComparedFile, title: Option<&str>, units: &
     Sheet { title: vec![title], panels: panels.collect() }.svg(Size::Page)
 }
 
-/// Returns a row for each sample: time, point of a field, and for each quantity ours, theirs and the difference.
-pub(crate) fn compare_data(ComparedFile { agreement, .. }: &ComparedFile) -> Dataset {
+/// Returns a row for each sample: time, point of a field, and for each quantity ours, theirs and the difference. Files
+/// of the same times, one for each bar of a chain, have the names of the chain's columns.
+pub(crate) fn compare_data(files: &[(Option<Bar<'_>>, &ComparedFile)]) -> Dataset {
+    let Some((_, ComparedFile { agreement, .. })) = files.first() else { return Dataset::default() };
     let points = agreement.grid.points.as_ref();
     let mut columns: Vec<Column> = ["t"].into_iter().chain(points.map(|_| "x")).map(Column::new).collect();
-    for ComparedColumn { what, .. } in &agreement.quantities {
-        columns.extend(["ours", "theirs", "difference"].map(|whose| Column::new(format!("{}_{whose}", what.name()))));
+    for (bar, file) in files {
+        for ComparedColumn { what, .. } in &file.agreement.quantities {
+            let name = bar.map_or_else(|| what.name().to_string(), |bar| bar.header(what.name()));
+            columns.extend(["ours", "theirs", "difference"].map(|whose| Column::new(format!("{name}_{whose}"))));
+        }
     }
     let row = |(k, time): (usize, &f64)| {
         let place = [time.to_string()].into_iter().chain(points.map(|points| points[k].to_string()));
-        let values = agreement.quantities.iter().flat_map(|ComparedColumn { ours, theirs, .. }| {
+        let all = files.iter().flat_map(|(_, file)| &file.agreement.quantities);
+        let values = all.flat_map(|ComparedColumn { ours, theirs, .. }| {
             [ours[k], theirs[k], theirs[k] - ours[k]].map(|value| format!("{value:e}"))
         });
         place.chain(values).map(Into::into).collect()

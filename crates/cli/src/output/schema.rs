@@ -7,7 +7,7 @@ use super::rows::Document;
 use super::schema_chain::{ChainSamplesSchema, ChainSchema};
 use super::solve::HistoryJson;
 use super::sweep::SweepJson;
-use dalembert_compare::{FileReport, SeriesReport};
+use dalembert_compare::{BodiesReport, FileReport, SeriesReport};
 
 /// Output of dalembert solve, sample, reference, compare and sweep, schema 1
 ///
@@ -23,6 +23,7 @@ enum Output<'a> {
     Reference(Document<'a>),
     Comparison(FileReport<'a>),
     Comparisons(SeriesReport<'a>),
+    ComparisonsOfBodies(BodiesReport<'a>),
     Sweep(SweepJson<'a>),
     Chain(ChainSchema),
     ChainSamples(ChainSamplesSchema),

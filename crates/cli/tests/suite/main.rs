@@ -14,6 +14,7 @@ mod command_errors;
 mod command_samples;
 #[path = "../../../../tests/suite/common.rs"]
 mod common;
+mod compare_bars;
 mod compare_command;
 mod compare_contacts;
 mod compare_fits;

@@ -80,6 +80,9 @@ fn every_output_is_what_the_schema_says() {
         check("comparison", &["compare", scene, &run, "--quiet"]);
         check("comparisons", &["compare", scene, &run, &fine, "--quiet"]);
     }
+    let bars = folder.path().join("bars.csv").display().to_string();
+    fs::write(&bars, "t,u_top.1,force.1\n0,0,0\n0.1,0.01,0\n0.2,0.01,0.04\n").unwrap();
+    check("comparisons_of_bodies", &["compare", "openfoam-7-1-2", &bars, "--quiet"]);
     // A point that has an answer, and one that has none.
     check("sweep", &["sweep", "figure-4-r02", "--vary", "impact.speed=1,5", "--quantity", "bounce_time,energy"]);
     for numbers in ["--exact", "--certified"] {
