@@ -5,7 +5,7 @@ use super::history::Damped;
 use super::uncertainty::{Uncertainty, meant, wider, within};
 use crate::error::Error;
 use crate::motion::moments::{self, Moments, Sums};
-use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece};
+use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece, by_time};
 use crate::number::{Answer, Estimate, Rounded, Scalar};
 use crate::special::RoundedSpecial;
 
@@ -420,16 +420,18 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(cells.collect())
     }
 
-    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
-        let times: Vec<&Estimate<S>> = times.iter().map(|time| meant(&self.course.events, time)).collect();
-        let plain: Vec<S> = points.iter().map(|x| x.value().clone()).collect();
-        let found = self.rates_of(&plain, &times.iter().map(|time| time.value().clone()).collect::<Vec<_>>())?;
-        let mut rates = Vec::with_capacity(found.len());
-        for (time, of_time) in times.iter().zip(found.chunks(plain.len().max(1))) {
+    fn rates(&self, places: &[(Estimate<S>, Estimate<S>)]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let times = by_time(places, |time| {
+            let time = meant(&self.course.events, time);
             let Bounds { speed, strain, .. } = self.near(time);
-            rates.extend(of_time.iter().map(|[v_t, v_x]| [within(v_t, speed), within(v_x, strain)]));
-        }
-        Ok(rates)
+            Ok((time.value().clone(), [speed, strain]))
+        })?;
+        let plain =
+            |((x, _), (time, _)): (&(Estimate<S>, Estimate<S>), &(S, [f64; 2]))| (x.value().clone(), time.clone());
+        let found = self.rates_of(&places.iter().zip(&times).map(plain).collect::<Vec<_>>())?;
+        let bounded =
+            |([v_t, v_x], (_, [speed, strain])): ([S; 2], (S, [f64; 2]))| [within(&v_t, speed), within(&v_x, strain)];
+        Ok(found.into_iter().zip(times).map(bounded).collect())
     }
 
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {

@@ -106,9 +106,9 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for EstimatedContact<S> {
         self.contact.moments(&self.time(time), &points)
     }
 
-    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
-        let times: Vec<_> = times.iter().map(|time| self.time(time)).collect();
-        self.contact.rates(points, &times)
+    fn rates(&self, places: &[(Estimate<S>, Estimate<S>)]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        let place = |(point, time): &(Estimate<S>, Estimate<S>)| (point.clone(), self.time(time));
+        self.contact.rates(&places.iter().map(place).collect::<Vec<_>>())
     }
 
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {

@@ -371,14 +371,16 @@ impl<S: RoundedSpecial> Damped<S> {
         })
     }
 
-    pub(super) fn rates_of(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
+    pub(super) fn rates_of(&self, places: &[(S, S)]) -> Result<Vec<[S; 2]>, Error> {
         let units = &self.data.units;
-        points.iter().try_for_each(|point| self.check(point))?;
-        let points: Vec<S> = points.iter().map(|x| x.clone() / &units.length * x.ratio(1, 2)).collect();
-        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<S>, Error>>()?;
+        let place = |(x, time): &(S, S)| {
+            self.check(x)?;
+            Ok((x.clone() / &units.length * x.ratio(1, 2), self.time(time)?))
+        };
+        let places = places.iter().map(place).collect::<Result<Vec<_>, Error>>()?;
         let scaled =
             |(velocity, strain): (S, S)| [velocity * &units.velocity, strain * &units.velocity / &units.wave_speed];
-        Ok(self.record().grid(&points, &times).into_iter().map(scaled).collect())
+        Ok(self.record().at_all(&places).into_iter().map(scaled).collect())
     }
 
     /// Computes `t*` and `h(t*)`, the highest point of the centre of mass, of the flight after a release.

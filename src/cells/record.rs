@@ -144,7 +144,10 @@ impl<S: RoundedSpecial> Record<'_, S> {
             let (xi, eta) = &cell.corner;
             let low = (t.clone() - xi - &cell.size.0).larger(eta.clone() - t).larger(zero.clone());
             let high = smaller(smaller(t.clone() - xi, eta.clone() + &cell.size.1 - t), reach.clone());
-            add(&low, &high, &|places| self.inside((cell, flight), places, t));
+            add(&low, &high, &|points| {
+                let places: Vec<(S, S)> = points.iter().map(|x| (x.clone(), t.clone())).collect();
+                self.inside((cell, flight), &places)
+            });
         });
         lines
     }
@@ -164,19 +167,26 @@ impl<S: RoundedSpecial> Record<'_, S> {
         if contact { strain } else { strain - &self.data.slope }
     }
 
-    /// Computes `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell.
-    fn inside(&self, (cell, flight): Passing<'_, '_, '_, S>, places: &[S], t: &S) -> Vec<(S, S, S)> {
-        let points: Vec<(S, S)> = places.iter().map(|x| (t.clone() - x, t.clone() + x)).collect();
+    /// Computes `h′` of the flight, the rest of `v_t`, and `v_x`, at places in a cell, a point and a time.
+    fn inside(&self, (cell, flight): Passing<'_, '_, '_, S>, places: &[(S, S)]) -> Vec<(S, S, S)> {
+        let Some((_, first)) = places.first() else { return Vec::new() };
+        let points: Vec<(S, S)> = places.iter().map(|(x, t)| (t.clone() - x, t.clone() + x)).collect();
         let found = cell.at(&self.medium.basis, &points, self.medium.log2_accuracy);
-        let (rigid, half) = (flight.map(|flight| flight.rate_at(&flight.age_at(t))), t.ratio(1, 2));
-        let values = |((p, q), x): ((S, S), &S)| {
+        let rate = |t: &S| flight.map(|flight| flight.rate_at(&flight.age_at(t)));
+        let half = first.ratio(1, 2);
+        let mut known = (first, rate(first));
+        let mut values = Vec::with_capacity(places.len());
+        for ((p, q), (x, t)) in found.into_iter().zip(places) {
+            if t != known.0 {
+                known = (t, rate(t));
+            }
             let (motion, strain) = ((p.clone() + &q) * &half, (q - p) * &half);
-            match &rigid {
+            values.push(match &known.1 {
                 Some(rigid) => (rigid.clone(), motion, strain),
                 None => (x.zero(), motion, strain + self.static_strain(x)),
-            }
-        };
-        found.into_iter().zip(places).map(values).collect()
+            });
+        }
+        values
     }
 
     /// Computes the limits of `v_t` and `v_x` at a point from the given side in time.
@@ -200,42 +210,37 @@ impl<S: RoundedSpecial> Record<'_, S> {
             }
         });
         let found =
-            best.and_then(|(kept, flight)| self.inside((&kept.cell(), flight), std::slice::from_ref(x), t).pop());
+            best.and_then(|(kept, flight)| self.inside((&kept.cell(), flight), &[(x.clone(), t.clone())]).pop());
         found.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
-    /// Computes the limits of `v_t` and `v_x` from later times at all `points` and `times`, both in increasing order:
-    /// the values of [`Record::at`], in one march for all of them.
-    pub(super) fn grid(&self, points: &[S], times: &[S]) -> Vec<(S, S)> {
-        let (Some(first), Some(last), Some(reach)) = (times.first(), times.last(), points.last()) else {
-            return Vec::new();
-        };
+    /// Computes the limits of `v_t` and `v_x` from later times at all places, a point and a time, in increasing order of
+    /// times: the values of [`Record::at`], in one march for all of them.
+    pub(super) fn at_all(&self, places: &[(S, S)]) -> Vec<(S, S)> {
+        let (Some((reach, first)), Some((_, last))) = (places.first(), places.last()) else { return Vec::new() };
+        let reach = places.iter().fold(reach.clone(), |reach, (x, _)| reach.larger(x.clone()));
         let slack = slack(last, 8);
-        let mut values = vec![(slack.zero(), slack.zero()); points.len() * times.len()];
-        self.sweep(&(first.clone() - reach - &slack), &(last.clone() + &slack), &mut |(cell, flight)| {
+        let mut values = vec![(slack.zero(), slack.zero()); places.len()];
+        self.sweep(&(first.clone() - &reach - &slack), &(last.clone() + &slack), &mut |(cell, flight)| {
             let (xi, eta) = (cell.corner.0.clone() - &slack, cell.corner.1.clone() - &slack);
             let (xi_end, eta_end) = (xi.clone() + &cell.size.0 + &slack, eta.clone() + &cell.size.1 + &slack);
-            let begun = times.partition_point(|t| t.int(2) * t < xi.clone() + &eta);
-            for (k, t) in times.iter().enumerate().skip(begun) {
-                if t.int(2) * t > xi_end.clone() + &eta_end {
-                    break;
-                }
-                let low = (t.clone() - &xi_end).larger(eta.clone() - t);
-                let high = smaller(t.clone() - &xi, eta_end.clone() - t);
-                let from = points.partition_point(|x| *x < low);
-                let len = points[from..].partition_point(|x| *x <= high);
-                let met = values[k * points.len() + from..].iter_mut();
-                let found = self.inside((cell, flight), &points[from..from + len], t);
-                for (value, (rigid, motion, strain)) in met.zip(found) {
-                    *value = (rigid + motion, strain);
-                }
+            let begun = places.partition_point(|(_, t)| t.int(2) * t < xi.clone() + &eta);
+            let until = xi_end.clone() + &eta_end;
+            let ended = places[begun..].partition_point(|(_, t)| t.int(2) * t <= until);
+            let is_met = |k: &usize| {
+                let (x, t) = &places[*k];
+                let (from, to) = (t.clone() - x, t.clone() + x);
+                from >= xi && from <= xi_end && to >= eta && to <= eta_end
+            };
+            let met: Vec<usize> = (begun..begun + ended).filter(is_met).collect();
+            let inside: Vec<(S, S)> = met.iter().map(|k| places[*k].clone()).collect();
+            for (k, (rigid, motion, strain)) in met.into_iter().zip(self.inside((cell, flight), &inside)) {
+                values[k] = (rigid + motion, strain);
             }
         });
-        for (t, values) in times.iter().zip(values.chunks_mut(points.len())) {
+        for ((x, t), value) in places.iter().zip(&mut values) {
             if self.at_rest(t).is_some() {
-                for (x, value) in points.iter().zip(values) {
-                    *value = self.at(x, t, Side::Right);
-                }
+                *value = self.at(x, t, Side::Right);
             }
         }
         values

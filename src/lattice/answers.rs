@@ -1,5 +1,7 @@
 //! Answers to questions about an undamped history, in the units of the scene.
 
+use std::rc::Rc;
+
 use super::history::{Centre, Moment, Trip, Undamped};
 use super::parts::{self, Parted};
 use super::start::Units;
@@ -8,6 +10,7 @@ use crate::error::Error;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{
     Contact, Course, Event, EventKind, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, WavePiece, Waves,
+    by_time,
 };
 use crate::number::{Bounded, Open};
 use crate::problem::Top;
@@ -110,23 +113,17 @@ impl<N: Bounded> Motion<N> for Undamped<N> {
     }
 
     /// Evaluates the stretches of each time, on which velocity and strain are linear.
-    fn rates(&self, points: &[N], times: &[N]) -> Result<Vec<[N; 2]>, Error> {
-        let mut rates = Vec::with_capacity(points.len() * times.len());
-        for time in times {
-            let stretches = self.stretches(time)?;
-            let mut k = 0;
-            for point in points {
-                self.check(point)?;
-                // A point that rounding does not tell from the edge of two stretches belongs to the lower stretch.
-                while k + 1 < stretches.len() && stretches[k + 1].from.below(point) == Ok(true) {
-                    k += 1;
-                }
-                let Stretch { from, velocity, strain, .. } = &stretches[k];
-                let at = |[value, slope]: &[N; 2]| slope.clone() * &(point.clone() - from) + value;
-                rates.push([at(velocity), at(strain)]);
-            }
-        }
-        Ok(rates)
+    fn rates(&self, places: &[(N, N)]) -> Result<Vec<[N; 2]>, Error> {
+        let stretches = by_time(places, |time| self.stretches(time).map(Rc::new))?;
+        let rates = |((point, _), stretches): (&(N, N), Rc<Vec<Stretch<N>>>)| {
+            self.check(point)?;
+            // A point that rounding does not tell from the edge of two stretches belongs to the lower stretch.
+            let after = stretches[1..].partition_point(|stretch| stretch.from.below(point) == Ok(true));
+            let Stretch { from, velocity, strain, .. } = &stretches[after];
+            let at = |[value, slope]: &[N; 2]| slope.clone() * &(point.clone() - from) + value;
+            Ok([at(velocity), at(strain)])
+        };
+        places.iter().zip(stretches).map(rates).collect()
     }
 
     fn highest(&self, release: usize) -> Option<(N, N)> {

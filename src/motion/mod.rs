@@ -14,6 +14,7 @@ mod wave;
 pub(crate) use at_start::{AtStart, Datum, Segment};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
 pub(crate) use partition::partition;
+pub(crate) use query::by_time;
 pub use query::{Motion, Pair, Scales, unobserved};
 pub use register::{Passing, RayRegister};
 pub use straight::straight;

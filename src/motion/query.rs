@@ -10,6 +10,21 @@ use crate::number::Scalar;
 use crate::problem::Parameters;
 use crate::reason::Warning;
 
+/// Converts the time of each place, once for all places of one time in a row.
+pub(crate) fn by_time<S: Scalar, T: Clone>(
+    places: &[(S, S)],
+    convert: impl Fn(&S) -> Result<T, Error>,
+) -> Result<Vec<T>, Error> {
+    let known = |time: &S| (time.spelled_as(), time.log2_error());
+    let is_same = |(_, a): &(S, S), (_, b): &(S, S)| a.alike(b) && known(a) == known(b);
+    let mut times = Vec::with_capacity(places.len());
+    for places in places.chunk_by(is_same) {
+        let time = convert(&places[0].1)?;
+        times.extend(places.iter().map(|_| time.clone()));
+    }
+    Ok(times)
+}
+
 /// Natural scales of a motion, with which its quantities are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales<S> {
@@ -146,17 +161,14 @@ pub trait Motion<S: Scalar>: Send + Sync {
         self.pair(Pair::EnergyParts, time, Side::Left)
     }
 
-    /// Returns `v_t` and `v_x` at every point of `points` for every time of `times`, both in increasing order: time by
-    /// time, with all points of one time together. On a ray, the values are the limit from one side.
-    fn rates(&self, points: &[S], times: &[S]) -> Result<Vec<[S; 2]>, Error> {
-        let places = times.iter().flat_map(|time| points.iter().map(move |point| (point, time)));
-        places
-            .into_iter()
-            .map(|(point, time)| {
-                let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
-                Ok([velocity, strain])
-            })
-            .collect()
+    /// Returns `v_t` and `v_x` at every place, a point and a time, in increasing order of times. On a ray, the values are
+    /// the limit from one side.
+    fn rates(&self, places: &[(S, S)]) -> Result<Vec<[S; 2]>, Error> {
+        let rates = |(point, time): &(S, S)| {
+            let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;
+            Ok([velocity, strain])
+        };
+        places.iter().map(rates).collect()
     }
 
     /// Returns `t*` and `h(t*)`, at which the centre of mass is highest in the flight after the release with this event

@@ -315,8 +315,8 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     fn warnings(&self) -> &[Warning] {
         self.engine.warnings()
     }
-    fn rates(&self, points: &[Estimate<S>], times: &[Estimate<S>]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
-        self.engine.rates(points, times)
+    fn rates(&self, places: &[(Estimate<S>, Estimate<S>)]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
+        self.engine.rates(places)
     }
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
         self.engine.highest(release)

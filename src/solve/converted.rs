@@ -10,7 +10,9 @@ use super::question::Observer;
 use crate::error::Error;
 use crate::lattice::Undamped;
 use crate::motion::moments::{self, Moments};
-use crate::motion::{Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves};
+use crate::motion::{
+    Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves, by_time,
+};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
 use crate::problem::{Parameters, Problem};
 
@@ -307,10 +309,11 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     /// Computes all rates in one march, with times that are not matched to events or rays at each point.
-    fn rates(&self, points: &[M], times: &[M]) -> Result<Vec<[M; 2]>, Error> {
-        let points = points.iter().map(|point| self.point(point)).collect::<Result<Vec<_>, _>>()?;
-        let times = times.iter().map(|time| self.time(time)).collect::<Result<Vec<_>, _>>()?;
-        Ok(self.engine.rates(&points, &times)?.into_iter().map(|pair| pair.map(M::read)).collect())
+    fn rates(&self, places: &[(M, M)]) -> Result<Vec<[M; 2]>, Error> {
+        let times = by_time(places, |time| self.time(time))?;
+        let place = |((point, _), time): (&(M, M), N)| Ok((self.point(point)?, time));
+        let places = places.iter().zip(times).map(place).collect::<Result<Vec<_>, Error>>()?;
+        Ok(self.engine.rates(&places)?.into_iter().map(|pair| pair.map(M::read)).collect())
     }
 
     fn highest(&self, release: usize) -> Option<(M, M)> {

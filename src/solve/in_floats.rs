@@ -86,8 +86,9 @@ impl<const N: usize> Motion<Long> for InFloats<N> {
         self.engine.in_contact(&give(time), side).map(read)
     }
 
-    fn rates(&self, points: &[Long], times: &[Long]) -> Result<Vec<[Long; 2]>, Error> {
-        let rates = self.engine.rates(&give_all(points), &give_all(times))?;
+    fn rates(&self, places: &[(Long, Long)]) -> Result<Vec<[Long; 2]>, Error> {
+        let places: Vec<_> = places.iter().map(|(point, time)| (give(point), give(time))).collect();
+        let rates = self.engine.rates(&places)?;
         Ok(rates.into_iter().map(|pair| pair.map(read)).collect())
     }
 

@@ -99,7 +99,7 @@ pub(crate) fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
         let rounded = time.clone() - time;
         // The data at t = 0 bend where no ray has passed yet.
         let started = time.positive() == Ok(true);
-        if let (true, Ok(rates)) = (started, motion.rates(&points, std::slice::from_ref(time))) {
+        if let (true, Ok(rates)) = (started, motion.rates(&grid(&points, std::slice::from_ref(time)))) {
             for (point, [velocity, strain]) in points.iter().zip(rates) {
                 // On a ray the value of one of its sides, where two cross between them as well: each of both invariants
                 // is that of one limit.
@@ -115,9 +115,9 @@ pub(crate) fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
         }
     }
     // In one march, and in either order.
-    if let Ok(all) = motion.rates(&points, &times) {
+    if let Ok(all) = motion.rates(&grid(&points, &times)) {
         for (time, of_time) in times.iter().zip(all.chunks(points.len())) {
-            let Ok(alone) = motion.rates(&points, std::slice::from_ref(time)) else { continue };
+            let Ok(alone) = motion.rates(&grid(&points, std::slice::from_ref(time))) else { continue };
             for (a, b) in alone.iter().flatten().zip(of_time.iter().flatten()) {
                 tally.same(&("in one march", time), a, b);
             }
@@ -149,6 +149,11 @@ pub(crate) fn conforms<S: Scalar>(motion: &dyn Motion<S>) -> usize {
     tally.0
 }
 
+/// Returns every point at every time, in the order of time.
+pub(crate) fn grid<S: Clone>(points: &[S], times: &[S]) -> Vec<(S, S)> {
+    times.iter().flat_map(|time| points.iter().map(|point| (point.clone(), time.clone()))).collect()
+}
+
 /// No time or point that is not there is answered.
 pub(crate) fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
     let (beyond, before) = (end.clone() + end.ratio(1, 8) * length, -length.one());
@@ -162,7 +167,7 @@ pub(crate) fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
             motion.energy(&time).err(),
             motion.energy_parts(&time).err(),
             motion.moments(&time, &[length.zero(), length.clone()]).err(),
-            motion.rates(std::slice::from_ref(length), std::slice::from_ref(&time)).err(),
+            motion.rates(&[(length.clone(), time.clone())]).err(),
         ];
         for (k, error) in asked.iter().enumerate() {
             assert!(matches!(error, Some(Error::TimeOutside { .. })), "{k}: {error:?} at {time:?}");
@@ -172,7 +177,7 @@ pub(crate) fn refuses<S: Scalar>(motion: &dyn Motion<S>, length: &S, end: &S) {
         let time = end.clone() * end.ratio(1, 3);
         let field = motion.field(&point, &time, Side::Right).err();
         assert!(matches!(field, Some(Error::PointOutside { .. })), "{field:?} at {point:?}");
-        let rates = motion.rates(std::slice::from_ref(&point), &[time]).err();
+        let rates = motion.rates(&[(point.clone(), time)]).err();
         assert!(matches!(rates, Some(Error::PointOutside { .. })), "{rates:?} at {point:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! `Motion::rates`, velocity and strain on a grid at once, against the field point by point: two ways to the same
 //! numbers in every engine, at both ends, at rest, and across flights that are leapt over.
 
+use crate::conformance::grid;
 use dalembert::number::{Answer, Scalar};
 use dalembert::{Error, Estimate, Problem, Side};
 
@@ -18,7 +19,7 @@ fn differences(name: &str, problem: &Problem, parts: usize) -> Vec<String> {
     times.sort_by(f64::total_cmp);
     let points = [0.0, 0.013, 0.25, 0.5, 0.77, 1.0].map(|x| (x * length).carry());
     let carried: Vec<_> = times.iter().map(Answer::carry).collect();
-    let rates = history.ask(|motion| motion.rates(&points, &carried), |_| Vec::new()).unwrap();
+    let rates = history.ask(|motion| motion.rates(&grid(&points, &carried)), |_| Vec::new()).unwrap();
     assert_eq!(rates.len(), points.len() * times.len());
     let (scale, c) = (history.scales().velocity, history.scales().wave_speed);
     let (mut compared, mut found) = (0, Vec::new());
@@ -69,7 +70,7 @@ fn a_point_or_a_time_outside_is_refused() {
         let rod = Problem::builder().length(1).wave_speed(1).impact_speed(1).gravity(1).damping(damping).impacts(2);
         let history = rod.build().unwrap().doubles().unwrap();
         let ask = |point: f64, time: f64| {
-            history.ask(|motion| motion.rates(&[point.carry()], &[time.carry()]), |_| Vec::new()).unwrap_err()
+            history.ask(|motion| motion.rates(&[(point.carry(), time.carry())]), |_| Vec::new()).unwrap_err()
         };
         for time in [1.0, *history.end() * 0.9] {
             assert!(matches!(ask(1.5, time), Error::PointOutside { .. }), "{damping} {time}");

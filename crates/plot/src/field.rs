@@ -127,37 +127,33 @@ fn values_at(
         let waves = history.waves()?;
         return Ok(points.iter().map(|point| quantity.of_field(waves.at(&point.y, &point.x))).collect());
     }
-    let values = history.ask(
+    rates_at(history, quantity, points)
+}
+
+/// Returns velocity or strain at points `(t, x)`: of a damped rod in one march for all of them.
+fn rates_at(history: &TypedHistory<f64>, quantity: FieldQuantity, points: &[DVec2]) -> Result<Vec<f64>, Error> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|a, b| points[*a].x.total_cmp(&points[*b].x));
+    let rates = history.ask(
         |motion| {
             let end = motion.end();
-            // The displacement of a damped rod would be an integral along it.
-            let rates = |point: &DVec2| motion.rates(&[end.double(point.y)], &[end.double(point.x)]);
-            let values = points.iter().map(|point| Ok(rates(point)?.into_iter().map(|rates| quantity.of_rates(rates))));
-            Ok(values.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect::<Vec<_>>())
+            let place = |k: &usize| (end.double(points[*k].y), end.double(points[*k].x));
+            motion.rates(&order.iter().map(place).collect::<Vec<_>>())
         },
-        |values| values.iter().collect(),
+        |rates| rates.iter().flatten().collect(),
     )?;
-    Ok(values.iter().map(settled).collect())
+    let mut values = vec![f64::NAN; points.len()];
+    for (k, rates) in order.into_iter().zip(rates) {
+        values[k] = settled(&quantity.of_rates(rates));
+    }
+    Ok(values)
 }
 
 /// Returns the field at the middles of the grid's cells, row by row from the ground up.
 fn grid(history: &TypedHistory<f64>, quantity: FieldQuantity, extent: &Extent) -> Result<Vec<f64>, Error> {
     let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-    if !extent.is_damped() {
-        let point = |k: usize| extent.point(middle(k % COLUMNS, COLUMNS), middle(k / COLUMNS, ROWS));
-        return values_at(history, quantity, extent, &(0..COLUMNS * ROWS).map(point).collect::<Vec<_>>());
-    }
-    let rates = history.ask(
-        |motion| {
-            let end = motion.end();
-            let points: Vec<_> = (0..ROWS).map(|k| end.double(extent.point(0.0, middle(k, ROWS)).y)).collect();
-            let times: Vec<_> = (0..COLUMNS).map(|k| end.double(extent.point(middle(k, COLUMNS), 0.0).x)).collect();
-            motion.rates(&points, &times)
-        },
-        |rates| rates.iter().flatten().collect(),
-    )?;
-    let value = |k: usize| settled(&quantity.of_rates(rates[(k % COLUMNS) * ROWS + k / COLUMNS].clone()));
-    Ok((0..COLUMNS * ROWS).map(value).collect())
+    let point = |k: usize| extent.point(middle(k % COLUMNS, COLUMNS), middle(k / COLUMNS, ROWS));
+    values_at(history, quantity, extent, &(0..COLUMNS * ROWS).map(point).collect::<Vec<_>>())
 }
 
 impl FieldQuantity {

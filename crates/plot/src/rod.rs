@@ -96,8 +96,8 @@ impl RodPicture {
         let length = rod.length().to_f64();
         let query = |motion: &dyn Motion<Double>| {
             let time = motion.end().double(time);
-            let points: Vec<_> = (0..=PARTS).map(|k| time.double(length * k as f64 / PARTS as f64)).collect();
-            let rates = motion.rates(&points, std::slice::from_ref(&time))?;
+            let place = |k: usize| (time.double(length * k as f64 / PARTS as f64), time.clone());
+            let rates = motion.rates(&(0..=PARTS).map(place).collect::<Vec<_>>())?;
             let energy = motion.energy(&time)?;
             Ok(State {
                 strains: rates.into_iter().map(|[_, strain]| strain.to_f64()).collect(),

@@ -30,9 +30,9 @@ impl Motion<Long> for Grids {
     fn field(&self, _: &Long, _: &Long, _: Side) -> Result<Field<Long>, Error> {
         Err(Error::NoWaves)
     }
-    fn rates(&self, points: &[Long], times: &[Long]) -> Result<Vec<[Long; 2]>, Error> {
+    fn rates(&self, places: &[(Long, Long)]) -> Result<Vec<[Long; 2]>, Error> {
         self.1.fetch_add(1, Ordering::Relaxed);
-        Ok(times.iter().flat_map(|t| points.iter().map(|x| [x.clone(), t.clone()])).collect())
+        Ok(places.iter().map(|(x, t)| [x.clone(), t.clone()]).collect())
     }
     fn highest(&self, _: usize) -> Option<(Long, Long)> {
         None
@@ -49,7 +49,8 @@ fn a_grid_is_asked_of_the_engine_as_a_whole() {
     let engine = Arc::new(Grids(Course::new(end, Ending::Time), AtomicUsize::new(0)));
     let read = Converted::<_, Estimate<f64>>::new(engine.clone());
     let grid = [0.0, 0.25, 0.5].map(Estimate::exact);
-    assert_eq!(read.rates(&grid, &grid).unwrap().len(), 9);
+    let places: Vec<_> = grid.iter().flat_map(|t| grid.iter().map(|x| (x.clone(), t.clone()))).collect();
+    assert_eq!(read.rates(&places).unwrap().len(), 9);
     assert_eq!(engine.1.load(Ordering::Relaxed), 1);
 }
 
