@@ -62,7 +62,8 @@ pub(super) struct Budget {
     apart: bool,
     /// Error of `p` and `q` by truncation, rounding and undecided events.
     even: f64,
-    /// Part of `even` from undecided events, which is no threshold for decisions.
+    /// Part of `even` from undecided events. Decisions at the ground are made against `even` without it: it covers
+    /// what an event may have changed, and not what rounding hides.
     covered: f64,
     /// First-order effects of the time errors of events.
     events: Dependence,

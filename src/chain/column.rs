@@ -88,7 +88,10 @@ impl ChainQuantity {
             | ChainQuantity::Energy
             | ChainQuantity::SpringEnergy
             | ChainQuantity::Dissipated => Measure::Energy,
-            _ => Measure::Length,
+            ChainQuantity::EndDisplacement
+            | ChainQuantity::TopDisplacement
+            | ChainQuantity::Centre
+            | ChainQuantity::Gap => Measure::Length,
         }
     }
 }

@@ -34,6 +34,9 @@ pub struct ChainListing {
     pub end: Value,
 }
 
+/// Share of the natural scale from which on the size of a number decides whether its bound is small enough.
+const FAINT: f64 = 1e-6;
+
 /// A number of an answer with the scale that its bound is held against.
 type Judged<'a> = (&'a Value, Measure);
 
@@ -401,8 +404,11 @@ impl ChainHistory {
                     continue;
                 }
             };
+            // The natural scale decides only for a number that is not distinguished from zero, or almost zero.
             let excess = |(value, measure): Judged<'_>| {
-                value.log2_error() - value.to_f64().abs().max(self.chain.scale(measure)).log2() - tolerance
+                let (size, scale) = (value.to_f64().abs(), self.chain.scale(measure));
+                let is_faint = size.log2() <= value.log2_error();
+                value.log2_error() - size.max(if is_faint { scale } else { FAINT * scale }).log2() - tolerance
             };
             let worst = numbers(&answer).into_iter().map(excess).fold(f64::NEG_INFINITY, f64::max);
             if whole && worst <= 0.0 || self.attempts.len() == 1 {

@@ -42,13 +42,13 @@ impl<N: Bounded> ChainRun<N> {
         if chain.is_soft() && !SOFT {
             return Err(Error::NoChains);
         }
+        if chain.is_soft() && N::from_number(&chain.until, precision).bits().is_none() {
+            return Err(Error::SoftExact);
+        }
         let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(chain, precision)?;
         let mut nodes = match nodes {
             Nodes::Rigid(nodes) => nodes,
             Nodes::Soft(clusters) => {
-                if until.bits().is_none() {
-                    return Err(Error::SoftExact);
-                }
                 let travels = bars.iter().map(|bar| bar.travel.clone()).collect();
                 let limits = (chain.max_pieces(), observe);
                 let Marched { nodes, events, end, ending, doubt } =

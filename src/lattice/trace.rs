@@ -59,8 +59,9 @@ pub struct Piece<N> {
     pub height: N,
     /// Whether the end is in contact with the ground.
     pub contact: bool,
-    /// `p` at its beginning as an exact multiple of gravity, if the break started as the zero of a release without a
-    /// ray and carries no jump. The value of the line at the age is not exact: line and age have separate errors.
+    /// `p` at its beginning as an exact multiple of gravity; `None` for other breaks. It is known of a break that a
+    /// release between two rays sends out: there `p` has been zero and has only changed by gravity since. The value of
+    /// the line at the age is not exact, as line and age have separate errors.
     pub(super) knot: Option<i64>,
 }
 

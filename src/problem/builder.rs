@@ -151,6 +151,10 @@ impl Builder {
     /// let stiffer = rod.to_builder().modulus(9).build()?;
     /// assert_eq!(Parameter::Density.given(&stiffer), Some(1.into()));
     /// assert_eq!(Parameter::WaveSpeed.value(&stiffer.to_builder().wave_speed(5).build()?), Some(5.0));
+    /// // A length alone stretches the points of the start.
+    /// let strained = Problem::builder().length(1).wave_speed(1).velocity([(0, -1), (1, -2)]).build()?;
+    /// let longer = strained.to_builder().length(3).build()?;
+    /// assert_eq!(longer, Problem::builder().length(3).wave_speed(1).velocity([(0, -1), (3, -2)]).build()?);
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     ///
@@ -175,6 +179,9 @@ impl Builder {
         }
         if !draft.profiles.is_empty() {
             base.numbers.retain(|parameter, _| !IMPACT.contains(parameter));
+        }
+        if let Some(length) = draft.numbers.get(&Parameter::Length) {
+            base.stretch(length);
         }
         base.numbers.extend(draft.numbers);
         let [displacement, strain, _] = Parameter::LISTS;

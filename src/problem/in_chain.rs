@@ -153,21 +153,23 @@ impl Problem {
     /// Returns the chain that the problem is a body of, with the values of the problem, and the index of the body;
     /// `None` for a rod by itself.
     pub fn chain(&self) -> Option<(Chain, usize)> {
-        let InChain { chain, body, stiffness, .. } = self.in_chain.as_ref()?;
+        // Every value of the problem is named here, so that none is left out of the chain.
+        let Problem { length, material, damping: _, top: _, gravity, start, run, in_chain } = self;
+        let InChain { chain, body, stiffness, runs: _ } = in_chain.as_ref()?;
         let original = &chain.bodies()[*body];
-        let Profile { displacement, strain, velocity } = match &self.start {
+        let Profile { displacement, strain, velocity } = match start {
             Start::Profile(profile) => profile.clone(),
             _ => Profile::default(),
         };
-        let original = original.clone().with_length(self.length.clone());
+        let original = original.clone().with_length(length.clone());
         let original = original.with_start(velocity, displacement).with_strain(strain);
-        let gravity = self.gravity.clone().unwrap_or_else(|| 0.into());
-        let chain = chain.with_body(*body, body_of(&self.material, &original)).with_gravity(gravity);
+        let gravity = gravity.clone().unwrap_or_else(|| 0.into());
+        let chain = chain.with_body(*body, body_of(material, &original)).with_gravity(gravity);
         let chain = match stiffness {
             Some(stiffness) => chain.with_stiffness(*body, stiffness.clone()),
             None => chain,
         };
-        let chain = match &self.run {
+        let chain = match run {
             Run::Time(time) => chain.with_end(time.clone()),
             Run::Impacts(_) => chain,
         };
@@ -192,13 +194,15 @@ impl Problem {
         let refuse = |path: &str, found: &str, expected: &str| {
             Err(ProblemError::new(Kind::Contradiction, path, format!("{found} on a spring"), expected.to_string()))
         };
-        if self.in_chain.is_some() {
-            return refuse("body", "a body of a chain", "a rod by itself on rigid ground");
+        // Every value of the problem is named here, so that none is left out.
+        let Problem { length, material, damping, top, gravity, start, run: _, in_chain } = self;
+        if in_chain.is_some() {
+            return refuse("body", "a body of a chain", "a joint with a stiffness in its scene, or a rod by itself");
         }
-        if self.damping.is_some() {
+        if damping.is_some() {
             return refuse(Parameter::Damping.path(), "a damped rod", "a rod without damping");
         }
-        let ends = [Number::from(0), self.length.clone()];
+        let ends = [Number::from(0), length.clone()];
         let uniform = |value: &Number| ends.iter().map(|x| (x.clone(), value.clone())).collect::<Vec<_>>();
         let down = |speed: &Number| {
             let negative = Number::of_rational(&-speed.to_rational());
@@ -207,7 +211,7 @@ impl Problem {
             Ok::<_, ProblemError>(uniform(&negative.ok_or_else(refused)?))
         };
         let mut strain = Vec::new();
-        let (gap, displacement, velocity) = match &self.start {
+        let (gap, displacement, velocity) = match start {
             Start::Uniform(Speed::Given(speed)) => (0.into(), Vec::new(), down(speed)?),
             Start::Uniform(Speed::DropHeight(_)) => {
                 let speed = Parameters::<Rational>::of(self, &()).ok().and_then(|rod| Number::of_rational(&rod.speed));
@@ -224,14 +228,14 @@ impl Problem {
                 (gap, displacement.clone(), velocity.clone())
             }
         };
-        let top = if self.top == Top::Fixed { End::Velocity(vec![(0.into(), 0.into())]) } else { End::Free };
-        let body = Body::new(self.length.clone(), 1.into(), 1.into()).with_start(velocity, displacement);
+        let top = if *top == Top::Fixed { End::Velocity(vec![(0.into(), 0.into())]) } else { End::Free };
+        let body = Body::new(length.clone(), 1.into(), 1.into()).with_start(velocity, displacement);
         let body = body.with_strain(strain);
-        let chain = Chain::builder(body_of(&self.material, &body))
+        let chain = Chain::builder(body_of(material, &body))
             .bottom(End::Ground { gap, velocity: Vec::new() })
             .top(top)
             .spring(0, spring)
-            .gravity(self.gravity.clone().unwrap_or_else(|| 0.into()))
+            .gravity(gravity.clone().unwrap_or_else(|| 0.into()))
             .until(until)
             .build()?;
         chain.problem(0)

@@ -5,13 +5,14 @@ use super::in_chain::InChain;
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
 use super::{Material, Parameter, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top, Written};
-use crate::number::Number;
+use crate::number::{Number, Rational};
 
 pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap, Parameter::DropHeight];
 
 pub(super) const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
-const MAX_ROUND_TRIPS: f64 = 1e12;
+/// Maximum length of a run in round trips.
+pub(crate) const MAX_ROUND_TRIPS: f64 = 1e12;
 const MAX_IMPACTS: u32 = 10_000_000;
 /// A fall is followed trip by trip, like every flight that ends in a touch.
 const MAX_FALL: f64 = 1e6;
@@ -31,6 +32,19 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
+    /// Stretches the points of the start to another length.
+    pub(super) fn stretch(&mut self, length: &Written) {
+        let number = |written: &Written| written.number.as_ref().ok().cloned().map(|number| number.to_rational());
+        let old = self.numbers.get(&Parameter::Length).and_then(number);
+        let Some((old, new)) = old.zip(number(length)).filter(|(old, _)| *old > Rational::default()) else { return };
+        for (x, _) in self.profiles.values_mut().flatten() {
+            let stretched = number(x).and_then(|x| Number::of_rational(&(x * &new / &old)));
+            if let Some(stretched) = stretched {
+                *x = stretched.into();
+            }
+        }
+    }
+
     pub(super) fn material(&self) -> Result<Material, ProblemError> {
         const EITHER: &str = "wave_speed, or a material: modulus and density";
         let first =

@@ -5,7 +5,6 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
-use super::chain_ends::SPRING_KEYS;
 use super::error::{SceneError, position};
 use super::publication::Publication;
 use super::read::Scene;
@@ -159,7 +158,7 @@ pub struct ChainScene {
 
 impl ChainScene {
     /// Returns whether `source` is a scene of this kind: a TOML document with `[[body]]`, or with a `[rod]` that has a
-    /// `bottom`, or a `top` that is neither free nor fixed.
+    /// `bottom`, a `[ground]`, or a `top` that is neither free nor fixed.
     pub fn is_chain(source: &str) -> bool {
         let Ok(document) = DeTable::parse(source) else { return false };
         let reader = Reader { source, document: document.get_ref() };
@@ -167,9 +166,8 @@ impl ChainScene {
             let (_, top) = reader.get("rod.top")?;
             Some(top.get_ref().as_table().is_some() || matches!(top.get_ref().as_str(), Some("ground" | "absorbing")))
         };
-        let springs = SPRING_KEYS.map(|key| format!("ground.{key}"));
-        let keys = ["body", "ends", "rod.bottom"].into_iter().chain(springs.iter().map(String::as_str));
-        keys.into_iter().any(|key| reader.get(key).is_some()) || is_other_top() == Some(true)
+        ["body", "ends", "ground", "rod.bottom"].into_iter().any(|key| reader.get(key).is_some())
+            || is_other_top() == Some(true)
     }
 
     /// Reads a scene.
@@ -498,7 +496,13 @@ impl<'a> Reader<'a> {
             };
         };
         if state != Some(1) {
-            return Ok(modulus);
+            return match (state, self.get("poisson")) {
+                (None, Some((key, _))) => {
+                    let expected = "state = \"uniaxial strain\", or \"uniaxial stress\", in which it changes nothing";
+                    Err(self.error(key.span(), Kind::Missing, "poisson without a state", expected))
+                }
+                _ => Ok(modulus),
+            };
         }
         let (one, nu) = (Rational::from(1), poisson.to_rational());
         let span = self.get("poisson").map_or(0..0, |(_, value)| value.span());

@@ -104,6 +104,11 @@ impl<const N: usize> Motion<Long> for InFloats<N> {
         Ok(self.engine.stretches(&give(time))?.into_iter().map(|stretch| stretch.map(read)).collect())
     }
 
+    fn departures(&self) -> Result<[Vec<(Long, Long)>; 2], Error> {
+        let read = |(time, jump): (Estimate<Wide<N>>, Estimate<Wide<N>>)| (read(time), read(jump));
+        Ok(self.engine.departures()?.map(|rays| rays.into_iter().map(read).collect()))
+    }
+
     fn corners(&self) -> Vec<Long> {
         self.engine.corners().into_iter().map(read).collect()
     }

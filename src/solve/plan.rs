@@ -10,6 +10,7 @@ use crate::cells::{Effort, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
+use crate::problem::validate::MAX_ROUND_TRIPS;
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Warning;
 
@@ -62,9 +63,11 @@ pub struct Plan {
 pub struct Goal {
     /// Decimal digits of each number.
     pub digits: f64,
-    /// Number of digits by which a number may lie below the greatest of the answer and still need all of its digits.
+    /// Digits below the greatest number of the answer to which smaller numbers keep all of their own. With `digits` 9
+    /// and `spare` 6 beside a 1, `1e-6` needs an error of `1e-15`, and so does every smaller number.
     pub spare: f64,
-    /// Additional digits below its natural scale at which a number that is indistinguishable from zero is settled.
+    /// Digits, beyond `digits`, of a number that is not distinguished from zero. With `digits` 9 and `faint` 30 it is
+    /// settled where its error is `1e-39` of its natural scale.
     pub faint: f64,
 }
 
@@ -231,8 +234,14 @@ impl Plan {
             Want::FirstContact | Want::Bounce if problem.in_chain.is_some() => Reach::run(problem),
             Want::Run => Reach::run(problem),
             Want::FirstContact | Want::Bounce => Reach::FirstContact,
-            Want::Between(_, to) if problem.damping().is_some() => Reach::Time(beyond(problem, to)),
-            Want::Between(_, to) => Reach::Time(to.clone()),
+            Want::Between(_, to) => {
+                let rod = Parameters::<f64>::of(problem, &())?;
+                if to.to_f64() > MAX_ROUND_TRIPS * rod.round_trip() {
+                    // Refuses a time that no run has.
+                    problem.to_builder().time(to.clone()).build()?;
+                }
+                Reach::Time(if problem.damping().is_some() { beyond(problem, to) } else { to.clone() })
+            }
         };
         let keep_from = match &question.want {
             Want::Between(from, _) => Some(from.to_f64()),

@@ -17,7 +17,7 @@ pub(super) enum Solution {
     Certified(TypedHistory<Interval>),
 }
 
-/// An event or a parameter that fractions cannot hold.
+/// An event, a parameter or a signal that fractions cannot hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExactnessEnd {
     /// A parameter of the problem.
@@ -27,6 +27,8 @@ pub enum ExactnessEnd {
         /// The radicand of its root.
         square: String,
     },
+    /// The signals of springs, dashpots and masses, which are exponentials.
+    Curves,
     /// An event, as [`Ending::ExactnessEnds`].
     Event(Ending),
 }
@@ -35,6 +37,7 @@ impl std::fmt::Display for ExactnessEnd {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             ExactnessEnd::Parameter { quantity, square } => write!(f, "the {quantity} √({square}) is no fraction"),
+            ExactnessEnd::Curves => f.write_str("the signals of springs, dashpots and masses are no fractions"),
             ExactnessEnd::Event(ending) => ending.fmt(f),
         }
     }
@@ -55,6 +58,7 @@ impl Plan {
             Numbers::ExactThenDigits(digits) => {
                 let end = match TypedHistory::<Rational>::solve(problem, self, observe.clone()) {
                     Err(Error::Irrational { quantity, square }) => ExactnessEnd::Parameter { quantity, square },
+                    Err(Error::SoftExact) => ExactnessEnd::Curves,
                     Ok(exact) => match exact.ending() {
                         ending @ Ending::ExactnessEnds { .. } => ExactnessEnd::Event(ending.clone()),
                         _ => return Ok((Solution::Exact(exact), None)),

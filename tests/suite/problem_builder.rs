@@ -106,8 +106,16 @@ fn a_problem_goes_back_to_a_builder() {
     let Start::Profile(profile) = strained.start() else { panic!("a profile") };
     assert_eq!((profile.displacement.len(), profile.velocity.len()), (2, 2));
     assert_eq!(build(strained.to_builder().drop_height(7)), dropped);
-    // A new length leaves the last points of a profile behind.
-    assert_eq!(strained.to_builder().length(2).build().unwrap_err().kind, Kind::Profile);
+    // A new length stretches the points of a profile, unless new ones are given.
+    let stretched = strained.to_builder().length(2).build().unwrap();
+    let ends = |points: &[(Number, Number)]| points.iter().map(|(x, v)| (x.to_f64(), v.to_f64())).collect::<Vec<_>>();
+    let Start::Profile(profile) = stretched.start() else { panic!("{stretched:?}") };
+    assert_eq!(
+        (ends(&profile.displacement), ends(&profile.velocity)),
+        (vec![(0.0, 1.0), (2.0, 2.0)], vec![(0.0, 1.0), (2.0, 2.0)])
+    );
+    let given = strained.to_builder().length(2).velocity([(0, 1), (1, 2)]);
+    assert_eq!(given.build().unwrap_err().kind, Kind::Profile);
     assert_eq!(dropped.to_builder().gravity(0).build().unwrap_err().path, "impact.drop_height");
     assert_eq!(
         dropped.with_run(Run::Time(n("-1"))).unwrap_err().to_string(),

@@ -49,8 +49,8 @@ impl<'a> Bar<'a> {
         }
     }
 
-    /// Returns the columns with the number of a body or the name of a joint that belong to no bar: those of rigid masses,
-    /// and gaps and energies of joints.
+    /// Returns the columns with the number of a body or the name of a joint that belong to no bar: those of rigid
+    /// masses, and gaps and energies of joints.
     pub fn of_none<'n>(chain: &Chain, source: &'n Source) -> Vec<&'n str> {
         let is_of_none =
             |name: &&String| (0..chain.bodies().len()).all(|body| Bar { chain, body }.column(name).is_none());

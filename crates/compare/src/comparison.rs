@@ -14,7 +14,7 @@ use super::softness::{self, SoftColumn};
 use dalembert::Error;
 use dalembert::chain::Spring;
 use dalembert::number::Number;
-use dalembert::problem::{Parameters, Problem, Run};
+use dalembert::problem::{Parameter, Parameters, Problem, Run};
 use dalembert::quantity::{Quantity, Units};
 use dalembert::reason::Warning;
 use dalembert::solve::{Numbers, Observer, Plan, Question, TypedHistory};
@@ -250,6 +250,11 @@ impl Prepared {
                 let end = match problem.run() {
                     Run::Time(end) => end.clone(),
                     Run::Impacts(_) => written(last)?,
+                };
+                // The speed of a fall is a root, and a comparison is in doubles.
+                let problem = match Parameter::DropHeight.given(&problem) {
+                    Some(_) => problem.to_builder().impact_speed(written(rod.speed)?).build().map_err(Error::from)?,
+                    None => problem,
                 };
                 (problem.on_spring(spring, end).map_err(Error::from)?, Some(problem))
             }

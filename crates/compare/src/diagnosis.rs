@@ -8,7 +8,7 @@ use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
 use super::symptoms::{
-    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, unlike_mass, unstable_energy,
+    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, turned_axis, unlike_mass, unstable_energy,
 };
 use dalembert::Error;
 use dalembert::quantity::Measure;
@@ -44,8 +44,8 @@ impl Diagnosis {
 
     fn find(&mut self, reference: &Reference<'_>, agreement: &Agreement) -> Result<(), Error> {
         let (history, columns) = (reference.history, agreement.quantities.as_slice());
-        if let Some(lost) = lost_start(columns) {
-            self.hints = vec![lost];
+        if let Some(alone) = lost_start(columns).or_else(|| turned_axis(columns)) {
+            self.hints = vec![alone];
             return Ok(());
         }
         self.hints = columns.iter().filter(|column| is_empty(column)).map(empty_column).collect();

@@ -39,7 +39,7 @@ pub(crate) struct Fit {
 pub enum FitError {
     #[error(
         "found {0} to be fitted, expected one that the scene has: a material, a start above the ground, an impact, \
-         or points of a start"
+         points of a start, or for the stiffness a ground or joint with one"
     )]
     Absent(String),
     #[error("found {samples} values in the data, expected more than the {unknowns} that are to be fitted")]

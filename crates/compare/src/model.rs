@@ -121,7 +121,7 @@ impl<'a> Model<'a> {
         for ComparedColumn { what, ours, theirs, norms } in &agreement.quantities {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
-                // No quantity is its integral.
+                // The model fits integrals of forces, and no quantity is that of the force at the top.
                 _ if *what == Quantity::TopForce => continue,
                 Some(Measure::Energy) => mass * speed * speed / trip,
                 Some(Measure::Force | Measure::Stress | Measure::Strain | Measure::Impulse) => {

@@ -6,7 +6,7 @@ use super::hint::Hint;
 use super::norms::ComparedColumn;
 use super::reference::Reference;
 use dalembert::number::Scalar;
-use dalembert::quantity::Quantity;
+use dalembert::quantity::{Measure, Quantity};
 use dalembert::{Error, Side};
 
 /// Largest share of ‖e‖₂ that an explanation may leave.
@@ -42,6 +42,26 @@ pub(super) fn lost_start(columns: &[ComparedColumn]) -> Option<Hint> {
         let text =
             format!("{lost} of {first} of the energy are lost in the first step: is the initial velocity ignored?");
         Hint::new("start_velocity", -1.0, text)
+    })
+}
+
+/// Returns the hint at an axis that points the other way: all displacements and velocities have the other sign.
+pub(super) fn turned_axis(columns: &[ComparedColumn]) -> Option<Hint> {
+    let is_along = |column: &&ComparedColumn| {
+        let is_zero = column.ours.iter().chain(&column.theirs).all(|value| *value == 0.0);
+        matches!(column.what.measure(), Some(Measure::Length | Measure::Velocity)) && !is_zero
+    };
+    let along: Vec<&ComparedColumn> = columns.iter().filter(is_along).collect();
+    let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+    let is_turned = |column: &&ComparedColumn| {
+        let left = squares(&mut column.ours.iter().zip(&column.theirs).map(|(ours, theirs)| ours + theirs));
+        left < LEFT * LEFT * squares(&mut column.ours.iter().copied())
+    };
+    // A single column has a sign of its own.
+    (along.len() > 1 && along.iter().all(is_turned)).then(|| {
+        let names: Vec<&str> = along.iter().map(|column| column.what.name()).collect();
+        let text = format!("{} have the other sign: does the axis of the data point to the ground?", names.join(", "));
+        Hint::new("axis", -1.0, text)
     })
 }
 

@@ -394,12 +394,20 @@ fn energy(scene: &SceneData, scenes: &[SceneData]) -> Panel {
     let floor = base - FLOOR * (greatest + space - base);
     let y = Axis::new("E", scene.units.name(Measure::Energy), [floor, greatest + space]);
     let gravity = if base < 0.0 { format!("gravity, from {} up", y.short(base)) } else { "gravity".into() };
-    let names = [gravity, "centre of mass".into(), "vibration E_z".into()];
+    let mut names = [gravity, "centre of mass".into(), "vibration E_z".into()];
+    let level = |curve: &Curve| curve.iter().map(|point| DVec2::new(point.x, base)).collect::<Curve>();
+    let mut edges = edges;
+    if scene.is_rigid() {
+        // A rigid mass has no vibration, and its curve holds its energy of height too.
+        names[1] = "energy of the mass".into();
+        edges = [level(&edges[2]), edges[2].clone(), Vec::new()];
+    }
     let mut panel = Panel::new("energy: the upper edge is E", time_axis(scenes), y);
-    let mut below: Curve = edges[0].iter().map(|point| DVec2::new(point.x, base)).collect();
+    let mut below = level(&edges[0]);
     // The layer of gravity is empty without gravity.
     let weightless = scene.rod.gravity == 0.0;
-    for ((edge, name), color) in edges.into_iter().zip(names).zip(AREAS).skip(usize::from(weightless)) {
+    let layers = edges.into_iter().zip(names).zip(AREAS).skip(usize::from(weightless));
+    for ((edge, name), color) in layers.filter(|((edge, _), _)| !edge.is_empty()) {
         let area = [thinned(edge.clone()), thinned(below).into_iter().rev().collect()].concat();
         panel.areas("area", vec![area], color);
         panel.legend.push(Key::area(name, color));

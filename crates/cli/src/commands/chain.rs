@@ -1,16 +1,19 @@
 //! Scenes with several bodies: `solve`, `sample` and `explain`.
 
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
 use serde_json::{Map, Value as Json, json};
 
 use crate::failure::Failure;
 use crate::file::{Destination, Format, write_all};
 use crate::output::{Cell, Column, Dataset, json_bytes, rows_bytes};
 use crate::terminal;
-use dalembert::chain::{ChainColumn, ChainHistory, ChainListing};
+use dalembert::chain::{Chain, ChainColumn, ChainHistory, ChainListing};
 use dalembert::number::{List, Value};
 use dalembert::quantity::Measure;
 use dalembert::solve::Numbers;
-use dalembert::{ChainScene, Side};
+use dalembert::{ChainScene, Error, Side};
 
 /// Prints what an answer does not decide.
 fn note(history: &ChainHistory) -> Result<(), Failure> {
@@ -183,7 +186,11 @@ pub(crate) fn sample(
         false => names.iter().map(read).collect::<Result<_, _>>()?,
     };
     let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
-    let history = scene.chain.solve(numbers)?;
+    let latest = times.iter().max_by(|a, b| a.compare(b)).filter(|time| time.compare(chain.until()).is_gt());
+    let history = match latest {
+        Some(latest) => chain.with_until(latest.clone())?.solve(numbers)?,
+        None => chain.solve(numbers)?,
+    };
     let mut rows = Vec::new();
     for time in &times {
         for side in sides {
@@ -220,13 +227,72 @@ fn time_json(time: &dalembert::Number, numbers: Numbers) -> Json {
     }
 }
 
+/// The wave pieces of a run.
+enum Pieces {
+    Counted(usize),
+    /// Estimated from their growth with a power of the time, up to this time.
+    Estimated {
+        pieces: f64,
+        power: f64,
+        time: f64,
+    },
+}
+
+/// Wave pieces from which on a run is not counted to its end.
+const MOST_COUNTED: usize = 100_000;
+/// Number of times that the time of a run is halved at most, to see how its pieces grow.
+const HALVINGS: i32 = 40;
+
+/// Foresees the wave pieces of a run in doubles: a long run is made in part, and the rest is extrapolated.
+fn foreseen(chain: &Chain) -> Result<Pieces, Error> {
+    let count = |chain: &Chain| {
+        let observe = Arc::new(|_, pieces| match pieces > MOST_COUNTED {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
+        match chain.solve_observed(Numbers::default(), observe) {
+            Ok(history) => Ok(Some(history.pieces())),
+            Err(Error::Interrupted | Error::TooManyPieces { .. }) => Ok(None),
+            Err(error) => Err(error),
+        }
+    };
+    if let Some(pieces) = count(chain)? {
+        return Ok(Pieces::Counted(pieces));
+    }
+    // The latest time of a run that is counted, and half of it.
+    let whole = chain.until().to_f64();
+    let mut found: Option<(f64, f64)> = None;
+    for halvings in 1..=HALVINGS {
+        let time = whole / 2f64.powi(halvings);
+        let until = format!("{time:e}").parse().map_err(|_| Error::NotDecided { what: "a time", bits: 53 })?;
+        let Some(pieces) = count(&chain.with_until(until)?)?.map(|pieces| pieces.max(1) as f64) else { continue };
+        if let Some((time, later)) = found {
+            let power = (later / pieces).log2().max(1.0);
+            return Ok(Pieces::Estimated { pieces: later * (whole / time).powf(power), power, time });
+        }
+        found = Some((time, pieces));
+    }
+    Err(Error::TooManyPieces { limit: MOST_COUNTED, time: 0.0 })
+}
+
 /// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.
 pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
     let effects = scene.effects();
-    let foreseen = scene.chain.solve(Numbers::default()).map(|history| history.pieces());
+    let foreseen = foreseen(&scene.chain);
     let cost = match &foreseen {
-        Ok(pieces) => format!("{pieces} wave pieces up to t = {}", scene.chain.until()),
+        Ok(Pieces::Counted(pieces)) => format!("{pieces} wave pieces up to t = {}", scene.chain.until()),
+        Ok(Pieces::Estimated { pieces, power, time }) => format!(
+            "about {pieces:.1e} wave pieces up to t = {}, of which a run may have {}: they grow like t^{power:.1} \
+             up to t = {time:.4}",
+            scene.chain.until(),
+            scene.chain.max_pieces()
+        ),
         Err(error) => error.to_string(),
+    };
+    let counted = match foreseen {
+        Ok(Pieces::Counted(pieces)) => json!(pieces),
+        Ok(Pieces::Estimated { pieces, .. }) => json!(pieces.round()),
+        Err(_) => Json::Null,
     };
     write_all(destinations, |format| {
         if format == Format::Json {
@@ -236,7 +302,7 @@ pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Dest
                 "effects": effects,
                 "engine": "chain",
                 "number": numbers.to_string(),
-                "pieces": foreseen.as_ref().ok(),
+                "pieces": counted,
                 "cost": cost,
             })));
         }

@@ -74,6 +74,9 @@ pub(crate) fn derivative_table(
     (by, rows): (Parameter, &Derivatives<Value>),
     info: &RunInfo,
 ) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
     let symbols: Vec<String> = quantities.iter().map(|(_, symbol)| format!("∂ {symbol}")).collect();
     let head: Vec<&str> = [head, "side"].into_iter().chain(symbols.iter().map(String::as_str)).collect();
     let sizes = |cell: &Derivative<Value>| cell.sides().map(|side| side.map_or(0.0, |value| value.to_f64().abs()));

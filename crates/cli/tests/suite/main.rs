@@ -28,6 +28,7 @@ mod derivatives_at;
 mod endings;
 #[cfg(target_os = "linux")]
 mod guide;
+mod newcomers;
 mod orbits;
 mod pictures;
 mod reference;

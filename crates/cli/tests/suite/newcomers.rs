@@ -1,0 +1,143 @@
+//! First steps that newcomers were held up by.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::command::{Run, json, quiet, refused, refused_with, run, run_with};
+
+/// Two bars of steel and aluminium with a spring between them.
+const SPRING: &str = "[[body]]\nlength = 0.3\nmodulus = 210e9\ndensity = 7850\narea = 1e-4\n[[body]]\nlength = 0.2\n\
+    modulus = 70e9\ndensity = 2700\narea = 2e-4\nvelocity = -2\njoint = { stiffness = 5e7, bonded = true }\n\
+    [run]\ntime = 1e-3\n";
+
+fn written(name: &str, text: &str) -> (TempDir, String) {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join(name).display().to_string();
+    fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+/// Each number of a chain has the accuracy of the answer, not of a natural scale that is a hundred times as great.
+#[test]
+fn numbers_of_soft_chains_have_their_digits() {
+    let (_folder, scene) = written("spring.toml", SPRING);
+    let names = "kinetic.1,strain_energy.1,E_total.1,E_total.2,force.1,u_end.1,v_top.1,gap.1";
+    let row = |more: &[&str]| -> Value {
+        let args = ["sample", &scene, "--quantity", names, "--times", "1e-3", "--uncertainty"];
+        json(&[&args[..], more, &["--format", "json"]].concat())["rows"][0].clone()
+    };
+    let (doubles, digits) = (row(&[]), row(&["--digits", "25"]));
+    for name in names.split(',') {
+        let number = |value: &Value| value.as_f64().or_else(|| value.as_str()?.parse().ok()).unwrap();
+        let [found, expected] = [&doubles, &digits].map(|row| number(&row[name]));
+        let bound = number(&doubles["uncertainty"][name]);
+        let size = expected.abs();
+        assert!(bound <= 1e-9 * size && (found - expected).abs() <= bound + 1e-15 * size, "{name}: {found} ± {bound}");
+    }
+}
+
+/// A velocity that is one number is that of the whole body, however long it is.
+#[test]
+fn lengths_of_bodies_are_swept() {
+    let sweep = ["sweep", "openfoam-7-1-2", "--body", "1", "--vary", "rod.length=5,10,20", "--quantity", "u_top"];
+    let at = ["--time", "0.05", "--format", "csv"];
+    let out = quiet(&[&sweep[..], &at].concat());
+    // The striker moves at 0.1 until it meets the target at t = 0.1.
+    let places = out.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().parse::<f64>().unwrap());
+    let apart: Vec<f64> = places.map(|place| (place - 0.005).abs()).collect();
+    assert!(apart.len() == 3 && apart.iter().all(|apart| *apart < 1e-15), "{out}");
+}
+
+#[test]
+fn long_runs_are_refused_or_foreseen() {
+    let refusal = "which is 5e12 round trips, expected at most 1e12 round trips of 2L/c";
+    refused(&["sample", "doyen-ern-piperno", "--quantity", "force", "--times", "1e13"], &["found time = 1e13"]);
+    let unit = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 1\n[gravity]\nacceleration = 1\n";
+    refused_with(&["sample", "-", "--quantity", "force", "--times", "1e13"], unit, &[refusal]);
+    // Two unlike bars between walls: pieces grow faster than the time.
+    let bars = "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = 1\n[[body]]\nlength = \"1/3\"\n\
+        wave_speed = \"7/5\"\nimpedance = 2\n[ends]\nbottom = \"ground\"\ntop = \"ground\"\n[run]\ntime = 1e4\n";
+    let Run { code, out, err } = run_with(&["explain", "-"], bars);
+    assert_eq!(code, Some(0), "{err}");
+    let cost = out.lines().find(|line| line.starts_with("cost: about")).unwrap();
+    assert!(cost.contains("wave pieces up to t = 1e4") && cost.contains("they grow like t^"), "{cost}");
+}
+
+#[test]
+fn a_chain_is_sampled_beyond_its_own_run() {
+    let bars = ["sample", "openfoam-7-1-2", "--quantity", "u_end.2", "--format", "csv"];
+    let at = |time: &str| quiet(&[&bars[..], &["--times", time]].concat());
+    assert!(at("0.6").lines().last().unwrap().starts_with("0.6,right,0.0"), "{}", at("0.6"));
+}
+
+#[test]
+fn misspelt_springs_and_forgotten_states_are_named() {
+    let rod = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 1\n[run]\ntime = 3\n";
+    let known = "expected one of velocity, stiffness, damping, penalty (did you mean stiffness?)";
+    refused_with(&["solve", "-"], &format!("{rod}[ground]\nstiffnes = 5\n"), &["`stiffnes`", known]);
+    let bar = "[[body]]\nlength = 1\nmodulus = 1\ndensity = 1\npoisson = 0.3\n[run]\ntime = 1\n";
+    let state = "found poisson without a state, expected state = \"uniaxial strain\", or \"uniaxial stress\"";
+    refused_with(&["solve", "-"], bar, &[state]);
+    let Run { code, .. } = run_with(&["solve", "-"], &bar.replace("0.3", "0.3\nstate = \"uniaxial stress\""));
+    assert_eq!(code, Some(0));
+}
+
+/// Data with an axis that points to the ground.
+#[test]
+fn a_turned_axis_is_named() {
+    let scene = ["sample", "doyen-ern-piperno", "--quantity", "t,u_end,v_end,force", "--dt", "0.01", "--to", "3"];
+    let given = quiet(&[&scene[..], &["--format", "csv", "--bare", "--side", "right"]].concat());
+    let turned = |line: &str| -> String {
+        let mut cells: Vec<String> = line.split(',').map(str::to_string).collect();
+        for cell in &mut cells[1..3] {
+            *cell = format!("{:e}", -cell.parse::<f64>().unwrap());
+        }
+        cells.join(",")
+    };
+    let mut lines = given.lines().map(|line| line.replace(",right", ""));
+    let head = lines.next().unwrap().replace(",side", "");
+    let rows: Vec<String> = lines.map(|line| turned(&line)).collect();
+    let (_folder, data) = written("run.csv", &format!("{head}\n{}\n", rows.join("\n")));
+    let hints = json(&["compare", "doyen-ern-piperno", &data, "--to", "3", "--format", "json"])["hints"].clone();
+    assert_eq!((&hints[0]["kind"], hints.as_array().unwrap().len()), (&"axis".into(), 1), "{hints}");
+    let down = ["compare", "doyen-ern-piperno", &data, "--to", "3", "--axis", "down", "--format", "json"];
+    assert_eq!(json(&down)["hints"], serde_json::json!([]));
+}
+
+/// A fall from a height with a speed that is no fraction is compared with a soft contact too.
+#[test]
+fn a_drop_height_meets_a_penalty() {
+    let rod = "[rod]\nlength = 1\nwave_speed = 100\n[impact]\ndrop_height = 1\n[gravity]\nacceleration = 1\n\
+        [run]\ntime = 0.03\n";
+    let (folder, scene) = written("rod.toml", rod);
+    let data = folder.path().join("run.csv").display().to_string();
+    fs::write(&data, "t,u\n0,0\n0.01,-0.012\n0.02,-0.013\n0.03,0.001\n").unwrap();
+    let compare = ["compare", &scene, &data, "--contact-stiffness", "50", "--format", "json"];
+    assert_eq!(json(&compare)["softness"].as_array().unwrap().len(), 1);
+}
+
+/// Springs and masses have no fractions, whatever their numbers are.
+#[test]
+fn exact_numbers_of_soft_chains_are_digits() {
+    let refusal = "found a chain with springs, dashpots or masses in fractions, expected digits";
+    for stiffness in ["20", "25"] {
+        let scene = format!(
+            "[rod]\nlength = 1\nwave_speed = 1\nimpedance = 1\n[impact]\nspeed = 1\n[ground]\n\
+            stiffness = {stiffness}\n[run]\ntime = 3\n"
+        );
+        refused_with(&["solve", "-", "--exact"], &scene, &[refusal]);
+        refused_with(&["solve", "-", "--exact", "--body", "1"], &scene, &[refusal]);
+        let Run { code, out, err } = run_with(&["solve", "-", "--exact", "--digits", "12", "--body", "1"], &scene);
+        assert_eq!(code, Some(0), "{err}");
+        assert!(out.contains("the signals of springs, dashpots and masses are no fractions"), "{out}");
+    }
+}
+
+#[test]
+fn derivatives_without_rows_have_no_table() {
+    let Run { code, out, err } = run(&["solve", "saint-venant-mass", "--body", "1", "--derivatives", "length"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(!out.contains("by length:"), "{out}");
+}
