@@ -426,12 +426,12 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
             let Bounds { speed, strain, .. } = self.near(time);
             Ok((time.value().clone(), [speed, strain]))
         })?;
-        let plain =
-            |((x, _), (time, _)): (&(Estimate<S>, Estimate<S>), &(S, [f64; 2]))| (x.value().clone(), time.clone());
-        let found = self.rates_of(&places.iter().zip(&times).map(plain).collect::<Vec<_>>())?;
+        let (times, bounds): (Vec<S>, Vec<[f64; 2]>) = times.into_iter().unzip();
+        let plain = places.iter().zip(times).map(|((point, _), time)| (point.value().clone(), time));
+        let found = self.rates_of(&plain.collect::<Vec<_>>())?.into_iter();
         let bounded =
-            |([v_t, v_x], (_, [speed, strain])): ([S; 2], (S, [f64; 2]))| [within(&v_t, speed), within(&v_x, strain)];
-        Ok(found.into_iter().zip(times).map(bounded).collect())
+            found.zip(bounds).map(|([v_t, v_x], [speed, strain])| [within(&v_t, speed), within(&v_x, strain)]);
+        Ok(bounded.collect())
     }
 
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
