@@ -12,10 +12,21 @@ pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap
 pub(super) const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 /// Maximum length of a run in round trips.
-pub(crate) const MAX_ROUND_TRIPS: f64 = 1e12;
+const MAX_ROUND_TRIPS: f64 = 1e12;
 const MAX_IMPACTS: u32 = 10_000_000;
 /// A fall is followed trip by trip, like every flight that ends in a touch.
 const MAX_FALL: f64 = 1e6;
+
+/// Refuses a time, written as `shown`, that no run of a rod with the round trip `t1` reaches.
+pub(crate) fn check_time(time: &Number, shown: &str, t1: f64) -> Result<(), ProblemError> {
+    let round_trips = time.to_f64() / t1;
+    if round_trips <= MAX_ROUND_TRIPS {
+        return Ok(());
+    }
+    let found = format!("time = {shown}, which is {round_trips:e} round trips");
+    let expected = format!("at most {MAX_ROUND_TRIPS:e} round trips of 2L/c");
+    Err(ProblemError::new(Kind::Combination, Parameter::Time.path(), found, expected))
+}
 
 /// The values of a problem before any check.
 #[derive(Clone, Debug, Default)]
@@ -190,12 +201,7 @@ impl Draft {
                 let (found, expected) = ("impacts as well as time", "either time or impacts");
                 return Err(ProblemError::new(Kind::Contradiction, Parameter::Impacts.path(), found, expected));
             }
-            let round_trips = time.number.to_f64() / t1;
-            if round_trips > MAX_ROUND_TRIPS {
-                let note = format!(", which is {round_trips:e} round trips");
-                let expected = format!("at most {MAX_ROUND_TRIPS:e} round trips of 2L/c");
-                return Err(time.error(Kind::Combination, &note, expected));
-            }
+            check_time(time.number, time.shown, t1)?;
             return Ok(Run::Time(time.number.clone()));
         }
         let Some(impacts) = self.numbers.get(&Parameter::Impacts) else { return Ok(Run::Impacts(1)) };

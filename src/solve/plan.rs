@@ -10,7 +10,7 @@ use crate::cells::{Effort, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::lattice::{Limits, Undamped};
 use crate::number::{Bounded, Number, Scalar, bits_for_digits};
-use crate::problem::validate::MAX_ROUND_TRIPS;
+use crate::problem::validate::check_time;
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Warning;
 
@@ -235,11 +235,7 @@ impl Plan {
             Want::Run => Reach::run(problem),
             Want::FirstContact | Want::Bounce => Reach::FirstContact,
             Want::Between(_, to) => {
-                let rod = Parameters::<f64>::of(problem, &())?;
-                if to.to_f64() > MAX_ROUND_TRIPS * rod.round_trip() {
-                    // Refuses a time that no run has.
-                    problem.to_builder().time(to.clone()).build()?;
-                }
+                check_time(to, &to.to_string(), Parameters::<f64>::of(problem, &())?.round_trip())?;
                 Reach::Time(if problem.damping().is_some() { beyond(problem, to) } else { to.clone() })
             }
         };
