@@ -5,8 +5,8 @@ import { Engine } from "./engine.js";
 import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
-/** Time limit of a scene in milliseconds, and the rest after which longer numbers settle what doubles do not. */
-const [MOST, REST] = [1000, 200];
+/** Time limits of a scene in milliseconds, in doubles and in longer numbers, and the rest before the latter begin. */
+const [MOST, LONGER, REST] = [1000, 5000, 200];
 const COLUMNS = ["contact from", "to", "t_b", "e_P", "e_E²", "E", "E_h", "E_z"];
 const JOINT_COLUMNS = ["joint", "contact from", "to", "duration", "impulse", "greatest force"];
 
@@ -96,7 +96,7 @@ async function solved({ text, ...rest }, longer) {
   try {
     performance.mark("asked");
     number += 1;
-    const found = await engine.ask("solve", number, text, MOST, longer);
+    const found = await engine.ask("solve", number, text, longer ? LONGER : MOST, longer);
     if (!longer) performance.measure("solve", "asked");
     say("", found.doubts, longer);
     return { ...found, ...rest };

@@ -387,7 +387,7 @@ await open("#mu=20&r=0.05&n=20");
 assert.ok(await page.isHidden("#doubt"));
 assert.match(await text("status"), /error at most \d(\.\d)?e-7 of/);
 
-// A scene that takes too long is left to the command that is shown. The bounce is at 51.3234777 t₁.
+// A scene that needs more than 128 bits is left to the command that is shown. The bounce is at 51.3234777 t₁.
 await open("#mu=1&r=1.5705&g=0&n=1");
 assert.match(await text("doubt"), /is not shown: Not settled: /);
 assert.ok(await page.isVisible("#beyond"));
