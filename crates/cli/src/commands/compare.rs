@@ -164,15 +164,16 @@ impl Compare {
             AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => Some(scene.clone()),
             _ => None,
         };
-        // Refuses a body that is not there.
-        let rod = match (&chain, self.body.number()) {
-            (Some(_), None) => None,
-            (_, body) => Some(scene.into_rod(&self.scene, body)?),
-        };
-        let compared = match (&chain, rod) {
-            (Some(scene), _) => self.compare_bars(scene, &limits, &destinations)?,
-            (None, None) => Vec::new(),
-            (None, Some(scene)) => {
+        let compared = match &chain {
+            Some(chain) => {
+                if let Some(body) = self.body.number() {
+                    // Refuses a body that is not there.
+                    scene.into_rod(&self.scene, Some(body))?;
+                }
+                self.compare_bars(chain, &limits, &destinations)?
+            }
+            None => {
+                let scene = scene.into_rod(&self.scene, self.body.number())?;
                 let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
                 vec![self.compare_rod((None, scene.title.clone()), scene, sources, &limits)?]
             }
