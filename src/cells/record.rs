@@ -214,8 +214,8 @@ impl<S: RoundedSpecial> Record<'_, S> {
         found.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
-    /// Computes the limits of `v_t` and `v_x` from later times at all places, a point and a time, in increasing order of
-    /// times: the values of [`Record::at`], in one march for all of them.
+    /// Computes the limits of `v_t` and `v_x` from later times at all places, a point and a time, in increasing order
+    /// of times: the values of [`Record::at`], in one march for all of them.
     pub(super) fn at_all(&self, places: &[(S, S)]) -> Vec<(S, S)> {
         let (Some((reach, first)), Some((_, last))) = (places.first(), places.last()) else { return Vec::new() };
         let reach = places.iter().fold(reach.clone(), |reach, (x, _)| reach.larger(x.clone()));

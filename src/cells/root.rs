@@ -87,9 +87,9 @@ fn descend<S: Rounded>(c: &[S], slope: &[S]) -> S {
 
 /// Computes the smallest value on `0 … 1`.
 ///
-/// **Accuracy**: within `tolerance` and `16u Σ|c_k|`. Parts are halved until they are monotone, convex or concave, cannot
-/// fall below the least value found by more than that, or are shorter than `√u`, where an end is within a few `u` of the
-/// least value. A convex part has its least value at the root of its slope or at an end.
+/// **Accuracy**: within `tolerance` and `16u Σ|c_k|`. Parts are halved until they are monotone, convex or concave,
+/// cannot fall below the least value found by more than that, or are shorter than `√u`, where an end is within a few
+/// `u` of the least value. A convex part has its least value at the root of its slope or at an end.
 pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S], tolerance: f64) -> Option<S> {
     let zero = c.first()?.zero();
     let unit = zero.log2_roundoff();

@@ -161,8 +161,8 @@ pub trait Motion<S: Scalar>: Send + Sync {
         self.pair(Pair::EnergyParts, time, Side::Left)
     }
 
-    /// Returns `v_t` and `v_x` at every place, a point and a time, in increasing order of times. On a ray, the values are
-    /// the limit from one side.
+    /// Returns `v_t` and `v_x` at every place, a point and a time, in increasing order of times. On a ray, the values
+    /// are the limit from one side.
     fn rates(&self, places: &[(S, S)]) -> Result<Vec<[S; 2]>, Error> {
         let rates = |(point, time): &(S, S)| {
             let Field { velocity, strain, .. } = self.field(point, time, Side::Right)?;

@@ -62,7 +62,10 @@ pub(super) fn motion<N: Bounded>(
     };
     let run = match place.runs.get(&chain, rung.bits(), run) {
         Err(Error::TooManyPieces { .. }) if limited => return Err(undecided("by fractions")),
-        Err(Error::Irrational { .. } | Error::SoftExact) if !is_last => return Err(undecided("by fractions")),
+        // Doubles keep their answer where fractions have none.
+        Err(Error::Irrational { .. } | Error::SoftExact) if !is_last || matches!(plan.numbers, Numbers::Double(_)) => {
+            return Err(undecided("by fractions"));
+        }
         run => run?,
     };
     let motion = BodyMotion::new(&chain, body, run);

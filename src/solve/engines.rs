@@ -22,7 +22,7 @@ impl Target for f64 {
                 return long_chain(problem, plan, rung, observe);
             }
             let engine = chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?;
-            let rungs = chain::rungs(plan.numbers).into_iter().skip(1).collect();
+            let rungs = plan.chain_rungs().into_iter().skip(1).collect();
             let owned = (problem.clone(), plan.clone(), observe.clone());
             let run = move |rung| long_chain(&owned.0, &owned.1, rung, &owned.2);
             let longer = Longer::<f64> { rungs, exact_contacts: u32::MAX, run: Box::new(run) };

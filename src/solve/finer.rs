@@ -45,7 +45,9 @@ impl Finer {
             Numbers::Exact | Numbers::ExactThenDigits(_) | Numbers::Certified(_) => true,
         };
         let longer = places.iter().flat_map(|places| places.spelled()).filter(|number| !held(number));
-        let Some(digits) = longer.map(Number::written_digits).max().filter(|_| LONG) else { return Ok(None) };
+        let Some(digits) = longer.map(Number::written_digits).max().filter(|_| LONG && plan.may_climb()) else {
+            return Ok(None);
+        };
         // Few lengths, so that few runs are made.
         let digits = (digits + MORE_DIGITS).next_multiple_of(40).min(MAX_RUN_DIGITS);
         let mut kept = locked(&self.0);

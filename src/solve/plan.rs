@@ -256,8 +256,8 @@ impl Plan {
         Ok(Self::with(problem, numbers, engine, reach, (keep_from, settles_events)))
     }
 
-    /// Returns the plan without numbers longer than doubles; undamped rods keep fractions, for events that coincide. Its
-    /// answers come at once, with whatever bounds they have.
+    /// Returns the plan without attempts in numbers longer than doubles; without damping fractions remain, for events
+    /// that coincide. Its answers come at once, with whatever bounds they have.
     ///
     /// ```
     /// use dalembert::{Numbers, Plan, Problem, Question, TypedHistory};
@@ -364,7 +364,7 @@ impl Plan {
     /// Returns the rung after `rung`, by the deficit of the answer; `None` if no other numbers are worth trying.
     pub(crate) fn next(&self, rung: Rung, lacks: Lacks) -> Option<Rung> {
         if self.engine == Engine::Chain {
-            return chain::rungs(self.numbers).into_iter().skip_while(|known| *known != rung).nth(1);
+            return self.chain_rungs().into_iter().skip_while(|known| *known != rung).nth(1);
         }
         let Climb { bits: after, most_bits, near_miss, exact_roots, most_enclosed, .. } = self.climb;
         if most_bits <= FEWEST_BITS {
@@ -404,6 +404,17 @@ impl Plan {
                 (next <= f64::from(most_enclosed)).then_some(Rung::Enclosures(fits(next as u32)))
             }
         }
+    }
+
+    /// Returns the numbers of the attempts at a body of a chain, in order.
+    pub(super) fn chain_rungs(&self) -> Vec<Rung> {
+        let rungs = chain::rungs(self.numbers).into_iter();
+        rungs.filter(|rung| rung.bits() <= self.climb.most_bits).collect()
+    }
+
+    /// Returns whether longer numbers may follow the first ones.
+    pub(super) fn may_climb(&self) -> bool {
+        self.climb.bits <= self.climb.most_bits
     }
 
     /// Returns the rungs to query, in order, if those of `rung` cannot distinguish a time from an event or a ray.
@@ -522,7 +533,7 @@ impl Plan {
             }
             _ => (double_digits, double_cells),
         };
-        Effort { digits, cells, until_lost: self.climb.bits <= self.climb.most_bits }
+        Effort { digits, cells, until_lost: self.may_climb() }
     }
 
     /// Returns the plan after a run in doubles that lacks this many bits.

@@ -13,8 +13,8 @@ function answers() {
   return {
     load: (module) => wasm_bindgen({ module_or_path: module }).then(() => true),
     /**
-     * Solves a scene and returns all that is shown at once; later questions name the scene by its number. Longer numbers
-     * draw it only if doubles have not: they take a hundred times as long.
+     * Solves a scene and returns all that is shown at once; later questions name the scene by its number. Longer
+     * numbers draw it only if doubles have not: they take a hundred times as long.
      */
     solve(number, text, milliseconds, longer) {
       const fresh = new wasm_bindgen.Run(text, milliseconds, longer);

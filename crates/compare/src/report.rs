@@ -500,8 +500,11 @@ impl Comparison {
 
     /// Returns the report for the body of a chain with this number, from 1, and name.
     pub fn of_body<'a>(&'a self, body: usize, name: Option<&'a str>, units: &Units) -> BodyReport<'a> {
-        let files = self.files.iter().map(|file| ComparedReport::new(file, units)).collect();
-        BodyReport { body, name, files, orders: &self.orders }
+        BodyReport { body, name, files: self.reports(units), orders: &self.orders }
+    }
+
+    fn reports(&self, units: &Units) -> Vec<ComparedReport<'_>> {
+        self.files.iter().map(|file| ComparedReport::new(file, units)).collect()
     }
 
     /// Returns the report as JSON, schema 1: the members of a single file stand at the top, those of several under
@@ -510,10 +513,7 @@ impl Comparison {
         let schema = SchemaVersion;
         match self.files.as_slice() {
             [one] => json!(FileReport { schema, title, file: ComparedReport::new(one, units) }),
-            files => {
-                let files = files.iter().map(|file| ComparedReport::new(file, units)).collect();
-                json!(SeriesReport { schema, title, files, orders: &self.orders })
-            }
+            _ => json!(SeriesReport { schema, title, files: self.reports(units), orders: &self.orders }),
         }
     }
 }

@@ -127,11 +127,7 @@ fn values_at(
         let waves = history.waves()?;
         return Ok(points.iter().map(|point| quantity.of_field(waves.at(&point.y, &point.x))).collect());
     }
-    rates_at(history, quantity, points)
-}
-
-/// Returns velocity or strain at points `(t, x)`: of a damped rod in one march for all of them.
-fn rates_at(history: &TypedHistory<f64>, quantity: FieldQuantity, points: &[DVec2]) -> Result<Vec<f64>, Error> {
+    // A damped rod answers in one march for points in the order of time.
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| points[*a].x.total_cmp(&points[*b].x));
     let rates = history.ask(

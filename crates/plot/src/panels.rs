@@ -386,7 +386,7 @@ fn single_bounce(scenes: &[SceneData], names: [&str; 2], mut y: Axis) -> Panel {
 /// vibration. The upper edge is `E`.
 fn energy(scene: &SceneData, scenes: &[SceneData]) -> Panel {
     let edges = [Quantity::GravityEnergy, Quantity::TranslationalEnergy, Quantity::Energy];
-    let edges = edges.map(|quantity| scene.curves(quantity).concat());
+    let mut edges = edges.map(|quantity| scene.curves(quantity).concat());
     let least = edges[0].iter().map(|point| point.y).fold(f64::INFINITY, f64::min);
     let base = if least.is_finite() { least.min(0.0) } else { 0.0 };
     let greatest = edges[2].iter().map(|point| point.y).fold(base, f64::max);
@@ -396,7 +396,6 @@ fn energy(scene: &SceneData, scenes: &[SceneData]) -> Panel {
     let gravity = if base < 0.0 { format!("gravity, from {} up", y.short(base)) } else { "gravity".into() };
     let mut names = [gravity, "centre of mass".into(), "vibration E_z".into()];
     let level = |curve: &Curve| curve.iter().map(|point| DVec2::new(point.x, base)).collect::<Curve>();
-    let mut edges = edges;
     if scene.is_rigid() {
         // A rigid mass has no vibration, and its curve holds its energy of height too.
         names[1] = "energy of the mass".into();
