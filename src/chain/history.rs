@@ -1,7 +1,7 @@
 //! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
 
 use std::fmt;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use super::body::Body;
 use super::column::{ChainColumn, ChainQuantity};
@@ -154,17 +154,17 @@ impl<N: ToValue> Answers for ChainRun<N> {
 }
 
 /// Runs `chain` in the numbers of `rung`.
-fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Arc<dyn Answers>, Error> {
+fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>, Error> {
     let observe = &|events: usize, pieces: usize| observe(events, pieces);
     Ok(match rung {
-        Rung::Double => Arc::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
-        Rung::Fractions => Arc::new(ChainRun::<Rational>::new(chain, &(), observe)?),
-        Rung::Bits(..=128) if LONG => Arc::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?),
-        Rung::Bits(129..=256) if LONG => Arc::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?),
-        Rung::Bits(bits) if LONG => Arc::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?),
+        Rung::Double => Box::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
+        Rung::Fractions => Box::new(ChainRun::<Rational>::new(chain, &(), observe)?),
+        Rung::Bits(..=128) if LONG => Box::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?),
+        Rung::Bits(129..=256) if LONG => Box::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?),
+        Rung::Bits(bits) if LONG => Box::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?),
         Rung::Enclosures(bits) if LONG => {
             let precision = IntervalPrecision { bits, exact: true };
-            Arc::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
+            Box::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
         }
         Rung::Bits(bits) | Rung::Enclosures(bits) | Rung::Confirmed(bits) => {
             return Err(Error::NotDecided { what: "what the answer is", bits });
@@ -172,7 +172,20 @@ fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Arc<dyn Answers>
     })
 }
 
-type Attempt = OnceLock<Result<Arc<dyn Answers>, Error>>;
+/// A run with its listing.
+#[derive(Debug)]
+struct Solved {
+    run: Box<dyn Answers>,
+    listing: OnceLock<ChainListing>,
+}
+
+impl Solved {
+    fn listing(&self) -> &ChainListing {
+        self.listing.get_or_init(|| self.run.listing())
+    }
+}
+
+type Attempt = OnceLock<Result<Solved, Error>>;
 
 /// A solved chain.
 ///
@@ -303,7 +316,7 @@ impl ChainHistory {
     /// **Errors**: the errors of the runs.
     pub fn listing(&self) -> Result<ChainListing, Error> {
         let peaks = !self.chain.is_soft();
-        let listing = self.settled(|run| Ok(run.listing()), |listing| listing.numbers(peaks))?;
+        let listing = self.settled(|solved| Ok(solved.listing().clone()), |listing| listing.numbers(peaks))?;
         let printed = |value: Value| self.printed(value);
         let forces = listing.forces.into_iter();
         Ok(ChainListing {
@@ -320,7 +333,7 @@ impl ChainHistory {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if no attempt tells the time from that of a jump.
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
         let value =
-            self.settled(|run| run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
+            self.settled(|solved| solved.run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
         Ok(self.printed(value))
     }
 
@@ -332,7 +345,7 @@ impl ChainHistory {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
         }
-        let field = self.settled(|run| run.field(body, point, time, side), judged)?;
+        let field = self.settled(|solved| solved.run.field(body, point, time, side), judged)?;
         Ok(field.map(|value| self.printed(value)))
     }
 
@@ -341,37 +354,38 @@ impl ChainHistory {
     /// **Errors**: the errors of the runs.
     pub fn ending(&self) -> Result<Ending, Error> {
         let peaks = !self.chain.is_soft();
-        self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks))
+        self.settled(|solved| Ok((solved.listing().clone(), solved.run.ending().clone())), |(listing, _)| listing.numbers(peaks))
             .map(|(_, end)| end)
     }
 
     /// Returns the number of wave pieces of the first attempt that reaches its end.
     pub fn pieces(&self) -> usize {
-        self.reached().map_or(0, |run| run.pieces())
+        self.reached().map_or(0, |solved| solved.run.pieces())
     }
 
     /// Returns the warning of events that even the last attempt does not tell apart.
     pub fn warning(&self) -> Option<Warning> {
         let runs = || self.attempts.iter().filter_map(|(_, attempt)| attempt.get()?.as_ref().ok());
-        let doubtful = runs().all(|run| !is_whole(&**run));
+        let doubtful = runs().all(|run| !is_whole(run));
         let from = runs()
-            .filter_map(|run| run.doubt())
+            .filter_map(|solved| solved.run.doubt())
             .fold(None, |least: Option<f64>, t| Some(least.map_or(t, |l| l.min(t))));
         from.filter(|_| doubtful).map(|from| Warning::Coincidence { from })
     }
 
-    fn reached(&self) -> Option<&Arc<dyn Answers>> {
+    fn reached(&self) -> Option<&Solved> {
         self.attempts.iter().find_map(|(_, attempt)| attempt.get()?.as_ref().ok())
     }
 
     /// Returns an attempt, which runs when it is needed first.
-    fn attempt(&self, k: usize) -> Result<&Arc<dyn Answers>, Error> {
+    fn attempt(&self, k: usize) -> Result<&Solved, Error> {
         let (rung, attempt) = &self.attempts[k];
         let make = || {
             let doubles = matches!(self.numbers, Numbers::Double(_));
             let limited = *rung == Rung::Fractions && doubles && self.chain.max_pieces > EXACT_PIECES;
             let chain = Chain { max_pieces: EXACT_PIECES, ..self.chain.clone() };
-            run(*rung, if limited { &chain } else { &self.chain }, &self.observe)
+            let run = run(*rung, if limited { &chain } else { &self.chain }, &self.observe)?;
+            Ok(Solved { run, listing: OnceLock::new() })
         };
         attempt.get_or_init(make).as_ref().map_err(Clone::clone)
     }
@@ -380,7 +394,7 @@ impl ChainHistory {
     /// if there is none, that with the smallest bounds.
     fn settled<T>(
         &self,
-        query: impl Fn(&dyn Answers) -> Result<T, Error>,
+        query: impl Fn(&Solved) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<Judged<'_>>,
     ) -> Result<T, Error> {
         let mut best: Option<(bool, f64, T)> = None;
@@ -391,7 +405,7 @@ impl ChainHistory {
             Numbers::Digits(n) | Numbers::ExactThenDigits(n) | Numbers::Certified(n) => -f64::from(bits_for_digits(n)),
         };
         for k in 0..self.attempts.len() {
-            let answer = self.attempt(k).and_then(|run| Ok((query(&**run)?, is_whole(&**run))));
+            let answer = self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run))));
             let (answer, whole) = match answer {
                 Ok(answer) => answer,
                 // The first attempt says what is wrong with the question.
@@ -438,6 +452,6 @@ impl ChainHistory {
 }
 
 /// Returns whether a run reaches its end with every event decided.
-fn is_whole(run: &dyn Answers) -> bool {
+fn is_whole(Solved { run, .. }: &Solved) -> bool {
     *run.ending() == Ending::Time && run.doubt().is_none()
 }

@@ -51,6 +51,7 @@ pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 #[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 mod tests {
     mod conformance;
+    mod peak;
     mod properties;
     #[path = "../../../tests/suite/random_chain.rs"]
     mod random_chain;

@@ -9,6 +9,9 @@ use crate::number::Bounded;
 /// Number of parts of a width in which [`Curve::mean_fall`] bounds a function.
 const FALL_PARTS: i64 = 16;
 
+/// Number of parts of a width in which [`Curve::stays_below`] bounds a signal.
+const PARTS: u32 = 8;
+
 impl<N: Bounded> Curve<N> {
     /// Returns the greatest value between the stored values of two times, and the first time of it. `slope` is a curve
     /// and a factor whose product is the slope of the signal, if they are known.
@@ -80,6 +83,38 @@ impl<N: Bounded> Curve<N> {
         if is_exact_zero(&spare) { (value, time) } else { (value.widened(&spare), time.widened(&width)) }
     }
 
+    /// Returns whether the curve stays below `least` between the stored values of two times, by a bound in doubles.
+    ///
+    /// **Source**: `f ≤ d₀ + Σ |dₖ| hᵏ` with the coefficients `dₖ` about the middle of a part of the half-width `h`. The
+    /// roundings of `n` coefficients about `m` are below `8 n ε Σ |cₖ| (|m| + h)ᵏ`.
+    fn stays_below(&self, least: &N, from: &N, to: &N) -> bool {
+        let place = |time: &N| {
+            let (stored, error) = self.in_units(&(time.clone().centred().0 - &self.origin)).centred();
+            (stored.to_f64(), error.to_f64().abs())
+        };
+        let ((from, before), (to, after)) = (place(from), place(to));
+        let late = 2.0 * (before + after) + 4.0 * f64::EPSILON * (from.abs() + to.abs());
+        let half = ((to - from) / f64::from(2 * PARTS)).abs() + late;
+        let terms: Vec<f64> = self.terms.iter().map(N::to_f64).collect();
+        let count = terms.len() as f64;
+        let most = |part: u32| {
+            let middle = from + (to - from) * f64::from(2 * part + 1) / f64::from(2 * PARTS);
+            let mut about = terms.clone();
+            for first in 0..about.len() - 1 {
+                for k in (first..about.len() - 1).rev() {
+                    about[k] += about[k + 1] * middle;
+                }
+            }
+            let reach = middle.abs() + half;
+            let size = terms.iter().rev().fold(0.0, |sum, term| sum * reach + term.abs());
+            let others = about[1..].iter().rev().fold(0.0, |sum, term| (sum + term.abs()) * half);
+            let rounding = 8.0 * count * f64::EPSILON * size;
+            // What underflows is less than the least normal double.
+            about[0] + others + rounding + 2.0 * self.error.to_f64().abs() + 1e-290 * count
+        };
+        (0..PARTS).map(most).all(|most| most.is_finite() && least.double(most).below(least) == Ok(true))
+    }
+
     /// Returns the time of a smooth maximum, which is near the time `here` after the origin, within its bound.
     ///
     /// **Source**: a signal within `e` of the curve has its maximum where the curve is within `2e` of its own. Where
@@ -144,6 +179,15 @@ impl<N: Bounded> Signal<N> {
                 let [first, last] = [from, to].map(|t| line.value_at(t));
                 if first.below(&last) == Ok(true) { (last, to.clone()) } else { (first, from.clone()) }
             }
+        }
+    }
+
+    /// Returns whether the signal stays below `least` between the stored values of two times, by a bound that costs
+    /// little.
+    pub(super) fn stays_below(&self, least: &N, from: &N, to: &N) -> bool {
+        match self {
+            Signal::Curve(curve) => curve.stays_below(least, from, to),
+            Signal::Line(_) => false,
         }
     }
 }

@@ -169,15 +169,17 @@ impl<N: Bounded> ChainRun<N> {
         let first = stages.partition_point(|stage| stage.from.to_f64() < impact.t.to_f64());
         let first =
             (first.saturating_sub(2)..stages.len()).find(|k| stages[*k].closed && stages[*k].from.alike(&impact.t));
-        let zero = self.end.zero();
-        let (mut impulse, mut peak, mut peak_time) = (zero, None::<N>, impact.t.clone());
-        let mut later = first.map_or(&[][..], |first| &stages[first..]).iter().peekable();
-        while let Some(stage) = later.next().filter(|stage| stage.closed) {
-            let to = later.peek().map_or(&self.end, |next| &next.from);
-            // A break at the end of the run does not count.
-            if peak.is_some() && later.peek().is_none() && stage.from.same(to) {
-                break;
-            }
+        let later = first.map_or(&[][..], |first| &stages[first..]);
+        let ends = later.iter().skip(1).map(|next| &next.from).chain([&self.end]);
+        let closed = later.iter().zip(ends).take_while(|(stage, _)| stage.closed);
+        // A break at the end of the run does not count.
+        let is_counted = |(k, (stage, to)): &(usize, (&Stage<N>, &N))| {
+            *k == 0 || *k + 1 < later.len() || !stage.from.same(to)
+        };
+        let closed: Vec<(&Stage<N>, &N)> = closed.enumerate().filter(is_counted).map(|(_, stage)| stage).collect();
+        let least = self.least_peak(&closed);
+        let (mut impulse, mut peak, mut peak_time) = (self.end.zero(), None::<N>, impact.t.clone());
+        for (stage, to) in closed {
             let force = &stage.force;
             impulse = impulse + force.integral(&stage.from, to);
             // An uncertain end of the stage moves the area of the force that ends there.
@@ -194,6 +196,9 @@ impl<N: Bounded> ChainRun<N> {
             // The force of a spring alone has the slope −k gap′.
             let spring = self.springs[node].as_ref().filter(|soft| is_exact_zero(&soft.damping));
             let slope = spring.and_then(|soft| Some((stage.softness()?.rate.negated(), &soft.stiffness)));
+            if least.as_ref().is_some_and(|least| force.stays_below(least, &stage.from, to)) {
+                continue;
+            }
             let found = force.greatest(&stage.from, to, slope.as_ref().map(|(curve, factor)| (curve, *factor)));
             let (value, at) = match peak {
                 Some(peak) if stage.softness().is_some() => highest((peak, peak_time), found),
@@ -204,6 +209,18 @@ impl<N: Bounded> ChainRun<N> {
         }
         let peak = peak.unwrap_or_else(|| self.end.zero());
         ChainContact { node, impact: impact.t.clone(), release, impulse, peak, peak_time }
+    }
+
+    /// Returns a number that the greatest force over stages, each with its end, exceeds or equals; `None` for a single
+    /// stage.
+    fn least_peak(&self, stages: &[(&Stage<N>, &N)]) -> Option<N> {
+        let least = |force: N| {
+            let (stored, error) = force.centred();
+            (stored - error.doubled()).centred().0
+        };
+        let last = stages.iter().map(|(stage, to)| least(stage.force.value_at(to)));
+        let greatest = last.reduce(|a, b| if a.below(&b) == Ok(true) { b } else { a });
+        greatest.filter(|_| SOFT && stages.len() > 1)
     }
 
     /// Returns the pieces of the compressive force of a node, in order and without a gap. In a chain with springs,
