@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from ._problem import Problem
 
 Slice = Literal["points", "averages", "p1"]
-Parameter = Literal["length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap"]
+Parameter = Literal[
+    "length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap", "stiffness"
+]
 TableName = Literal["events", "contacts", "flights", "stress_history"]
 _TABLES = get_args(TableName)
 
@@ -269,8 +271,9 @@ class History(Frozen):
 
         Parameters
         ----------
-        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap"} or str
-            The value; of a start that is not uniform ``"displacement"``, ``"strain"`` or ``"velocity"`` as a whole,
+        by : {"length", "wave_speed", "modulus", "density", "damping", "gravity", "impact_speed", "gap", \
+              "stiffness"} or str
+            The value; the stiffness is that of a contact that yields; of a start that is not uniform ``"displacement"``, ``"strain"`` or ``"velocity"`` as a whole,
             or at a point: ``"velocity[0]"``.
         table : {"events", "contacts", "flights", "stress_history"}, optional
             The array of that name.

@@ -339,7 +339,7 @@ fn named(quantities: &Bound<'_, PyAny>, needs: Needs) -> PyResult<Vec<Quantity>>
 }
 
 fn parameter(by: &Bound<'_, PyAny>) -> PyResult<Parameter> {
-    typed::<String>("by", by, "the name of a value of the problem")?.parse().map_err(refuse)
+    Parameter::differentiable(&typed::<String>("by", by, "the name of a value of the problem")?).map_err(refuse)
 }
 
 fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {

@@ -18,6 +18,8 @@ struct Names {
     noun: &'static str,
     /// Words for it that are no names, in lower case: a message suggests the name in their place.
     synonyms: &'static [&'static str],
+    /// Whether derivatives are taken by it.
+    is_differentiable: bool,
 }
 
 macro_rules! parameters {
@@ -58,23 +60,35 @@ macro_rules! parameters {
             const fn names(self) -> Names {
                 match self {
                     $(Parameter::$parameter => {
-                        Names { path: $path, field: stringify!($field), noun: $noun, synonyms: &$synonyms }
+                        Names {
+                            path: $path,
+                            field: stringify!($field),
+                            noun: $noun,
+                            synonyms: &$synonyms,
+                            is_differentiable: parameters!(differentiable $kind),
+                        }
                     })+
                     Parameter::Displacement(_) => Names {
                         path: "start.displacement",
                         field: "displacement",
                         noun: "a displacement",
                         synonyms: &["u", "v", "deformation", "position"],
+                        is_differentiable: true,
                     },
                     Parameter::Strain(_) => Names {
                         path: "start.strain",
                         field: "strain",
                         noun: "a strain",
                         synonyms: &["prestrain", "initial_strain", "v_x", "u_x"],
+                        is_differentiable: true,
                     },
-                    Parameter::Velocity(_) => {
-                        Names { path: "start.velocity", field: "velocity", noun: "a velocity", synonyms: &[] }
-                    }
+                    Parameter::Velocity(_) => Names {
+                        path: "start.velocity",
+                        field: "velocity",
+                        noun: "a velocity",
+                        synonyms: &[],
+                        is_differentiable: true,
+                    },
                 }
             }
         }
@@ -91,9 +105,16 @@ macro_rules! parameters {
             self.set(Parameter::$parameter, value)
         }
     };
+    (setter setting $(#[doc = $doc:literal])+ $parameter:ident $field:ident) => {
+        parameters!(setter number $(#[doc = $doc])+ $parameter $field);
+    };
     (setter choice $(#[doc = $doc:literal])+ $parameter:ident $field:ident) => {};
+    (differentiable number) => { true };
+    (differentiable $other:ident) => { false };
 }
 
+// Derivatives are taken by a `number`. A `setting` is a number that nothing of the motion up to its end depends on, or
+// only through another one.
 parameters! {
     /// `L > 0`: the length.
     number Length: "rod.length", length, "a length", ["l", "size"];
@@ -106,7 +127,7 @@ parameters! {
     /// `ρ > 0`: the density.
     number Density: "rod.density", density, "a density", ["rho", "ρ", "mass_density"];
     /// `S > 0`: the cross-section; without it forces, impulses and energies are those of a unit of it.
-    number Area: "rod.area", area, "an area", ["a", "s", "cross_section", "section"];
+    setting Area: "rod.area", area, "an area", ["a", "s", "cross_section", "section"];
     /// `r ≥ 0`: the damping; without it none.
     number Damping: "rod.damping", damping, "a damping", ["r", "damping_ratio", "friction"];
     /// The end `x = L`, free or fixed.
@@ -119,7 +140,7 @@ parameters! {
     number Gap: "impact.gap", gap, "a gap", ["clearance", "distance", "initial_gap", "jeu", "d0"];
     /// `h > 0`: a fall from rest through this height, without air drag or damping: `μ = √(2 g h)`. The fall is over
     /// at `t = 0`, the first touch.
-    number DropHeight: "impact.drop_height", drop_height, "a drop height", ["h", "height", "fall_height"];
+    setting DropHeight: "impact.drop_height", drop_height, "a drop height", ["h", "height", "fall_height"];
     /// `g ≥ 0`: the acceleration of gravity; without it none.
     number Gravity: "gravity.acceleration", gravity, "an acceleration", ["g"];
     /// `k ≥ 0`: the stiffness of the spring that yields below a body of a chain, the whole of it: a force per length.
@@ -127,9 +148,9 @@ parameters! {
     number Stiffness: "ground.stiffness", stiffness, "a stiffness",
         ["k", "spring", "penalty", "contact_stiffness", "spring_constant"];
     /// The time up to which to follow the motion, which is included.
-    number Time: "run.time", time, "a time", ["t", "t_end", "end_time", "duration", "until"];
+    setting Time: "run.time", time, "a time", ["t", "t_end", "end_time", "duration", "until"];
     /// The number of contacts to follow, each with the flight after it; without it and without a `time`, one.
-    number Impacts: "run.impacts", impacts, "a number of impacts", ["n", "bounces", "contacts", "hits"];
+    setting Impacts: "run.impacts", impacts, "a number of impacts", ["n", "bounces", "contacts", "hits"];
 }
 
 impl Parameter {
@@ -152,6 +173,34 @@ impl Parameter {
     /// Returns the table and the key of the path: `impact` and `speed`.
     pub(crate) fn table_and_key(self) -> (&'static str, &'static str) {
         self.path().split_once('.').unwrap_or(("", self.path()))
+    }
+
+    /// Returns whether derivatives are taken by it: the motion depends on it by itself.
+    pub fn is_differentiable(self) -> bool {
+        self.names().is_differentiable
+    }
+
+    /// Returns the parameters that derivatives are taken by, with a list of points as a whole.
+    pub fn all_differentiable() -> impl Iterator<Item = Parameter> + Clone {
+        Parameter::ALL.iter().copied().filter(|parameter| parameter.is_differentiable())
+    }
+
+    /// Reads the path or the field of a parameter that derivatives are taken by.
+    ///
+    /// **Errors**: [`UnknownName`] with those that derivatives are taken by, also for a parameter that is none of them.
+    ///
+    /// ```
+    /// use dalembert::Parameter;
+    /// assert_eq!(Parameter::differentiable("rod.length"), Ok(Parameter::Length));
+    /// assert!(!Parameter::differentiable("area").unwrap_err().known.contains(&"area"));
+    /// ```
+    pub fn differentiable(text: &str) -> Result<Self, UnknownName> {
+        let names = || Parameter::all_differentiable().map(Parameter::name);
+        match text.parse::<Parameter>() {
+            Ok(parameter) if parameter.is_differentiable() => Ok(parameter),
+            Ok(_) => Err(UnknownName { nearest: None, ..UnknownName::new("parameter", text, names()) }),
+            Err(error) => Err(UnknownName { known: names().collect(), ..error }),
+        }
     }
 
     /// Returns the words that a message answers with this parameter.

@@ -1,9 +1,15 @@
 //! A problem with other values: what a derivative is taken by, and what a fit turns.
 
+use std::sync::LazyLock;
+
 use super::{Material, Parameter, Parameters, Problem, Profile, Speed, Start};
 use super::{ProblemError, given::Given};
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
+
+/// The names of the parameters that derivatives are taken by.
+static ALL_DIFFERENTIABLE: LazyLock<String> =
+    LazyLock::new(|| Parameter::all_differentiable().map(Parameter::name).collect::<Vec<_>>().join(", "));
 
 impl Parameter {
     /// The step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
@@ -40,10 +46,7 @@ impl Parameter {
             Parameter::ImpactSpeed => "an impact, or a start above the ground",
             Parameter::Gap => "a start above the ground",
             Parameter::Stiffness => "a spring below the rod: [ground] stiffness or penalty in its scene",
-            _ => {
-                "length, wave_speed, modulus, density, damping, gravity, impact_speed, gap, stiffness, displacement, \
-                 strain or velocity"
-            }
+            _ => &ALL_DIFFERENTIABLE,
         };
         self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })
     }
@@ -69,8 +72,7 @@ impl Parameter {
     /// has one.
     fn number(self, problem: &mut Problem) -> Option<&mut Number> {
         let held = match (self, &problem.material, &problem.start) {
-            // Nothing of the motion up to its end depends on these alone.
-            (Parameter::Area | Parameter::DropHeight | Parameter::Time, ..) => return None,
+            _ if !self.is_differentiable() => return None,
             (Parameter::WaveSpeed, Material::Elastic { .. }, _) => Parameter::Modulus,
             (Parameter::ImpactSpeed, _, Start::Uniform(Speed::DropHeight(_))) => Parameter::DropHeight,
             _ => self,

@@ -85,7 +85,8 @@ const INSTEAD: [(&str, &str); 2] = [
 /// ```
 ///
 /// A single body may stand in `[rod]`, which has `bottom` and `top` of its own; it starts with `[impact] speed` and
-/// `gap` or with the points of `[start]`. Without `bottom` it is above rigid ground.
+/// `gap` or with the points of `[start]`. Without `bottom` it is above rigid ground. With a wave speed alone, ρA is 1:
+/// forces and stiffnesses are those per ρA.
 ///
 /// ```toml
 /// [rod]
@@ -437,7 +438,12 @@ impl<'a> Reader<'a> {
                     }
                 }
                 let expected = "an impedance Z = ρcA beside the wave speed";
-                let impedance = self.plain_number(impedance)?.ok_or_else(|| missing(impedance, expected))?;
+                let impedance = match self.plain_number(impedance)? {
+                    Some(impedance) => impedance,
+                    // The forces of a rod by itself are those per ρA.
+                    None if known == ROD_KEYS => wave_speed.clone(),
+                    None => return Err(missing(impedance, expected)),
+                };
                 Body::new(length, wave_speed, impedance)
             }
             (None, Some(modulus)) => {

@@ -88,7 +88,7 @@ struct SampleArgs {
     #[arg(long, value_enum)]
     side: Option<SideArg>,
     /// Derivatives of the values by values of the scene, as with solve; time and point stay where they are
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Parameter::differentiable)]
     derivatives: Vec<Parameter>,
     /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
     #[arg(long)]

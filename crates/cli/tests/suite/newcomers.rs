@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use dalembert::Parameter;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -140,4 +141,35 @@ fn derivatives_without_rows_have_no_table() {
     let Run { code, out, err } = run(&["solve", "saint-venant-mass", "--body", "1", "--derivatives", "length"]);
     assert_eq!(code, Some(0), "{err}");
     assert!(!out.contains("by length:"), "{out}");
+}
+
+/// The help, the guide to the output and the refusal of a name list the same parameters.
+#[test]
+fn parameters_of_derivatives_are_listed_alike() {
+    let help = quiet(&["solve", "--help"]);
+    let help = help.split_once("--derivatives").unwrap().1.split_once("\n      --").unwrap().0.to_string();
+    let output = include_str!("../../../../docs/output.md");
+    let output = output.split_once("\n## Derivatives\n").unwrap().1.split_once("\n## ").unwrap().0;
+    let names: Vec<&str> = Parameter::all_differentiable().map(Parameter::name).collect();
+    for name in &names {
+        assert!(help.contains(name) && output.contains(&format!("`{name}`")), "{name}:\n{help}");
+    }
+    let listed = format!("expected one of {}", names.join(", "));
+    for (command, name) in [("solve", "foo"), ("solve", "area"), ("sample", "time"), ("solve", "run.impacts")] {
+        let unknown = format!("found the parameter `{name}`, {listed}");
+        refused(&[command, "paper-strong", "--derivatives", name], &[&unknown]);
+    }
+    assert!(quiet(&["solve", "paper-strong", "--derivatives", "rod.length"]).contains("length"));
+}
+
+/// A rod by itself needs no impedance: its forces are those per ρA.
+#[test]
+fn a_rod_on_a_spring_needs_no_impedance() {
+    let scene = |more: &str| {
+        format!("[rod]\nlength = 1\nwave_speed = 2\n{more}[impact]\nspeed = 1\n[ground]\npenalty = 20\n[run]\ntime = 3\n")
+    };
+    let [without, with] = ["", "impedance = 2\n"].map(|more| run_with(&["solve", "-"], &scene(more)).out);
+    assert!(without == with && without.contains("peak_force"), "{without}");
+    let two = "[[body]]\nlength = 1\nwave_speed = 1\n[run]\ntime = 1\n";
+    refused_with(&["solve", "-"], two, &["no impedance in [[body]] 1"]);
 }
