@@ -121,7 +121,7 @@ impl Chain {
     }
 
     /// Returns whether the chain has a spring or a dashpot.
-    pub(crate) fn has_springs(&self) -> bool {
+    pub fn has_springs(&self) -> bool {
         !self.springs.is_empty()
     }
 
@@ -200,6 +200,24 @@ impl Chain {
     /// Returns whether a node is a unilateral contact: 0 is the bottom of the chain, `n` lies above the n-th body.
     pub fn is_contact(&self, node: usize) -> bool {
         self.start_gap(node).is_some()
+    }
+
+    /// Returns whether the chain is one bar above a ground at rest, whose displacements count from its contact with the
+    /// ground: a rod as on rigid ground, though the ground may yield and the top may have another end.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, End};
+    /// let bar = || Body::new(1.into(), 1.into(), 1.into()).with_velocity((-1).into());
+    /// let chain = |bottom: End| Chain::builder(bar()).bottom(bottom).until(3.into()).build();
+    /// assert!(chain(End::Ground { gap: 0.into(), velocity: Vec::new() })?.is_on_ground());
+    /// assert!(!chain(End::Ground { gap: 1.into(), velocity: Vec::new() })?.is_on_ground());
+    /// assert!(!chain(End::Free)?.is_on_ground());
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn is_on_ground(&self) -> bool {
+        let ([body], [End::Ground { gap, velocity }, _]) = (&self.bodies[..], &self.ends) else { return false };
+        let height = body.displacement.first().map_or_else(|| 0.into(), |(_, height)| height.to_rational());
+        velocity.is_empty() && height == gap.to_rational()
     }
 
     /// Returns the gap of a node at the start if it is a unilateral contact.

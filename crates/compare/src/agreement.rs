@@ -10,6 +10,7 @@ use super::options::Options;
 use super::reference::{NearRays, Reference};
 use super::samples::Samples;
 use dalembert::Error;
+use dalembert::chain::End;
 use dalembert::number::Number;
 use dalembert::problem::Top;
 use dalembert::quantity::Quantity;
@@ -120,14 +121,21 @@ impl Agreement {
 
     /// Finds the contacts and audits the columns. The first `start` samples are at `t = 0`, where the ground does not
     /// act yet. A body of a chain has contacts where its lower end is one, and no balances of its own: its neighbours
-    /// act on it, and it may move below its place at the start.
+    /// act on it, and it may move below its place at the start. A single bar on a ground that yields has balances.
     fn audit_contacts(&mut self, reference: &Reference<'_>, until: Option<f64>, start: usize) {
         let times = &self.grid.times;
         let (Some(first), Some(last)) = (times.first().copied(), times.last().copied()) else { return };
         let theirs = |what: Quantity| self.column(what).map(|compared| compared.theirs.as_slice());
         let force = self.force(reference);
         let chain = reference.history.problem().chain();
-        let (is_alone, lands) = (chain.is_none(), chain.is_none_or(|(chain, body)| chain.is_contact(body)));
+        let chain = chain.as_ref().map(|(chain, body)| (chain, *body));
+        let lands = chain.is_none_or(|(chain, body)| chain.is_contact(body));
+        let is_alone = chain.is_none_or(|(chain, _)| chain.is_on_ground());
+        let is_rigid = chain.is_none_or(|(chain, _)| !chain.has_springs());
+        let is_top_free = chain.map_or_else(
+            || reference.history.problem().top() == Top::Free,
+            |(chain, _)| matches!(chain.ends(), [_, End::Free]),
+        );
         let force = force.as_deref().filter(|_| lands);
         let flags = theirs(Quantity::Contact).filter(|_| lands);
         let end = theirs(Quantity::EndDisplacement).filter(|_| is_alone);
@@ -155,7 +163,7 @@ impl Agreement {
             let is_later = |contact: &ContactRecord| contact.impact > last - 2.0 * self.step;
             contacts.retain(|pair| pair.theirs.is_some() || !pair.ours.as_ref().is_some_and(is_later));
         }
-        let momentum = (is_alone && reference.history.problem().top() == Top::Free).then(|| {
+        let momentum = (is_alone && is_top_free).then(|| {
             let rod = reference.rod();
             MomentumTerms { mass: reference.mass(), gravity: rod.gravity, damping: rod.damping }
         });
@@ -176,6 +184,13 @@ impl Agreement {
             of_body: !is_alone,
             ..input.audit()
         };
+        if !is_rigid {
+            audit.complementarity = None;
+            audit.indentation = self
+                .column(Quantity::EndDisplacement)
+                .filter(|_| is_alone)
+                .map(|end| input.greatest(|k| -end.ours[k]));
+        }
         for pair in &contacts {
             let (contact, count) = match pair {
                 ContactPair { ours: Some(contact), theirs: None } => (contact, &mut audit.missed),

@@ -31,9 +31,12 @@ pub(crate) struct EnergyChange {
 pub(crate) struct Audit {
     /// The greatest `−v(0,t)`.
     pub penetration: Option<Extreme>,
+    /// The greatest `−v(0,t)` of the exact history at these times, on a ground that yields.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub indentation: Option<Extreme>,
     /// The greatest pull of the ground, `−F`.
     pub tension: Option<Extreme>,
-    /// `∫ |v F| dt`, zero where contact and gap exclude each other.
+    /// `∫ |v F| dt`, zero where contact and gap exclude each other; `None` on a ground that yields.
     pub complementarity: Option<f64>,
     pub energy_change: Option<EnergyChange>,
     /// `[P] + 2r [∫ P dt] + ρS L g [t] − ∫ F dt` over all samples, with `P = ρS L h′`.
@@ -46,7 +49,7 @@ pub(crate) struct Audit {
     pub below_step: usize,
     /// Times of the run without samples: before the first, after the last, and holes of ten median steps.
     pub not_covered: Vec<[f64; 2]>,
-    /// Whether the rod is a body of a chain.
+    /// Whether other bodies or ends act on the rod, which then has no balances.
     #[serde(skip)]
     pub of_body: bool,
 }
@@ -81,7 +84,7 @@ const HOLE: f64 = 10.0;
 
 impl AuditInput<'_> {
     /// Returns the first sample with the greatest `value` above zero.
-    fn greatest(&self, value: impl Fn(usize) -> f64) -> Extreme {
+    pub(super) fn greatest(&self, value: impl Fn(usize) -> f64) -> Extreme {
         let none = Extreme { value: 0.0, time: self.times.first().copied().unwrap_or(0.0) };
         let all = (self.start..self.times.len()).map(|k| Extreme { value: value(k), time: self.times[k] });
         all.fold(none, |most, found| if found.value > most.value { found } else { most })

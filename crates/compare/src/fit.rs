@@ -19,7 +19,7 @@ pub(crate) struct FittedValue {
     /// The value in the scene.
     pub(crate) scene: f64,
     pub(crate) value: f64,
-    /// The standard error, from the residuals.
+    /// The standard error, from the scatter of the residuals. It does not contain the shift by the error of a scheme.
     pub(crate) error: f64,
 }
 
@@ -29,6 +29,8 @@ pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
+    /// The correlation of the residuals of neighbouring samples; `None` if there are fewer than three.
+    pub(crate) correlation: Option<f64>,
     /// The history with the fitted values.
     pub(crate) history: TypedHistory<f64>,
 }
@@ -138,6 +140,17 @@ impl Residuals for Pointwise<'_> {
     }
 }
 
+/// Returns the correlation of neighbouring values of the columns that are both numbers; `None` if there are no two.
+fn correlation(columns: &[Vec<f64>]) -> Option<f64> {
+    let pairs = columns.iter().flat_map(|column| column.windows(2)).filter(|pair| !(pair[0] * pair[1]).is_nan());
+    let (mut products, mut squares) = (0.0, 0.0);
+    for pair in pairs {
+        products += pair[0] * pair[1];
+        squares += f64::midpoint(pair[0] * pair[0], pair[1] * pair[1]);
+    }
+    (squares > 0.0).then(|| products / squares)
+}
+
 /// Returns the root of the mean square of the values that are numbers; 1 where it is zero.
 fn root_mean_square(values: &[f64]) -> f64 {
     let numbers = values.iter().filter(|value| !value.is_nan());
@@ -238,7 +251,9 @@ impl Fit {
             let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();
             return Ok(Err(FitError::NotTold(names.join(", "))));
         };
-        let history = solve_beyond(&unknowns.problem_with(&values).unwrap_or(near), last)?;
+        let best = unknowns.problem_with(&values).unwrap_or(near);
+        let correlation = correlation(&stage.by_column(&best)?);
+        let history = solve_beyond(&best, last)?;
         let fitted = |k: usize| FittedValue {
             name: parameters[k].to_string(),
             scene: start[k],
@@ -246,7 +261,7 @@ impl Fit {
             error: errors[k],
         };
         let values = (0..parameters.len()).map(fitted).collect();
-        Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, history }))
+        Ok(Ok(Fit { values, steps: STEPS - left + steps, settled, correlation, history }))
     }
 }
 

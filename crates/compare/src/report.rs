@@ -22,6 +22,9 @@ use dalembert::quantity::{Quantity, Units};
 
 const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
+/// The units of norms over time.
+const NORM_UNITS: &str = "the unit is that of L∞; L1 is in this unit times time, L2 in this unit times √time\n";
+
 /// The meaning of the words of the table.
 pub const LEGEND: &str = "\
 norm                L1 = ∫|e| dt, L2 = √∫e² dt, L∞ = max |e| of e = theirs − ours, by the
@@ -103,7 +106,8 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
     if agreement.outside > 0 {
         out += &format!("{} rows before t = 0 are not compared\n", agreement.outside);
     }
-    out += &format!("theirs − ours; norms are {WEIGHTS}\n\n{}\n", norms_table(agreement, units));
+    let norm_units = if agreement.grid.points.is_none() { NORM_UNITS } else { "" };
+    out += &format!("theirs − ours; norms are {WEIGHTS}\n{norm_units}\n{}\n", norms_table(agreement, units));
     if !softness.is_empty() {
         out += &format!("\n{}\n", softness_table(softness));
     }
@@ -174,6 +178,13 @@ fn detectable_line(detectable: &[Detectable]) -> String {
     if all.is_empty() { String::new() } else { format!("one would be told from: {}\n", all.join(", ")) }
 }
 
+/// Correlation of neighbouring residuals above which they are no noise.
+const ALIKE: f64 = 0.5;
+
+/// The note on a fit whose residuals are no noise.
+const SHIFTED: &str = "\nneighbouring residuals are alike, as those of a scheme: its error shifts the values too, and the\n\
+    standard errors, from the scatter of the residuals, do not contain that; a finer mesh shows it";
+
 /// Returns the tables of a fit: the values, the misfit of each column, and the contacts.
 fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) -> String {
     let row = |value: &FittedValue| {
@@ -201,7 +212,9 @@ fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) 
         }
     };
     let end = if fit.settled { "" } else { "; it had not settled" };
-    format!("{values}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
+    let is_scheme = fit.correlation.is_some_and(|correlation| correlation > ALIKE);
+    let note = if is_scheme { SHIFTED } else { "" };
+    format!("{values}{note}\nin {}{end}\n\n{columns}{contacts}", counted(fit.steps, "step"))
 }
 
 fn norms_table(agreement: &Agreement, units: &Units) -> String {
@@ -285,8 +298,10 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         audit.not_covered.iter().map(|[from, to]| format!("t = {} … {}", number(*from), number(*to))).collect();
     let below = if audit.below_step > 0 { format!(", {} below the step", audit.below_step) } else { String::new() };
     let momentum = audit.momentum.map(|x| format!("{} out of balance", with(x, impulse)));
+    let of_ours = audit.indentation.as_ref().map(|x| format!("; ours: {}", at(x, length))).unwrap_or_default();
+    let penetration = audit.penetration.as_ref().map(|x| at(x, length) + &of_ours);
     let lines = [
-        ("penetration", or(audit.penetration.as_ref().map(|x| at(x, length)), "u_end")),
+        ("penetration", or(penetration, "u_end")),
         ("tension in contact", or(audit.tension.as_ref().map(|x| at(x, force)), "force, stress or strain")),
         ("∫|v F| dt", or(audit.complementarity.map(|x| with(x, &action)), "u_end and force")),
         ("energy", or(energy, "E_total")),
@@ -294,8 +309,12 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         ("contacts", format!("{} missed, {} invented{below}", audit.missed, audit.invented)),
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];
-    // A body of a chain has no balances.
-    let lines = lines.into_iter().filter(|(_, text)| !(audit.of_body && text.starts_with('–')));
+    let is_soft = audit.indentation.is_some();
+    let is_left_out = |(name, text): &(&str, String)| {
+        text.starts_with('–') && (audit.of_body || is_soft && *name == "∫|v F| dt")
+    };
+    let left_out = audit.of_body.then(|| ("not audited", "penetration, energy and momentum: other bodies or ends act on this one".into()));
+    let lines = lines.into_iter().filter(|line| !is_left_out(line)).chain(left_out);
     lines.map(|(name, text)| format!("{name:<20}{text}\n")).collect()
 }
 
@@ -428,6 +447,9 @@ struct FitReport<'a> {
     values: &'a [FittedValue],
     steps: usize,
     settled: bool,
+    /// The correlation of the residuals of neighbouring samples: near zero for noise, near one for the error of a
+    /// scheme, whose shift of the values is not in their standard errors. None of fewer than three samples.
+    correlation: Option<f64>,
     quantities: Vec<FittedQuantity>,
     contacts: Vec<FittedContact<'a>>,
 }
@@ -453,6 +475,7 @@ impl<'a> FitReport<'a> {
             values: &fit.values,
             steps: fit.steps,
             settled: fit.settled,
+            correlation: fit.correlation,
             quantities: then.quantities.iter().map(quantity).collect(),
             contacts: then
                 .contacts

@@ -32,6 +32,16 @@ fn the_contact_explains_what_a_penalty_does() {
     }
     let table = quiet(&["compare", "getfem-penalty", &data]);
     assert!(table.contains("theirs − rigid   their contact: soft − rigid   their scheme: theirs − soft"), "{table}");
+    // A single rod on a spring is audited as one on rigid ground is, but it goes into the ground.
+    for report in [&soft, &given] {
+        let audit = &report["audit"];
+        let depth = (1.0 - f64::exp(-20.0)) / 40.0;
+        for who in ["penetration", "indentation"] {
+            assert!((audit[who]["value"].as_f64().unwrap() - depth).abs() < 1e-3, "{audit}");
+        }
+        assert!(audit["complementarity"].is_null() && !audit["energy_change"].is_null(), "{audit}");
+    }
+    assert!(table.contains("; ours: 0.025 m at t = 2"), "{table}");
     // A stiffer spring is not that of the data.
     let stiff = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "200", "--to", "3"];
     let stiff = json(&[&stiff[..], &["--format", "json"]].concat());
@@ -125,6 +135,10 @@ fn finer_meshes_leave_the_part_of_the_contact() {
     let fitted = json(&[&["compare", &path("rod.toml"), &path("200.csv")][..], &fit].concat());
     let found = fitted["fit"]["values"][0]["value"].as_f64().unwrap();
     assert!((found - 20.0).abs() < 0.2, "{found}");
+    // What remains is the error of the scheme, which the standard error does not know.
+    assert!(fitted["fit"]["correlation"].as_f64().unwrap() > 0.5, "{}", fitted["fit"]);
+    let table = quiet(&[&["compare", &path("rod.toml"), &path("200.csv")][..], &fit[..4]].concat());
+    assert!(table.contains("a finer mesh shows it"), "{table}");
     let [[coarse_contact, coarse], [fine_contact, fine]] = parts[..] else { panic!("{parts:?}") };
     assert!((coarse_contact - fine_contact).abs() < 0.01 * fine_contact, "{parts:?}");
     assert!(fine < 0.5 * coarse && fine < 0.1 * fine_contact, "{parts:?}");

@@ -138,6 +138,8 @@ fn noisy_data_give_honest_errors() {
             .map(|h| h + 1e-4 * ((0..12).map(|_| random.between(0.0, 1.0)).sum::<f64>() - 6.0))
             .collect();
         let fit = fitted(&problem(1.02, 9.7), &["impact_speed", "gravity"], &times, &columns, vec![noisy]);
+        // 61 samples of noise: the standard deviation of their correlation is 1/8.
+        assert!(fit["correlation"].as_f64().unwrap().abs() < 0.5, "{fit}");
         for (value, truth) in fit["values"].as_array().unwrap().iter().zip([1.0, 9.81]) {
             let off = (value["value"].as_f64().unwrap() - truth).abs();
             count += 1;
