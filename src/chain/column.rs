@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use super::body::Body;
 use super::definition::Chain;
 use super::run::ChainContact;
 use crate::quantity::Measure;
@@ -76,6 +77,25 @@ impl ChainQuantity {
         matches!(self, Force | Gap | SpringEnergy | Dissipated)
     }
 
+    /// Returns the meaning of the quantity, without its body or node.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            ChainQuantity::EndDisplacement => "displacement of the lower end, upwards",
+            ChainQuantity::EndVelocity => "velocity of the lower end, upwards",
+            ChainQuantity::TopDisplacement => "displacement of the upper end, upwards",
+            ChainQuantity::TopVelocity => "velocity of the upper end, upwards",
+            ChainQuantity::Centre => "displacement of the centre of mass, upwards",
+            ChainQuantity::CentreVelocity => "velocity of the centre of mass, upwards",
+            ChainQuantity::Kinetic => "kinetic energy",
+            ChainQuantity::StrainEnergy => "strain energy",
+            ChainQuantity::Energy => "kinetic and strain energy, and weight times the displacement of the centre",
+            ChainQuantity::Force => "force, positive in compression",
+            ChainQuantity::Gap => "gap; negative is the depth of a spring",
+            ChainQuantity::SpringEnergy => "energy that the spring holds",
+            ChainQuantity::Dissipated => "energy that the dashpot, or a spring let go at a depth, has taken up",
+        }
+    }
+
     /// Returns the measure of the quantity.
     pub fn measure(self) -> Measure {
         match self {
@@ -131,6 +151,20 @@ impl ChainColumn {
         let of_node = self.quantity.is_of_node();
         let place = if of_node { node_name(self.place, chain) } else { (self.place + 1).to_string() };
         format!("{}.{place}", self.quantity)
+    }
+
+    /// Returns the meaning of the column: `velocity of the upper end, upwards, of body 2 (target)`.
+    pub fn meaning(self, chain: &Chain) -> String {
+        let place = match (self.quantity.is_of_node(), chain.bodies().get(self.place).and_then(Body::name)) {
+            (true, _) => match self.place {
+                0 => "at the bottom".into(),
+                node if node == chain.bodies().len() => "at the top".into(),
+                node => format!("at the joint above body {node}"),
+            },
+            (false, Some(name)) => format!("of body {} ({name})", self.place + 1),
+            (false, None) => format!("of body {}", self.place + 1),
+        };
+        format!("{}, {place}", self.quantity.meaning())
     }
 
     /// Returns every column of `chain`; those of springs at nodes that have one.

@@ -11,7 +11,7 @@ use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
 use crate::number::{
-    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Rational, Reads, Scalar, Value, Wide,
+    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Open, Rational, Reads, Scalar, Value, Wide,
     bits_for_digits,
 };
 use crate::quantity::Measure;
@@ -88,14 +88,32 @@ impl<const N: usize> ToValue for Estimate<Wide<N>> {
     }
 }
 
+/// A time that is asked about.
+#[derive(Clone, Copy)]
+enum Instant<'a> {
+    Spelled(&'a Number),
+    /// The event with this index.
+    Event(usize),
+}
+
 /// A run in any number system.
 trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
-    fn column(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error>;
+    fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
+    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
     fn ending(&self) -> &Ending;
     fn doubt(&self) -> Option<f64>;
     fn pieces(&self) -> usize;
+}
+
+impl Instant<'_> {
+    fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
+        match self {
+            Instant::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
+            Instant::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
+        }
+    }
 }
 
 impl<N: ToValue> Answers for ChainRun<N> {
@@ -109,9 +127,13 @@ impl<N: ToValue> Answers for ChainRun<N> {
         ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
     }
 
-    fn column(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
+    fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
+        time.in_run(self).map(N::to_value)
+    }
+
+    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
         let ChainColumn { quantity, place } = column;
-        let time = N::spelling(time, &self.end.precision());
+        let time = time.in_run(self)?;
         let end = |is_top: bool| self.end_field(place, is_top, &time, side);
         let sums = || self.sums(place, &time);
         let found = match quantity {
@@ -332,8 +354,43 @@ impl ChainHistory {
     ///
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if no attempt tells the time from that of a jump.
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
+        self.value_at(column, Instant::Spelled(time), side)
+    }
+
+    /// Returns the value of a column at an event of the [`listing`](ChainHistory::listing); at a jump, the limit from
+    /// `side`.
+    ///
+    /// **Errors**: [`Error::Open`] if no attempt has this event, or tells it from a jump.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn};
+    /// use dalembert::{Numbers, Side};
+    /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
+    /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
+    /// let history = chain.solve(Numbers::Exact)?;
+    /// let force = ChainColumn::read("force.1", &chain).ok_or("no such joint")?;
+    /// let at = |side: Side| history.value_at_event(force, 0, side).map(|force| force.to_string());
+    /// assert_eq!([at(Side::Left)?, at(Side::Right)?], ["0", "1/2"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn value_at_event(&self, column: ChainColumn, event: usize, side: Side) -> Result<Value, Error> {
+        self.value_at(column, Instant::Event(event), side)
+    }
+
+    /// Returns a time as a number of the answers.
+    ///
+    /// **Errors**: the errors of the runs.
+    pub fn time(&self, time: &Number) -> Result<Value, Error> {
         let value =
-            self.settled(|solved| solved.run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
+            self.settled(|solved| solved.run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
+        Ok(self.printed(value))
+    }
+
+    fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
+        let value = self.settled(
+            |solved| solved.run.column(column, time, side),
+            |value| vec![(value, column.quantity.measure())],
+        )?;
         Ok(self.printed(value))
     }
 
@@ -354,8 +411,11 @@ impl ChainHistory {
     /// **Errors**: the errors of the runs.
     pub fn ending(&self) -> Result<Ending, Error> {
         let peaks = !self.chain.is_soft();
-        self.settled(|solved| Ok((solved.listing().clone(), solved.run.ending().clone())), |(listing, _)| listing.numbers(peaks))
-            .map(|(_, end)| end)
+        self.settled(
+            |solved| Ok((solved.listing().clone(), solved.run.ending().clone())),
+            |(listing, _)| listing.numbers(peaks),
+        )
+        .map(|(_, end)| end)
     }
 
     /// Returns the number of wave pieces of the first attempt that reaches its end.
@@ -434,7 +494,7 @@ impl ChainHistory {
                 best = Some((whole, worst, answer));
             }
         }
-        best.map(|(_, _, answer)| answer).ok_or_else(|| failed.unwrap_or(Error::Open(crate::number::Open)))
+        best.map(|(_, _, answer)| answer).ok_or_else(|| failed.unwrap_or(Error::Open(Open)))
     }
 
     /// Returns a number of the requested system, with its digits.

@@ -173,9 +173,8 @@ impl<N: Bounded> ChainRun<N> {
         let ends = later.iter().skip(1).map(|next| &next.from).chain([&self.end]);
         let closed = later.iter().zip(ends).take_while(|(stage, _)| stage.closed);
         // A break at the end of the run does not count.
-        let is_counted = |(k, (stage, to)): &(usize, (&Stage<N>, &N))| {
-            *k == 0 || *k + 1 < later.len() || !stage.from.same(to)
-        };
+        let is_counted =
+            |(k, (stage, to)): &(usize, (&Stage<N>, &N))| *k == 0 || *k + 1 < later.len() || !stage.from.same(to);
         let closed: Vec<(&Stage<N>, &N)> = closed.enumerate().filter(is_counted).map(|(_, stage)| stage).collect();
         let least = self.least_peak(&closed);
         let (mut impulse, mut peak, mut peak_time) = (self.end.zero(), None::<N>, impact.t.clone());

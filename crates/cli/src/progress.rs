@@ -32,11 +32,19 @@ impl Progress {
             Reach::Contacts(contacts) => (Some(u64::from(*contacts)), "contacts"),
             Reach::FirstContact => (None, "contacts"),
         };
-        let template = match total {
-            Some(_) => format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{msg}}{{left}}"),
-            None => "{spinner} {elapsed}".into(),
-        };
-        let bar = terminal::bar(total, &template);
+        match total {
+            Some(_) => Progress::with(total, &format!("{{bar:40}} {{pos}}/{{len}} {unit}, {{msg}}{{left}}")),
+            None => Progress::with(None, "{spinner} {elapsed}"),
+        }
+    }
+
+    /// Returns the progress of a chain, whose number of events nobody knows before.
+    pub(crate) fn of_chain() -> Self {
+        Progress::with(None, "{spinner} {elapsed} {pos} events, {msg}")
+    }
+
+    fn with(total: Option<u64>, template: &str) -> Self {
+        let bar = terminal::bar(total, template);
         bar.set_draw_target(ProgressDrawTarget::hidden());
         // A thread of its own shows the bar: a single step of a run in many digits can take longer than a second.
         let (sender, receiver) = channel::<()>();

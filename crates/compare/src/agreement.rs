@@ -186,10 +186,8 @@ impl Agreement {
         };
         if !is_rigid {
             audit.complementarity = None;
-            audit.indentation = self
-                .column(Quantity::EndDisplacement)
-                .filter(|_| is_alone)
-                .map(|end| input.greatest(|k| -end.ours[k]));
+            audit.indentation =
+                self.column(Quantity::EndDisplacement).filter(|_| is_alone).map(|end| input.greatest(|k| -end.ours[k]));
         }
         for pair in &contacts {
             let (contact, count) = match pair {

@@ -310,10 +310,11 @@ fn audit_lines(agreement: &Agreement, units: &Units) -> String {
         ("not covered", if covered.is_empty() { "nothing".into() } else { covered.join(", ") }),
     ];
     let is_soft = audit.indentation.is_some();
-    let is_left_out = |(name, text): &(&str, String)| {
-        text.starts_with('–') && (audit.of_body || is_soft && *name == "∫|v F| dt")
-    };
-    let left_out = audit.of_body.then(|| ("not audited", "penetration, energy and momentum: other bodies or ends act on this one".into()));
+    let is_left_out =
+        |(name, text): &(&str, String)| text.starts_with('–') && (audit.of_body || is_soft && *name == "∫|v F| dt");
+    let left_out = audit
+        .of_body
+        .then(|| ("not audited", "penetration, energy and momentum: other bodies or ends act on this one".into()));
     let lines = lines.into_iter().filter(|line| !is_left_out(line)).chain(left_out);
     lines.map(|(name, text)| format!("{name:<20}{text}\n")).collect()
 }

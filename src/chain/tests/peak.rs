@@ -40,7 +40,8 @@ fn curves_stay_below_what_exceeds_them() {
         let values = (0..=200).map(|k| *value(&curve.terms, &Estimate::exact(at(k))).value());
         let most = values.fold(f64::NEG_INFINITY, f64::max);
         let signal = Signal::Curve(Box::new(curve));
-        let stays = |least: f64| signal.stays_below(&Estimate::exact(least), &Estimate::exact(from), &Estimate::exact(to));
+        let stays =
+            |least: f64| signal.stays_below(&Estimate::exact(least), &Estimate::exact(from), &Estimate::exact(to));
         for least in [most - 0.5, most, most + 0.0099] {
             assert!(!stays(least), "{least}, greatest {most}");
         }

@@ -1,19 +1,17 @@
 //! Scenes with several bodies: `solve`, `sample` and `explain`.
 
-use std::ops::ControlFlow;
-use std::sync::Arc;
-
 use serde_json::{Map, Value as Json, json};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, json_bytes, rows_bytes};
+use crate::output::{Cell, Column, Dataset, Header, Layout, RowWriter, json_bytes, rows_bytes};
+use crate::progress::Progress;
 use crate::terminal;
-use dalembert::chain::{Chain, ChainColumn, ChainHistory, ChainListing};
+use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForeseenPieces};
 use dalembert::number::{List, Value};
-use dalembert::quantity::Measure;
+use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::solve::Numbers;
-use dalembert::{ChainScene, Error, Side};
+use dalembert::{ChainScene, Error, Estimate, Number, Side};
 
 /// Prints what an answer does not decide.
 fn note(history: &ChainHistory) -> Result<(), Failure> {
@@ -117,8 +115,10 @@ fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
 
 /// Runs `solve`: events, touches, contacts and forces.
 pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
-    let history = scene.chain.solve(numbers)?;
+    let progress = Progress::of_chain();
+    let history = scene.chain.solve_observed(numbers, progress.observer())?;
     let listing = history.listing()?;
+    drop(progress);
     note(&history)?;
     let digits = digits(numbers);
     let in_digits = |data: Dataset| Dataset { digits, ..data };
@@ -138,7 +138,7 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
             "forces": forces.json(),
             "end": listing.end,
             "ending": ending,
-            "warnings": history.warning().into_iter().map(|warning| warning.to_string()).collect::<Vec<_>>(),
+            "warnings": warnings(&history),
         }))),
         Format::Csv => rows_bytes(&events, Format::Csv),
         _ => {
@@ -165,123 +165,169 @@ fn bodies(scene: &ChainScene) -> Json {
     scene.chain.bodies().iter().enumerate().map(body).collect()
 }
 
-/// Runs `sample`: the columns `names` at `times`, as the limits from `sides`.
-pub(crate) fn sample(
-    scene: &ChainScene,
-    numbers: Numbers,
-    (names, times): (&[String], &List),
-    sides: &[Side],
-    destinations: &[Destination],
-    uncertainty: bool,
-) -> Result<(), Failure> {
-    let chain = &scene.chain;
-    let read = |name: &String| {
-        ChainColumn::read(name, chain).ok_or_else(|| {
-            let known: Vec<String> = ChainColumn::all(chain).into_iter().map(|column| column.name(chain)).collect();
-            failure!("found the quantity {name} of a chain, expected one of {}", known.join(", "))
-        })
-    };
-    let columns = match names.is_empty() {
-        true => ChainColumn::all(chain),
-        false => names.iter().map(read).collect::<Result<_, _>>()?,
-    };
-    let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
-    let latest = times.iter().max_by(|a, b| a.compare(b)).filter(|time| time.compare(chain.until()).is_gt());
-    let history = match latest {
-        Some(latest) => chain.with_until(latest.clone())?.solve(numbers)?,
-        None => chain.solve(numbers)?,
-    };
-    let mut rows = Vec::new();
-    for time in &times {
-        for side in sides {
-            let mut row = vec![
-                (Column::new("t"), Cell::Plain(time_json(time, numbers))),
-                (Column::new("side").text(), side.name().into()),
-            ];
-            for column in &columns {
-                let value = history.value(*column, time, *side)?;
-                let head = Column::new(column.name(chain));
-                row.push((if uncertainty { head.bounded() } else { head }, Cell::Number(value)));
+/// Rows that are kept at once.
+const CHUNK: usize = 1 << 12;
+
+/// Columns of a chain over time, to be written.
+pub(crate) struct ChainRows<'a> {
+    pub(crate) scene: &'a ChainScene,
+    pub(crate) numbers: Numbers,
+    /// Names of columns; none for all.
+    pub(crate) names: &'a [String],
+    /// Times; `None` stands for the start, the events and the end.
+    pub(crate) times: Option<List>,
+    /// Limit at a jump; `None` stands for both.
+    pub(crate) side: Option<Side>,
+    pub(crate) uncertainty: bool,
+    /// Whether a CSV has no comments.
+    pub(crate) bare: bool,
+    pub(crate) wide: bool,
+}
+
+/// A row: its time, and the event at it.
+struct RowTime {
+    time: Value,
+    spelled: Option<Number>,
+    event: usize,
+}
+
+impl ChainRows<'_> {
+    fn columns(&self) -> Result<Vec<ChainColumn>, Failure> {
+        let chain = &self.scene.chain;
+        let read = |name: &&String| {
+            ChainColumn::read(name, chain).ok_or_else(|| {
+                let known: Vec<String> = ChainColumn::all(chain).into_iter().map(|column| column.name(chain)).collect();
+                failure!("found the quantity {name} of a chain, expected one of {}", known.join(", "))
+            })
+        };
+        let is_key = |name: &&String| matches!(name.as_str(), "t" | "side");
+        let columns = self.names.iter().filter(|name| !is_key(name)).map(|name| read(&name));
+        match self.names.is_empty() {
+            true => Ok(ChainColumn::all(chain)),
+            false => columns.collect(),
+        }
+    }
+
+    /// Returns the times of the rows; simultaneous events have one row.
+    fn row_times(&self, history: &ChainHistory) -> Result<Vec<RowTime>, Failure> {
+        let spelled = |time: &Number| -> Result<RowTime, Failure> {
+            Ok(RowTime { time: history.time(time)?, spelled: Some(time.clone()), event: 0 })
+        };
+        if let Some(times) = &self.times {
+            let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
+            return times.iter().map(spelled).collect();
+        }
+        let mut rows = vec![spelled(&0.into())?];
+        let last = spelled(history.chain().until())?;
+        for (k, event) in history.listing()?.events.into_iter().enumerate() {
+            let is_new =
+                rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
+            if is_new {
+                rows.push(RowTime { time: event.t, spelled: None, event: k });
             }
-            rows.push(row);
         }
+        rows.push(last);
+        Ok(rows)
     }
-    note(&history)?;
-    let mut data = Dataset::from_rows(rows.into_iter());
-    (data.digits, data.keys, data.list) = (digits(numbers), Some(2), "rows");
-    let header = json!({"schema": 1, "title": scene.title, "number": numbers.to_string(), "units": units_json(scene)});
-    data.header = header;
-    let measures: Vec<Measure> = columns.iter().map(|column| column.quantity.measure()).collect();
-    write_all(destinations, |format| match format {
-        Format::Table => Ok(format!("{}\n{}", data.table().trim_end(), unit_line(scene, &measures)).into_bytes()),
-        Format::Json => Ok(json_bytes(&data.json())),
-        format => rows_bytes(&data, format),
-    })
+
+    /// Adds a row to the cells of each column: time, side and values; for both sides two rows where these differ.
+    fn add(
+        &self,
+        history: &ChainHistory,
+        (columns, row): (&[ChainColumn], &RowTime),
+        cells: &mut [Vec<Cell>],
+    ) -> Result<(), Failure> {
+        let values = |side: Side| -> Result<Vec<Value>, Error> {
+            let value = |column: &ChainColumn| match &row.spelled {
+                Some(time) => history.value(*column, time, side),
+                None => history.value_at_event(*column, row.event, side),
+            };
+            columns.iter().map(value).collect()
+        };
+        let mut push = |side: f64, values: Vec<Value>| {
+            let keys = [row.time.clone(), Estimate::exact(side).into()];
+            cells
+                .iter_mut()
+                .zip(keys.into_iter().chain(values))
+                .for_each(|(cells, value)| cells.push(Cell::Number(value)));
+        };
+        match self.side {
+            Some(side @ Side::Left) => push(-1.0, values(side)?),
+            Some(side @ Side::Right) => push(1.0, values(side)?),
+            None => {
+                let [left, right] = [values(Side::Left)?, values(Side::Right)?];
+                if left.iter().zip(&right).all(|(left, right)| agree(left, right)) {
+                    push(0.0, right);
+                } else {
+                    push(-1.0, left);
+                    push(1.0, right);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves the chain, and writes the rows.
+    pub(crate) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
+        let ChainRows { scene, numbers, .. } = self;
+        let (chain, columns) = (&scene.chain, self.columns()?);
+        let latest = self.times.as_ref().and_then(List::greatest).filter(|time| time.compare(chain.until()).is_gt());
+        let until = latest.map_or_else(|| Ok(chain.clone()), |latest| chain.with_until(latest))?;
+        let progress = Progress::of_chain();
+        let history = until.solve_observed(*numbers, progress.observer())?;
+        let times = self.row_times(&history)?;
+        progress.set_stage("values of the answer");
+        let heads: Vec<Column> = [key(scene, Quantity::Time), key(scene, Quantity::Side)]
+            .into_iter()
+            .chain(columns.iter().map(|column| {
+                let unit = scene.unit(column.quantity.measure());
+                Column::new(column.name(chain)).with_meaning(column.meaning(chain)).with_unit(unit)
+            }))
+            .collect();
+        let writer =
+            |destination: &Destination| RowWriter::new(destination.format, &heads, self.uncertainty, digits(*numbers));
+        let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        for part in times.chunks(CHUNK) {
+            let mut cells = vec![Vec::new(); heads.len()];
+            part.iter().try_for_each(|row| self.add(&history, (&columns, row), &mut cells))?;
+            writers.iter_mut().try_for_each(|writer| writer.push(&cells)).map_err(cannot("keep the rows"))?;
+        }
+        drop(progress);
+        note(&history)?;
+        let measures: Vec<Measure> = columns.iter().map(|column| column.quantity.measure()).collect();
+        let ends = match self.times {
+            Some(_) => None,
+            None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
+        };
+        let header = Header::of_chain((scene, until.until().to_f64()), *numbers, warnings(&history), ends);
+        let below = format!("\n{}", unit_line(scene, &measures));
+        let layout = Layout { below, keys: (!self.wide).then_some(2), bare: self.bare };
+        writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
+    }
 }
 
-/// Returns a time as it was asked for; as a number if the answers are doubles.
-fn time_json(time: &dalembert::Number, numbers: Numbers) -> Json {
-    match numbers {
-        Numbers::Double(_) => json!(time.to_f64()),
-        _ => json!(time.to_string()),
-    }
+/// Returns the column of the time or the side.
+fn key(scene: &ChainScene, quantity: Quantity) -> Column {
+    let unit = quantity.measure().map_or("", |measure| scene.unit(measure));
+    Column::from_quantity(quantity, &Units::default()).with_unit(unit)
 }
 
-/// The wave pieces of a run.
-enum Pieces {
-    Counted(usize),
-    /// Estimated from their growth with a power of the time, up to this time.
-    Estimated {
-        pieces: f64,
-        power: f64,
-        time: f64,
-    },
+/// Returns whether two values agree within their bounds.
+fn agree(a: &Value, b: &Value) -> bool {
+    (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
 }
 
-/// Wave pieces from which on a run is not counted to its end.
-const MOST_COUNTED: usize = 100_000;
-/// Number of times that the time of a run is halved at most, to see how its pieces grow.
-const HALVINGS: i32 = 40;
-
-/// Foresees the wave pieces of a run in doubles: a long run is made in part, and the rest is extrapolated.
-fn foreseen(chain: &Chain) -> Result<Pieces, Error> {
-    let count = |chain: &Chain| {
-        let observe = Arc::new(|_, pieces| match pieces > MOST_COUNTED {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        });
-        match chain.solve_observed(Numbers::default(), observe) {
-            Ok(history) => Ok(Some(history.pieces())),
-            Err(Error::Interrupted | Error::TooManyPieces { .. }) => Ok(None),
-            Err(error) => Err(error),
-        }
-    };
-    if let Some(pieces) = count(chain)? {
-        return Ok(Pieces::Counted(pieces));
-    }
-    // The latest time of a run that is counted, and half of it.
-    let whole = chain.until().to_f64();
-    let mut found: Option<(f64, f64)> = None;
-    for halvings in 1..=HALVINGS {
-        let time = whole / 2f64.powi(halvings);
-        let until = format!("{time:e}").parse().map_err(|_| Error::NotDecided { what: "a time", bits: 53 })?;
-        let Some(pieces) = count(&chain.with_until(until)?)?.map(|pieces| pieces.max(1) as f64) else { continue };
-        if let Some((time, later)) = found {
-            let power = (later / pieces).log2().max(1.0);
-            return Ok(Pieces::Estimated { pieces: later * (whole / time).powf(power), power, time });
-        }
-        found = Some((time, pieces));
-    }
-    Err(Error::TooManyPieces { limit: MOST_COUNTED, time: 0.0 })
+fn warnings(history: &ChainHistory) -> Vec<String> {
+    history.warning().into_iter().map(|warning| warning.to_string()).collect()
 }
 
 /// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.
 pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
     let effects = scene.effects();
-    let foreseen = foreseen(&scene.chain);
+    let foreseen = scene.chain.foresee_pieces();
     let cost = match &foreseen {
-        Ok(Pieces::Counted(pieces)) => format!("{pieces} wave pieces up to t = {}", scene.chain.until()),
-        Ok(Pieces::Estimated { pieces, power, time }) => format!(
+        Ok(ForeseenPieces::Counted(pieces)) => format!("{pieces} wave pieces up to t = {}", scene.chain.until()),
+        Ok(ForeseenPieces::Estimated { pieces, power, time }) => format!(
             "about {pieces:.1e} wave pieces up to t = {}, of which a run may have {}: they grow like t^{power:.1} \
              up to t = {time:.4}",
             scene.chain.until(),
@@ -290,8 +336,8 @@ pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Dest
         Err(error) => error.to_string(),
     };
     let counted = match foreseen {
-        Ok(Pieces::Counted(pieces)) => json!(pieces),
-        Ok(Pieces::Estimated { pieces, .. }) => json!(pieces.round()),
+        Ok(ForeseenPieces::Counted(pieces)) => json!(pieces),
+        Ok(ForeseenPieces::Estimated { pieces, .. }) => json!(pieces.round()),
         Err(_) => Json::Null,
     };
     write_all(destinations, |format| {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::chain;
+use super::chain::ChainRows;
 use crate::answer::{Answer, solve};
 use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
@@ -143,30 +143,17 @@ impl SampleArgs {
             AnyScene::Rod(scene) => *scene,
             // One body is a rod, unless its two ends are told apart.
             AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.are_of_rod(is_golden) => scene.body(0)?,
-            AnyScene::Chain(scene) if is_golden => {
-                let name = scene.title.as_deref().unwrap_or(&self.scene.scene);
-                let failure = failure!("found a chain of bodies, {name}, expected one of them");
-                return Err(failure.help("--body N takes a body as a rod; `sample` takes the whole chain"));
-            }
-            AnyScene::Chain(scene) => return self.chain(&scene),
+            AnyScene::Chain(scene) => return self.chain(&scene, is_golden),
         };
         let numbers = self.scene.numbers.numbers(&scene);
-        let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
-        let destinations = self.scene.output.destinations(known)?;
-        if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
-            return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
-        }
+        let destinations = self.destinations(is_golden)?;
         let times = self.times()?;
         let mut points = self.points.clone();
         if points.is_none() && self.quantity.iter().any(|name| name == "field") {
             points = Some(List::Range(0.into(), scene.problem.length().clone(), 3));
         }
         let quantities = self.quantities(&scene, points.is_some(), is_golden)?;
-        let side = match (self.side, is_golden && self.derivatives.is_empty()) {
-            (Some(SideArg::Left), _) => Some(Side::Left),
-            (Some(SideArg::Both), _) | (None, true) => None,
-            (Some(SideArg::Right), _) | (None, false) => Some(Side::Right),
-        };
+        let side = self.side(is_golden);
         if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
             return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
         }
@@ -192,26 +179,41 @@ impl SampleArgs {
         !has_place && (is_golden || !self.quantity.is_empty())
     }
 
-    /// Writes values of a scene with several bodies.
-    fn chain(&self, scene: &ChainScene) -> Result<(), Failure> {
-        let refused = [
-            (self.points.is_some(), "--points"),
-            (!self.derivatives.is_empty(), "--derivatives"),
-            (self.bare, "--bare"),
-        ];
-        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
-            return Err(failure!("found {option} with a chain of bodies, expected it with a single rod, [rod]"));
+    fn destinations(&self, is_golden: bool) -> Result<Vec<Destination>, Failure> {
+        let known = if is_golden { GOLDEN_FORMATS } else { FORMATS };
+        let destinations = self.scene.output.destinations(known)?;
+        if self.bare && destinations.iter().any(|destination| destination.format != Format::Csv) {
+            return Err(failure!("found --bare, expected it with CSV only: JSON and NPZ have no comments"));
         }
-        let times =
-            self.times()?.ok_or_else(|| failure!("found no times of a chain, expected --times or --dt and --to"))?;
-        let sides: &[Side] = match self.side {
-            Some(SideArg::Left) => &[Side::Left],
-            Some(SideArg::Both) => &[Side::Left, Side::Right],
-            Some(SideArg::Right) | None => &[Side::Right],
+        Ok(destinations)
+    }
+
+    /// Returns the limit at a jump; `None` for both.
+    fn side(&self, is_golden: bool) -> Option<Side> {
+        match (self.side, is_golden && self.derivatives.is_empty()) {
+            (Some(SideArg::Left), _) => Some(Side::Left),
+            (Some(SideArg::Both), _) | (None, true) => None,
+            (Some(SideArg::Right), _) | (None, false) => Some(Side::Right),
+        }
+    }
+
+    /// Writes values of a scene with several bodies.
+    fn chain(&self, scene: &ChainScene, is_golden: bool) -> Result<(), Failure> {
+        let refused = [(self.points.is_some(), "--points"), (!self.derivatives.is_empty(), "--derivatives")];
+        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
+            return Err(failure!("found {option} with a chain of bodies, expected it with one of them, --body N"));
+        }
+        let rows = ChainRows {
+            scene,
+            numbers: self.scene.numbers.numbers_to(scene.accuracy),
+            names: &self.quantity,
+            times: self.times()?,
+            side: self.side(is_golden),
+            uncertainty: self.uncertainty,
+            bare: self.bare,
+            wide: self.wide,
         };
-        let destinations = self.scene.output.destinations(FORMATS)?;
-        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
-        chain::sample(scene, numbers, (&self.quantity, &times), sides, &destinations, self.uncertainty)
+        rows.write(&self.destinations(is_golden)?)
     }
 
     /// Returns the columns of the rows.

@@ -101,6 +101,10 @@ impl Column {
         Column { kind: Kind::Word, ..self }
     }
 
+    pub(crate) fn with_meaning(self, meaning: impl Into<Cow<'static, str>>) -> Self {
+        Column { meaning: meaning.into(), ..self }
+    }
+
     pub(crate) fn with_unit(self, unit: &'static str) -> Self {
         Column { unit, ..self }
     }

@@ -8,12 +8,14 @@ use super::column::Column;
 use super::run_info::{ExactUntil, RunInfo};
 use super::schema_types::BoundSchema;
 use crate::answer::note_end;
-use dalembert::solve::{History, Numbers};
-use dalembert::{Bound, Estimate};
+use dalembert::solve::{ExactnessEnd, History, Numbers};
+use dalembert::{Bound, ChainScene, Estimate};
 use dalembert_compare::SchemaVersion;
 
 const SIGNS: &str = "x and displacements upwards from the undeformed rod on the ground; strain and stress positive in \
                      tension, force positive in compression";
+const CHAIN_SIGNS: &str = "displacements upwards from the undeformed body in its place at the start, velocities upwards; \
+                           force positive in compression; bodies are counted from the bottom";
 const SIDE: &str = "left is the limit from earlier times, right from later ones; both: they are the same";
 const READ: &str = "pandas.read_csv(FILE, comment=\"#\"), or \
     numpy.genfromtxt((s for s in open(FILE) if s[0] != \"#\"), delimiter=\",\", names=True, dtype=None)";
@@ -26,7 +28,13 @@ const CITE: &str = concat!(
 /// The header of a file with rows or a function.
 #[derive(Debug)]
 pub(crate) struct Header<'a> {
-    info: RunInfo,
+    title: Option<String>,
+    /// The number system in words.
+    number: String,
+    effects: Vec<&'static str>,
+    exact_until: Option<ExactnessEnd>,
+    warnings: Vec<String>,
+    signs: &'static str,
     /// The text of the scene.
     scene: &'a str,
     /// The number of the body, from 1, and the number of bodies of its chain.
@@ -93,7 +101,48 @@ impl<'a> Header<'a> {
         let ends = states_end.then(|| note_end(history, &end));
         let body = history.problem().chain().map(|(chain, body)| [body + 1, chain.bodies().len()]);
         let body = body.filter(|[_, count]| *count > 1);
-        Header { info, scene, body, numbers: history.plan().numbers, subject, until: end.to_f64(), ends }
+        let warnings = info.warning_texts();
+        let RunInfo { title, number, effects, exact_until, .. } = info;
+        let (numbers, until) = (history.plan().numbers, end.to_f64());
+        Header {
+            title,
+            number,
+            effects,
+            exact_until,
+            warnings,
+            signs: SIGNS,
+            scene,
+            body,
+            numbers,
+            subject,
+            until,
+            ends,
+        }
+    }
+
+    /// Returns the header of columns of a chain that is followed to the time `until`; `ends` states why it ends, if its
+    /// end is among the rows.
+    pub(crate) fn of_chain(
+        (scene, until): (&'a ChainScene, f64),
+        numbers: Numbers,
+        warnings: Vec<String>,
+        ends: Option<String>,
+    ) -> Self {
+        let called = scene.effects().into_iter().filter(|effect| effect.called);
+        Header {
+            title: scene.title.clone(),
+            number: numbers.to_string(),
+            effects: called.map(|effect| effect.effect).collect(),
+            exact_until: None,
+            warnings,
+            signs: CHAIN_SIGNS,
+            scene: scene.source(),
+            body: None,
+            numbers,
+            subject: "each column",
+            until,
+            ends,
+        }
     }
 }
 
@@ -140,19 +189,19 @@ impl Header<'_> {
             schema: SchemaVersion,
             kind: "reference",
             dalembert: env!("CARGO_PKG_VERSION"),
-            title: self.info.title.as_deref(),
+            title: self.title.as_deref(),
             scene: self.scene_lines().collect::<Vec<_>>().join("\n"),
             body: self.body.map(|[body, _]| body),
-            effects: &self.info.effects,
+            effects: &self.effects,
             until: self.until,
-            numbers: &self.info.number,
+            numbers: &self.number,
             proved: self.is_proved(),
             promise: self.promise(is_npz),
-            signs: SIGNS,
+            signs: self.signs,
             side: SIDE,
             ends: self.ends.as_deref(),
-            exact_until: self.info.exact_until_json(),
-            warnings: self.info.warning_texts(),
+            exact_until: self.exact_until.as_ref().map(ExactUntil::from_end),
+            warnings: self.warnings.clone(),
             cite: CITE,
             columns: columns.collect(),
         }
@@ -163,18 +212,18 @@ impl Header<'_> {
         let proved = if self.is_proved() { "" } else { " (not proved)" };
         let line = |key: &str, value: &str| format!("{key}: {value}");
         let mut lines = vec![format!("dalembert {}: reference", env!("CARGO_PKG_VERSION"))];
-        lines.extend(self.info.title.iter().map(|title| line("title", title)));
+        lines.extend(self.title.iter().map(|title| line("title", title)));
         lines.extend(self.scene_lines().map(|scene| line("scene", scene)));
         let body = self.body.map(|[body, count]| {
             format!("{body} of {count}, from the bottom: x, displacements and contacts are its own")
         });
         lines.extend(body.iter().map(|body| line("body", body)));
         lines.push(line("until", &format!("the history is followed to t = {}", self.until)));
-        lines.push(line("numbers", &format!("{}: {}{proved}", self.info.number, self.promise(false))));
-        lines.push(line("signs", SIGNS));
-        lines.extend(self.info.exact_until.iter().map(|end| line("note", &format!("{end}; all is in digits"))));
+        lines.push(line("numbers", &format!("{}: {}{proved}", self.number, self.promise(false))));
+        lines.push(line("signs", self.signs));
+        lines.extend(self.exact_until.iter().map(|end| line("note", &format!("{end}; all is in digits"))));
         lines.extend(self.ends.clone());
-        lines.extend(self.info.warnings.iter().map(|warning| line("warning", &warning.to_string().replace('\n', " "))));
+        lines.extend(self.warnings.iter().map(|warning| line("warning", &warning.replace('\n', " "))));
         lines.push(line("cite", CITE));
         lines
     }

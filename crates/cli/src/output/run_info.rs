@@ -67,10 +67,7 @@ impl RunInfo {
     }
 
     pub(super) fn exact_until_json(&self) -> Option<ExactUntil> {
-        self.exact_until.as_ref().map(|end| match end {
-            ExactnessEnd::Event(ending) => ExactUntil::new(ending).unwrap_or_else(|| ExactUntil::from_reason(ending)),
-            parameter => ExactUntil::from_reason(parameter),
-        })
+        self.exact_until.as_ref().map(ExactUntil::from_end)
     }
 
     /// Returns the lines below a table of values of `quantities`: the end of exactness, units and warnings.
@@ -132,6 +129,13 @@ impl ExactUntil {
         let Ending::ExactnessEnds { kind, time, near } = ending else { return None };
         let (event, surd, near) = (Some(kind.to_string()), Some(time.to_string()), Some(*near));
         Some(ExactUntil { event, surd, near, reason: None })
+    }
+
+    pub(super) fn from_end(end: &ExactnessEnd) -> Self {
+        match end {
+            ExactnessEnd::Event(ending) => ExactUntil::new(ending).unwrap_or_else(|| ExactUntil::from_reason(ending)),
+            parameter => ExactUntil::from_reason(parameter),
+        }
     }
 
     fn from_reason(reason: &impl ToString) -> Self {

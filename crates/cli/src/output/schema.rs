@@ -4,7 +4,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 
 use super::rows::Document;
-use super::schema_chain::{ChainSamplesSchema, ChainSchema};
+use super::schema_chain::ChainSchema;
 use super::solve::HistoryJson;
 use super::sweep::SweepJson;
 use dalembert_compare::{BodiesReport, FileReport, SeriesReport};
@@ -26,7 +26,6 @@ enum Output<'a> {
     ComparisonsOfBodies(BodiesReport<'a>),
     Sweep(SweepJson<'a>),
     Chain(ChainSchema),
-    ChainSamples(ChainSamplesSchema),
 }
 
 /// Returns the JSON Schema of the outputs of `solve`, `sample`, `reference`, `compare` and `sweep`.

@@ -1,4 +1,4 @@
-//! The JSON Schema of the outputs for a whole chain.
+//! The JSON Schema of the output of solve for a whole chain.
 
 use std::collections::BTreeMap;
 
@@ -104,38 +104,4 @@ struct ForceSchema {
     force_start: NumberSchema,
     force_end: NumberSchema,
     uncertainty: BTreeMap<String, UncertaintySchema>,
-}
-
-/// Output of sample for a whole chain
-#[derive(JsonSchema)]
-#[schemars(rename = "chain_samples")]
-#[expect(dead_code, reason = "describes an output")]
-pub(super) struct ChainSamplesSchema {
-    schema: SchemaVersion,
-    title: Option<String>,
-    number: String,
-    /// The unit of each measure; null if it is not known.
-    units: BTreeMap<String, Option<String>>,
-    rows: Vec<SampleSchema>,
-}
-
-/// The columns at a time: u_top.2 of the second body, force.1 of the joint above the first
-#[derive(JsonSchema)]
-#[schemars(rename = "chain_sample")]
-#[expect(dead_code, reason = "describes an output")]
-struct SampleSchema {
-    t: NumberSchema,
-    side: SideSchema,
-    #[schemars(skip_serializing_if = "Option::is_none")]
-    uncertainty: Option<BTreeMap<String, UncertaintySchema>>,
-    #[schemars(flatten)]
-    columns: BTreeMap<String, NumberSchema>,
-}
-
-#[derive(JsonSchema)]
-#[schemars(rename = "chain_side", rename_all = "lowercase")]
-#[expect(dead_code, reason = "describes an output")]
-enum SideSchema {
-    Left,
-    Right,
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::command::{Run, refused, run as run_all, run_with};
+use crate::command::{Run, json, quiet, refused, run as run_all, run_with};
 
 /// Returns code and standard output of the command.
 fn run_coded(arguments: &str) -> (Option<i32>, String) {
@@ -113,7 +113,7 @@ fn bodies_that_are_not_there_are_refused() {
         ("solve openfoam-7-1-2 --body 3", "expected a body from 1, the lowest, to 2"),
         ("solve openfoam-7-1-2 --body 0", "expected a body from 1, the lowest, to 2"),
         ("solve paper-weak --body 2", "expected 1"),
-        ("reference openfoam-7-1-2 --times 1", "--body N"),
+        ("reference openfoam-7-1-2 --points 1", "expected it with one of them, --body N"),
         ("reference openfoam-7-1-2 --body 1 --as python", "expected an undamped rod by itself"),
         ("solve openfoam-7-1-2 --body 1 --impacts 2", "expected the last time of the run"),
     ] {
@@ -150,4 +150,43 @@ fn a_bar_below_a_mass_is_compared_and_drawn() {
                     [ends]\nbottom = { stiffness = 4 }\n[run]\ntime = 4\n";
     let Run { code, err, .. } = run_with(&["plot", "-", "-o", &path("none.svg")], swinging);
     assert_eq!((code, err.contains("a chain without bars")), (Some(2), true), "{err}");
+}
+
+/// A golden file of a chain has a row for the start, each event and the end, two where the sides of a jump differ, and
+/// the header of any golden file; with times it has these.
+#[test]
+fn chains_have_golden_files() {
+    let golden = quiet(&["reference", "openfoam-7-1-2", "--exact", "--quantity", "t,side,force.1,v_end.2,gap.1"]);
+    let (header, rows): (Vec<&str>, Vec<&str>) = golden.lines().partition(|line| line.starts_with('#'));
+    // Contact from 1/10 on, the wave from the shorter bar at 3/10, release at 27/70.
+    let expected = [
+        "t,side,force.1,v_end.2,gap.1",
+        "0,both,0,0,1/100",
+        "1/10,left,0,0,0",
+        "1/10,right,7/170,7/170,0",
+        "27/70,left,21/2890,259/2890,0",
+        "27/70,right,0,7/85,0",
+    ];
+    assert_eq!(rows[..6], expected, "{golden}");
+    // A wave arrives at the end of the run.
+    assert!(rows.len() == 8 && rows[6] == "1/2,left,0,7/85,2/175" && rows[7].starts_with("1/2,right"), "{golden}");
+    for part in
+        ["# numbers: exact", "# ends at t = 1/2", "# column v_end.2: velocity of the lower end, upwards, of body 2"]
+    {
+        assert!(header.iter().any(|line| line.starts_with(part)), "{part}: {golden}");
+    }
+    let bare = quiet(&["sample", "openfoam-7-1-2", "--times", "1/5", "--format", "csv", "--bare"]);
+    assert!(bare.starts_with("t,side,u_end.1") && bare.lines().count() == 2, "{bare}");
+    // Doubles have bounds, in the header and with each number.
+    let doubles = json(&["reference", "openfoam-7-1-2", "--quantity", "force.1", "--format", "json", "--uncertainty"]);
+    let columns = doubles["columns"].as_array().unwrap();
+    let names: Vec<&str> = columns.iter().map(|column| column["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["t", "t_uncertainty", "side", "force.1", "force.1_uncertainty"]);
+    let force = doubles["rows"].as_array().unwrap().iter().find(|row| row[2] == "right").unwrap();
+    let [value, bound] = [3, 4].map(|k| force[k].as_f64().unwrap());
+    assert!((value - 7.0 / 170.0).abs() <= bound && bound < 1e-15, "{force}");
+    let file = tempfile::tempdir().unwrap();
+    let path = file.path().join("golden.npz").display().to_string();
+    quiet(&["reference", "openfoam-7-1-2", "-o", &path]);
+    assert!(std::fs::metadata(&path).unwrap().len() > 1000);
 }

@@ -3,7 +3,6 @@
 use std::fs;
 
 use dalembert::Parameter;
-use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::command::{Run, json, quiet, refused, refused_with, run, run_with};
@@ -25,15 +24,19 @@ fn written(name: &str, text: &str) -> (TempDir, String) {
 fn numbers_of_soft_chains_have_their_digits() {
     let (_folder, scene) = written("spring.toml", SPRING);
     let names = "kinetic.1,strain_energy.1,E_total.1,E_total.2,force.1,u_end.1,v_top.1,gap.1";
-    let row = |more: &[&str]| -> Value {
+    let values = |more: &[&str]| -> Vec<[f64; 2]> {
         let args = ["sample", &scene, "--quantity", names, "--times", "1e-3", "--uncertainty"];
-        json(&[&args[..], more, &["--format", "json"]].concat())["rows"][0].clone()
+        let found = json(&[&args[..], more, &["--format", "json"]].concat());
+        let columns: Vec<&str> =
+            found["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str().unwrap()).collect();
+        let number = |name: &str| {
+            let value = &found["rows"][0][columns.iter().position(|column| *column == name).unwrap()];
+            value.as_f64().or_else(|| value.as_str()?.parse().ok()).unwrap()
+        };
+        names.split(',').map(|name| [number(name), number(&format!("{name}_uncertainty"))]).collect()
     };
-    let (doubles, digits) = (row(&[]), row(&["--digits", "25"]));
-    for name in names.split(',') {
-        let number = |value: &Value| value.as_f64().or_else(|| value.as_str()?.parse().ok()).unwrap();
-        let [found, expected] = [&doubles, &digits].map(|row| number(&row[name]));
-        let bound = number(&doubles["uncertainty"][name]);
+    let (doubles, digits) = (values(&[]), values(&["--digits", "25"]));
+    for ((name, [found, bound]), [expected, _]) in names.split(',').zip(doubles).zip(digits) {
         let size = expected.abs();
         assert!(bound <= 1e-9 * size && (found - expected).abs() <= bound + 1e-15 * size, "{name}: {found} ± {bound}");
     }
@@ -166,7 +169,9 @@ fn parameters_of_derivatives_are_listed_alike() {
 #[test]
 fn a_rod_on_a_spring_needs_no_impedance() {
     let scene = |more: &str| {
-        format!("[rod]\nlength = 1\nwave_speed = 2\n{more}[impact]\nspeed = 1\n[ground]\npenalty = 20\n[run]\ntime = 3\n")
+        format!(
+            "[rod]\nlength = 1\nwave_speed = 2\n{more}[impact]\nspeed = 1\n[ground]\npenalty = 20\n[run]\ntime = 3\n"
+        )
     };
     let [without, with] = ["", "impedance = 2\n"].map(|more| run_with(&["solve", "-"], &scene(more)).out);
     assert!(without == with && without.contains("peak_force"), "{without}");

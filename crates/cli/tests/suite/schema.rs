@@ -93,12 +93,12 @@ fn every_output_is_what_the_schema_says() {
         for numbers in [&[][..], &["--digits", "20"], &["--certified"]] {
             check("chain", &[&["solve", scene][..], numbers].concat());
             let sample = ["sample", scene, "--times", "1e-4,1/5000"];
-            check("chain_samples", &[&sample[..], &["--uncertainty"], numbers].concat());
-            check("chain_samples", &[&sample[..], &["--side", "both"], numbers].concat());
+            check("reference", &[&sample[..], &["--uncertainty"], numbers].concat());
+            check("reference", &[&sample[..], &["--side", "both"], numbers].concat());
         }
     }
     check("chain", &["solve", "openfoam-7-1-2", "--exact"]);
-    check("chain_samples", &["sample", "openfoam-7-1-2", "--exact", "--times", "1/5", "--quantity", "force.1"]);
+    check("reference", &["sample", "openfoam-7-1-2", "--exact", "--times", "1/5", "--quantity", "force.1"]);
     // At the second landing of the first, and at the touch of the second, the sides differ or there is none.
     for scene in ["doyen-ern-piperno", "mu-1-period-36"] {
         check("history", &["solve", scene, "--derivatives", "impact_speed,length", "--quiet"]);
