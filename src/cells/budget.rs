@@ -68,6 +68,8 @@ pub(super) struct Budget {
     /// First-order effects of the time errors of events.
     events: Dependence,
     rest: Rest,
+    /// Error of `p` and `q` that damping has scattered from displaced rays in the leaps of this flight.
+    leapt: f64,
     /// `even` and `rest` at the beginning of the flight.
     began: (f64, Rest),
     pub(super) flight: TakeOff,
@@ -188,7 +190,16 @@ impl Budget {
     /// Returns the part of that error that is not followed with signs.
     fn loose(&self) -> f64 {
         let Rest { wave, point, scatter, lumps, .. } = self.rest;
-        self.even + point + lumps + scatter.min(2.0 * (wave + self.events.mass()))
+        // R(T + 1) of the masses of rays that have travelled for T round trips, and at most 1.6 of them in all.
+        let masses = wave + self.events.mass();
+        let scattered = scatter + self.leapt + self.damping * masses;
+        self.even + point + lumps + scattered.min(2.0 * masses)
+    }
+
+    /// Returns the sum of the masses of displaced rays.
+    pub(super) fn masses(&self) -> f64 {
+        let apart = self.rest.wave + self.rest.lumps + self.events.mass();
+        self.better(Off { fixed: self.fixed.rays, apart })
     }
 
     /// Returns the error of displacements by the clock of the vibration, at events, where the end is at height zero.
@@ -281,10 +292,11 @@ impl Budget {
     /// Bounds the effect of damping on the stripes between these ages, apart from their fading; at most their own size.
     ///
     /// A ray loses `1 − e^{−Rτ} ≤ Rτ` of its mass, and a level changes by R of the levels that it meets: at most `2Rτ`,
-    /// whose mean is subtracted. Over long flights `Z = e^{Rt} z` has `Z_tt − Z_xx = R²Z`: a mass m makes `|Z| ≤ ½m`,
-    /// so that `Z_t + Z_x` is off by `½R²τ m`, growing with itself, and `z_t + z_x` by `R|Z|` more at either end.
+    /// whose mean is subtracted; the vibration of a mass is at most twice the mass. Over long flights `Z = e^{Rt} z` has
+    /// `Z_tt − Z_xx = R²Z`: a mass m makes `|Z| ≤ ½m`, so that `Z_t + Z_x` is off by `½R²τ m`, growing with itself, and
+    /// `z_t + z_x` by `R|Z|` more at either end.
     fn scattered(&self, from: f64, age: f64) -> f64 {
-        let left = (self.damping * (6.0 - FADES * from)).exp() + (-self.damping * from).exp();
+        let left = 2.0 * (self.damping * (6.0 - FADES * from)).exp() + (-self.damping * from).exp();
         let turned = (0.5 * self.damping * self.damping * age).exp_m1() * (2.0 * self.damping).exp();
         self.events.mass() * left.min(2.0 * self.damping + turned).min(2.0 * self.damping * age)
     }
@@ -358,13 +370,15 @@ impl Budget {
     pub(super) fn leap(&mut self, trips: f64, error: f64, passing: f64) {
         // The centre of mass fades by e^{−2R} in each round trip, and is at most e^R of the whole.
         let fade = ((2.0 + self.damping.exp()) * (self.damping * (6.0 - FADES * trips)).exp()).min(1.0);
+        let scattered = 2.0 * self.damping * trips;
+        self.leapt += scattered * self.events.mass();
         self.covered *= fade;
         self.even = self.even * fade + error;
         let Rest { wave, point, scatter, lumps, mean } = self.rest;
         self.rest = Rest {
             wave: wave * fade,
             point: point * fade,
-            scatter: scatter * fade,
+            scatter: (scatter + scattered * wave) * fade,
             lumps: lumps * fade,
             mean: mean * fade,
         };
@@ -393,8 +407,10 @@ impl Budget {
     pub(super) fn hit(&mut self, velocity: f64, off: Off) {
         // If the velocity is small, it grows by as much again while the end may touch.
         let (drop, height) = (velocity * off.fixed, self.fixed.height);
+        let slow = if drop < height { 2.0 * height } else { 0.0 };
+        self.fixed.rays += slow;
+        self.fixed.mass += slow;
         self.displace(velocity, off.fixed);
-        self.fixed.mass += if drop < height { 2.0 * height } else { 0.0 };
         self.fixed.height = 0.0;
         self.note();
     }
@@ -469,8 +485,9 @@ impl Budget {
         let (mass, level) = (self.events.mass(), self.events.level());
         // A path crosses a ray twice in a round trip, each time at the cost of κ of its mass.
         let most = (faded + r) * mass + faded * level;
-        let Rest { point, scatter, .. } = self.rest;
-        let unknown = flight.slope.map_or(0.0, |slope| (self.even + point + scatter + most) / slope.abs());
+        let Rest { wave, point, scatter, lumps, .. } = self.rest;
+        let loose = self.even + point + lumps + scatter + r * wave;
+        let unknown = flight.slope.map_or(0.0, |slope| (loose + most) / slope.abs());
         let limits = (unknown + flight.rounding, flight.off + time);
         self.events.release((flight.at, flight.fall), flight.jump, flight.slope, limits);
         self.rest.wave += faded / fade * (mass + level);
@@ -499,6 +516,7 @@ impl Budget {
         self.events.land((late, others), (kept, fall), fade);
         self.rest.wave += scattered;
         self.rest.point += scattered;
+        self.leapt = 0.0;
         // A vibration that has faded is compared from now on by the clock of the landing.
         if range <= self.damping * speed {
             self.rest.wave += landing.variation * self.events.late.bound();

@@ -18,18 +18,20 @@ const SMALLEST_STEP: f64 = 1e-12;
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// Computes the error of a root in the strip: the error of the function plus `vague` over its slope, or the square
     /// root of twice that error over the second derivative if this is less. If the function bends back, the former
-    /// grows by a factor of up to two. The rounding of Clenshaw's sum, at most `(k + 2)u` of each coefficient, matters
+    /// grows by a factor of up to two. The rounding of Clenshaw's sum, at most `(2k + 1)² u` of each coefficient, matters
     /// where the strip is long and the hop is short.
     pub(super) fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64();
         let first = derivative(trace);
-        let (error, more, slope, curvature) = if self.contact {
-            (self.budget.point(), vague, at(&first) / strip, at(&derivative(&first)) / (strip * strip))
+        let factor = |k: u32| f64::from(2 * k + 1).powi(2);
+        let series = if self.contact { trace } else { height };
+        let roundings: f64 = (0u32..).zip(series).map(|(k, c)| factor(k) * c.to_f64().abs()).sum();
+        let more = vague + x.log2_roundoff().exp2() * roundings;
+        let (error, slope, curvature) = if self.contact {
+            (self.budget.point(), at(&first) / strip, at(&derivative(&first)) / (strip * strip))
         } else {
-            let roundings: f64 = (2u32..).zip(height).map(|(k, c)| f64::from(k) * c.to_f64().abs()).sum();
-            let rounding = x.log2_roundoff().exp2() * roundings;
-            (self.height_error(strip * x.to_f64()), vague + rounding, at(trace), at(&first) / strip)
+            (self.height_error(strip * x.to_f64()), at(trace), at(&first) / strip)
         };
         // Rounding of the place in the strip.
         let place = 4.0 * x.log2_roundoff().exp2() * (1.0 + self.state.round.unsigned_abs() as f64);
@@ -61,7 +63,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             && self.landed >= *count
         {
             let rounding = self.rounding();
-            let last = self.budget.better(off).max(rounding);
+            let last = self.budget.better(off) + rounding;
             self.end_error = if self.lost { f64::INFINITY } else { last };
             return true;
         }
@@ -70,10 +72,11 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         false
     }
 
-    /// Returns the roundings of t₁ and of the present time, which bound the time error of a ray from the initial data.
+    /// Returns the roundings of t₁ and of the present time, which bound the time error of a ray from the initial data:
+    /// up to 4.5 of t₁, and two of the time.
     fn rounding(&self) -> f64 {
         let time = self.state.time();
-        4.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64())
+        8.0 * time.log2_roundoff().exp2() * (1.0 + time.to_f64())
     }
 
     /// Changes contact into flight or flight into contact, now. A release at a root of the trace, where the trace has
@@ -119,7 +122,7 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             self.weigh();
         }
         if !self.lost {
-            self.marks[mark].time_error = self.budget.last(off).max(rounding);
+            self.marks[mark].time_error = self.budget.last(off) + rounding;
             self.marks[mark].at = self.at_event();
         }
     }

@@ -28,6 +28,9 @@ pub(super) enum Goal<S> {
     Time(S),
 }
 
+/// Roundings of a round trip within which an event counts as at a ray.
+const AT_RAY: f64 = 32.0;
+
 impl<S: RoundedSpecial> Goal<S> {
     /// Reads the goal from the run of the problem.
     fn of(task: &Task<'_, S>, data: &Data<S>) -> Self {
@@ -264,6 +267,8 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         let mut calm = None;
         // Whether an event has already occurred at this time.
         let mut fresh = true;
+        // Time by which an event at the end of the strip before was moved onto its ray.
+        let mut moved = 0.0;
         loop {
             if self.open() {
                 return Ok(Ending::Time);
@@ -304,7 +309,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             }
             // Event at the beginning of this strip.
             let first = &self.state.segments[0];
-            let (len, ray) = (first.len.clone(), first.off);
+            let (len, ray) = (first.len.clone(), first.off.plus(std::mem::take(&mut moved)));
             if !fresh && self.contact {
                 let trace = self.held_trace();
                 self.note_open_ray(&trace);
@@ -345,9 +350,10 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             // If the noise hides the root, both the function and its error bound are off by the noise.
             let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
             let found = found.map(|(x, _)| if self.proof.is_some() { on_grid(x * &len) } else { x * &len });
-            let nearby = |x: &S| x.to_f64() <= 32.0 * unit;
+            let nearby = |x: &S| x.to_f64() <= AT_RAY * unit;
             let at_start = found.as_ref().is_some_and(&nearby);
             if at_start && !fresh {
+                let ray = ray.plus(AT_RAY * unit);
                 if self.contact {
                     self.event(ray, None);
                 } else if self.land_at_ray(goal, ray, &trace, &height, &len) {
@@ -366,7 +372,7 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                         self.not_told(left.to_f64(), Near::End, 0.0);
                     }
                 }
-                let rounding = 4.0 * unit * end.to_f64().max(1.0);
+                let rounding = 8.0 * unit * end.to_f64().max(1.0);
                 if left.to_f64() <= rounding {
                     // The strip after a release proves it: a run that ends with a release looks that far ahead.
                     let cut = found.map(|x| x.clone() / x.double(2.0));
@@ -398,8 +404,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                 }
                 None => {
                     self.advance(None, Off::default(), &trace, &height);
-                    if at_end && !self.contact {
-                        self.height = self.height.zero();
+                    if at_end {
+                        moved = AT_RAY * unit;
+                        self.height = if self.contact { self.height.clone() } else { self.height.zero() };
                     }
                     fresh = false;
                 }

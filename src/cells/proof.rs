@@ -80,8 +80,8 @@ impl<S: RoundedSpecial> Proof<S> {
     /// If separated: at the release `|δv(0)|` is at most the mass that the release has left; since then `h` moves by `s
     /// A`, and `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` has an error then and now; and since `z(0)`
     /// was last a mean of stored data, it has the defects of the steps. Otherwise the defect of each step moves the end
-    /// by its own mean and vibration: by `(s + 1)E` under a free top, and by `½E` under a held one; the error of the
-    /// sum of `∫ q dt` itself is added.
+    /// by its own mean and vibration: by `(s + 3)(E + W)` under a free top, and by `2(E + W)` under a held one, with the
+    /// masses W of displaced rays; the error of the sum of `∫ q dt` itself is added.
     fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
         let (damping, both) = (run.damping(), self.even + self.masses);
         let rate = 2.0 * damping;
@@ -374,10 +374,10 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// Proves a strip in flight.
     ///
-    /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `τ = (H + |v̂(0,t̂)|)/s` is less than
-    /// δ, and `v̂(0,·) > H` before the stretch, except at first while the end has only risen since its release (`v̂_t >
-    /// F`; v is never negative, so a rising end does not touch). Then the true end touches the ground in `t̂ ± τ`,
-    /// once, and not before.
+    /// **Landing** at `t̂`, on a stretch `t̂ ± δ` on which `v̂_t ≤ −s`, `s > F`: `4(τ + latest) ≤ δ` with `τ = (H +
+    /// |v̂(0,t̂)|)/s` and the greatest time error of the events before, and `v̂(0,·) > H` before the stretch, except at
+    /// first while the end has only risen since its release (`v̂_t > F`; v is never negative, so a rising end does not
+    /// touch). Then the true end touches the ground in `t̂ ± τ`, once, and not before.
     fn flown(
         &mut self,
         run: &Follower<'_, S>,
@@ -534,7 +534,8 @@ impl<S: RoundedSpecial> Found<S> {
             let contact = if released { proof.known[k] } else { after };
             let late = late + rounding(time);
             let (rise, speed) = (contact.rise + late * after.most, after.speed + late * after.slope);
-            let rate = after.rate + 4.0 * late * after.most;
+            // h″ is at most this by the forces at both ends and the damping.
+            let rate = after.rate + (4.0 + 2.0 * damping) * late * after.most;
             let momentum = rate + 2.0 * damping * rise;
             mark.at = Some(AtEvent { rise, centre: rise, speed, end: speed, rate, momentum });
             mark.after = Uncertainty { rays: latest + rounding(time), ..proof.known[k + 1] };
@@ -554,7 +555,9 @@ fn ends_so<S: RoundedSpecial>(ending: &Ending, off: f64, medium: &Medium<S>, dat
         Ending::Time | Ending::NextImpact | Ending::Undecided(_) => true,
         Ending::NoFurtherImpact(Reason::StaysAbove { swing, height, .. }) => {
             let unit = data.displacement.to_f64();
-            height - swing > 1e-6 * (height + swing) + 16.0 * off * unit * (1.0 + 1.0 / damping)
+            // Displaced rays enter the root of an energy by that of mass times jump.
+            let displaced = (2.0 * data.most * off).sqrt();
+            height - swing > 1e-6 * (height + swing) + unit * (16.0 * off * (1.0 + 1.0 / damping) + 4.0 * displaced)
         }
         Ending::Rest(Reason::StaysPressed { part, .. }) | Ending::NoBounce(Reason::StaysPressed { part, .. }) => {
             (1.0 - part) * medium.slope.to_f64().abs() > 1e-6 * medium.slope.to_f64().abs() + 4.0 * off

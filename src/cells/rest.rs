@@ -41,17 +41,25 @@ impl<S: RoundedSpecial> Follower<'_, S> {
             let term = |n: &Node<S>| n.weight.to_f64() * f(n.x.to_f64(), n.velocity().to_f64(), n.strain.to_f64());
             nodes.iter().map(term).sum()
         };
-        let (least, share) = if medium.free_top {
+        let (least, rate, share) = if medium.free_top {
             let rate = 2.0 * sum(&|_, v_t, _| v_t);
             let mean = self.height.to_f64() + 2.0 * sum(&|x, _, v_x| (0.5 - x) * v_x);
             // The rise h′/2r, where 4κ = 2r.
             let rise = rate / (4.0 * medium.kappa.to_f64());
-            (mean.min(mean + rise), sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
+            (mean.min(mean + rise), rate, sum(&|_, v_t, v_x| (v_t - rate).powi(2) + v_x.powi(2)) / 6.0)
         } else {
             let weight = medium.gravity.to_f64();
-            (slope / 2.0, sum(&|x, v_t, v_x| v_t.powi(2) + (v_x - weight * x).powi(2)) / 2.0)
+            (slope / 2.0, f64::INFINITY, sum(&|x, v_t, v_x| v_t.powi(2) + (v_x - weight * x).powi(2)) / 2.0)
         };
-        let swing = share.sqrt() + 8.0 * (self.trace_error() + self.height_most(0.0, 0.0));
+        let (kappa, masses) = (medium.kappa.to_f64(), self.budget.masses());
+        let off = 8.0 * (self.trace_error() + self.height_most(0.0, 0.0)) + masses;
+        // A centre that may fall does so by the rise, which is off by δh′/2r.
+        let fallen = if rate > off { 0.0 } else { off / (4.0 * kappa) };
+        // Displaced rays enter the root of an energy by that of mass times jump. The values of the present are at most
+        // e^κ times those of the characteristic that begins now, and no greater than those of the start.
+        let jump = (2.0 * kappa.exp() * self.state.bound()).min(256.0 * data.most);
+        let displaced = (jump * masses).sqrt();
+        let swing = share.sqrt() + off + fallen + displaced;
         (least > swing).then(|| {
             let unit = data.displacement.to_f64();
             let from = (t * &data.units.time).to_f64();

@@ -13,6 +13,11 @@ pub(super) struct Off {
 }
 
 impl Off {
+    /// Returns both errors with `more` added.
+    pub(super) fn plus(self, more: f64) -> Off {
+        Off { fixed: self.fixed + more, apart: self.apart + more }
+    }
+
     pub(super) fn max(self, other: Off) -> Off {
         Off { fixed: self.fixed.max(other.fixed), apart: self.apart.max(other.apart) }
     }
