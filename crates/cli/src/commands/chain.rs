@@ -312,9 +312,13 @@ fn key(scene: &ChainScene, quantity: Quantity) -> Column {
     Column::from_quantity(quantity, &Units::default()).with_unit(unit)
 }
 
-/// Returns whether two values agree within their bounds.
+/// Returns whether two doubles agree within their bounds, or two longer numbers are the same.
 fn agree(a: &Value, b: &Value) -> bool {
-    (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
+    if a.is_double() && b.is_double() {
+        (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
+    } else {
+        a.to_string() == b.to_string()
+    }
 }
 
 fn warnings(history: &ChainHistory) -> Vec<String> {

@@ -185,6 +185,14 @@ fn chains_have_golden_files() {
     let force = doubles["rows"].as_array().unwrap().iter().find(|row| row[2] == "right").unwrap();
     let [value, bound] = [3, 4].map(|k| force[k].as_f64().unwrap());
     assert!((value - 7.0 / 170.0).abs() <= bound && bound < 1e-15, "{force}");
+    // The middle one of three bars is hit from both sides; events that are 1e-20 apart have rows of their own.
+    let bar = |more: &str| format!("[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n{more}");
+    for (gap, rows) in [("1", 6), ("1.00000000000000000001", 7)] {
+        let bars = [bar("velocity = 1\n"), bar("gap = 1\n"), bar(&format!("velocity = -1\ngap = {gap}\n"))].concat();
+        let scene = format!("{bars}[run]\ntime = 3\n");
+        let Run { out, .. } = run_with(&["reference", "-", "--exact", "--quantity", "force.1", "--bare"], &scene);
+        assert_eq!(out.lines().count(), rows, "{out}");
+    }
     let file = tempfile::tempdir().unwrap();
     let path = file.path().join("golden.npz").display().to_string();
     quiet(&["reference", "openfoam-7-1-2", "-o", &path]);
