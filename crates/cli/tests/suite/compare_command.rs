@@ -174,6 +174,7 @@ fn reference_files_agree() {
         text(&run(folder.path(), &[&reference[..], &["--side", "right"]].concat()), 0);
         let report = json(folder.path(), &["compare", "doyen-ern-piperno", name]);
         assert_eq!(report["quantities"].as_array().unwrap().len(), 14);
+        assert!(!report.to_string().contains("not used"), "{name}: {report}");
         for quantity in report["quantities"].as_array().unwrap() {
             assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-12, "{quantity}");
         }
