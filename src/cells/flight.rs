@@ -12,7 +12,7 @@
 //! The second formula makes the mean of z vanish, and holds on every characteristic of the flight: the height of the
 //! end is never summed over round trips.
 
-use super::march::MOST_DAMPING;
+use super::march::MOST_SEPARATED_DAMPING;
 use super::march::{Medium, State};
 use super::series::{at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
@@ -86,7 +86,7 @@ impl<S: RoundedSpecial> Medium<S> {
 
     /// Returns whether flights are separated into centre of mass and vibration.
     pub(super) fn splits(&self) -> bool {
-        self.free_top && 2.0 * self.kappa.to_f64() <= MOST_DAMPING
+        self.free_top && 2.0 * self.kappa.to_f64() <= MOST_SEPARATED_DAMPING
     }
 
     /// Computes `2 ∫ f(x) q dx` over the characteristic, with `q` from the segments and `f` given at `x`.

@@ -20,6 +20,9 @@ use crate::problem::Run;
 use crate::reason::{Near, Reason, Warning};
 use crate::special::RoundedSpecial;
 
+/// Roundings of a round trip within which an event counts as at a ray.
+const AT_RAY: f64 = 32.0;
+
 #[derive(Clone, Debug)]
 pub(super) enum Goal<S> {
     /// A number of contacts, each with the flight after it.
@@ -27,9 +30,6 @@ pub(super) enum Goal<S> {
     /// A time, dimensionless.
     Time(S),
 }
-
-/// Roundings of a round trip within which an event counts as at a ray.
-const AT_RAY: f64 = 32.0;
 
 impl<S: RoundedSpecial> Goal<S> {
     /// Reads the goal from the run of the problem.
@@ -406,7 +406,9 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
                     self.advance(None, Off::default(), &trace, &height);
                     if at_end {
                         moved = AT_RAY * unit;
-                        self.height = if self.contact { self.height.clone() } else { self.height.zero() };
+                    }
+                    if at_end && !self.contact {
+                        self.height = self.height.zero();
                     }
                     fresh = false;
                 }

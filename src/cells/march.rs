@@ -18,7 +18,7 @@ use crate::number::Rounded;
 use crate::special::gauss_legendre;
 
 /// The strongest damping `R` for leaps: `R²‖D⁻²‖ ≤ 0.13`.
-pub(super) const MOST_DAMPING: f64 = 2.0;
+pub(super) const MOST_SEPARATED_DAMPING: f64 = 2.0;
 
 /// Constants of a run.
 #[derive(Clone, Debug)]
@@ -74,7 +74,7 @@ impl<S: Rounded> Medium<S> {
     /// Builds the medium for `R = r t₁`, with segments `shorten` times shorter than necessary.
     pub(super) fn new(damping: &S, (gravity, slope): (S, S), free_top: bool, log2_accuracy: f64, shorten: i64) -> Self {
         let r = damping.to_f64();
-        let offset = if free_top && r <= MOST_DAMPING { slope.zero() } else { slope.clone() };
+        let offset = if free_top && r <= MOST_SEPARATED_DAMPING { slope.zero() } else { slope.clone() };
         // κ·len ≤ 1 on each segment: every series stays short, and the factor e^{κs} costs no noticeable digits.
         let longest = if r > 2.0 { damping.int(2) / damping } else { damping.one() } / damping.int(shorten);
         let depth = 0.5 * r.min(2.0);

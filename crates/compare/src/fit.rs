@@ -29,7 +29,7 @@ pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
-    /// The correlation of the residuals of neighbouring samples; `None` if there are fewer than three.
+    /// The correlation of the residuals of neighbouring samples; `None` where all are zero.
     pub(crate) correlation: Option<f64>,
     /// The history with the fitted values.
     pub(crate) history: TypedHistory<f64>,
@@ -140,7 +140,7 @@ impl Residuals for Pointwise<'_> {
     }
 }
 
-/// Returns the correlation of neighbouring values of the columns that are both numbers; `None` if there are no two.
+/// Returns the correlation of neighbouring values of the columns that are both numbers; `None` where all are zero.
 fn correlation(columns: &[Vec<f64>]) -> Option<f64> {
     let pairs = columns.iter().flat_map(|column| column.windows(2)).filter(|pair| !(pair[0] * pair[1]).is_nan());
     let (mut products, mut squares) = (0.0, 0.0);

@@ -449,7 +449,7 @@ struct FitReport<'a> {
     steps: usize,
     settled: bool,
     /// The correlation of the residuals of neighbouring samples: near zero for noise, near one for the error of a
-    /// scheme, whose shift of the values is not in their standard errors. None of fewer than three samples.
+    /// scheme, whose shift of the values is not in their standard errors. Null where all residuals are zero.
     correlation: Option<f64>,
     quantities: Vec<FittedQuantity>,
     contacts: Vec<FittedContact<'a>>,

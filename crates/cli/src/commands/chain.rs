@@ -184,24 +184,31 @@ pub(crate) struct ChainRows<'a> {
     pub(crate) wide: bool,
 }
 
-/// A row: its time, and the event at it.
+/// The time of a row.
 struct RowTime {
     time: Value,
-    spelled: Option<Number>,
-    event: usize,
+    origin: Origin,
+}
+
+/// The origin of a time.
+enum Origin {
+    /// A time that was asked for, the start, or the end.
+    Spelled(Number),
+    /// The event with this index.
+    Event(usize),
 }
 
 impl ChainRows<'_> {
     fn columns(&self) -> Result<Vec<ChainColumn>, Failure> {
         let chain = &self.scene.chain;
-        let read = |name: &&String| {
+        let read = |name: &String| {
             ChainColumn::read(name, chain).ok_or_else(|| {
                 let known: Vec<String> = ChainColumn::all(chain).into_iter().map(|column| column.name(chain)).collect();
                 failure!("found the quantity {name} of a chain, expected one of {}", known.join(", "))
             })
         };
         let is_key = |name: &&String| matches!(name.as_str(), "t" | "side");
-        let columns = self.names.iter().filter(|name| !is_key(name)).map(|name| read(&name));
+        let columns = self.names.iter().filter(|name| !is_key(name)).map(read);
         match self.names.is_empty() {
             true => Ok(ChainColumn::all(chain)),
             false => columns.collect(),
@@ -211,7 +218,7 @@ impl ChainRows<'_> {
     /// Returns the times of the rows; simultaneous events have one row.
     fn row_times(&self, history: &ChainHistory) -> Result<Vec<RowTime>, Failure> {
         let spelled = |time: &Number| -> Result<RowTime, Failure> {
-            Ok(RowTime { time: history.time(time)?, spelled: Some(time.clone()), event: 0 })
+            Ok(RowTime { time: history.time(time)?, origin: Origin::Spelled(time.clone()) })
         };
         if let Some(times) = &self.times {
             let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
@@ -223,7 +230,7 @@ impl ChainRows<'_> {
             let is_new =
                 rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
             if is_new {
-                rows.push(RowTime { time: event.t, spelled: None, event: k });
+                rows.push(RowTime { time: event.t, origin: Origin::Event(k) });
             }
         }
         rows.push(last);
@@ -238,9 +245,9 @@ impl ChainRows<'_> {
         cells: &mut [Vec<Cell>],
     ) -> Result<(), Failure> {
         let values = |side: Side| -> Result<Vec<Value>, Error> {
-            let value = |column: &ChainColumn| match &row.spelled {
-                Some(time) => history.value(*column, time, side),
-                None => history.value_at_event(*column, row.event, side),
+            let value = |column: &ChainColumn| match &row.origin {
+                Origin::Spelled(time) => history.value(*column, time, side),
+                Origin::Event(event) => history.value_at_event(*column, *event, side),
             };
             columns.iter().map(value).collect()
         };

@@ -196,5 +196,7 @@ fn chains_have_golden_files() {
     let file = tempfile::tempdir().unwrap();
     let path = file.path().join("golden.npz").display().to_string();
     quiet(&["reference", "openfoam-7-1-2", "-o", &path]);
-    assert!(std::fs::metadata(&path).unwrap().len() > 1000);
+    let bounds = ["--fail-above", "force.linf=1e-12,u.linf=1e-12", "--quiet"];
+    let compared = json(&[&["compare", "openfoam-7-1-2", &path, "--format", "json"][..], &bounds].concat());
+    assert_eq!(compared["bodies"].as_array().unwrap().len(), 2, "{compared}");
 }
