@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::problem::Parameter;
+
 /// Error of the library: what was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -189,7 +191,7 @@ pub enum Error {
     #[error("found the derivative by {parameter} asked for, expected {expected}")]
     Derivative {
         /// The value by which it was to be taken.
-        parameter: &'static str,
+        parameter: Parameter,
         /// A problem or numbers that have it, in words.
         expected: &'static str,
     },

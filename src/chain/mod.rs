@@ -17,7 +17,8 @@
 //! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
 //! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod),
-//! `history` (answers in numbers that are long enough), `column` (names of the numbers of a chain), `foresee` (wave
+//! `history` (answers in numbers that are long enough), `column` (names of the numbers of a chain), `parameter` (names
+//! of its values), `foresee` (wave
 //! pieces before a run). Chains with springs, dashpots or masses have, in place of `node`, `curve` (signals that are
 //! polynomials), `interface` (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its
 //! error), `cluster` (nodes that act on each other at once), `peak` (greatest values).
@@ -36,6 +37,7 @@ mod law;
 mod march;
 mod node;
 mod norm;
+mod parameter;
 mod peak;
 mod run;
 mod start;
@@ -49,6 +51,8 @@ pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing};
+pub(crate) use parameter::moved;
+pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 
 #[cfg(test)]

@@ -168,7 +168,9 @@ impl Builder {
     /// assert_eq!(rod.build().unwrap_err().to_string(), expected);
     /// ```
     pub fn build(self) -> Result<Problem, ProblemError> {
-        let Builder { draft, mut base } = self;
+        let Builder { mut draft, mut base } = self;
+        let is_of_chain = |parameter: &Parameter| matches!(parameter, Parameter::OfChain(_));
+        let of_chain: Vec<(Parameter, Written)> = draft.numbers.extract_if(.., |key, _| is_of_chain(key)).collect();
         for (set, other) in EXCLUSIVE.iter().flat_map(|[a, b]| [(a, b), (b, a)]) {
             if set.iter().any(|parameter| draft.has(*parameter)) {
                 base.numbers.retain(|parameter, _| !other.contains(parameter));
@@ -192,7 +194,9 @@ impl Builder {
         }
         base.profiles.extend(draft.profiles);
         base.top = draft.top.or(base.top);
-        base.check()
+        of_chain
+            .iter()
+            .try_fold(base.check()?, |problem, (parameter, value)| problem.with_chain_value(*parameter, value))
     }
 
     pub(super) fn from_problem(problem: &Problem) -> Self {

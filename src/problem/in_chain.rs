@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use super::given::Given;
 use super::{
     Material, Parameter, Parameters, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top,
+    Written,
 };
-use crate::chain::{Body, BodyMaterial, Chain, End, Runs, Spring};
+use crate::chain::{Body, BodyMaterial, Chain, ChainParameter, End, Runs, Spring};
 use crate::number::{Number, Rational};
 
 /// A chain, and the body in it that a problem describes.
@@ -59,13 +61,7 @@ impl Chain {
     pub fn problems(&self) -> Result<Vec<Option<Problem>>, ProblemError> {
         let materials = self.bodies().iter().enumerate().map(|(k, body)| material(k, body));
         let materials = materials.collect::<Result<Vec<_>, _>>()?;
-        let mut chain = self.clone();
-        for (k, material) in materials.iter().enumerate() {
-            if let Some(material) = material {
-                chain = chain.with_body(k, body_of(material, &self.bodies()[k]));
-            }
-        }
-        let (chain, runs) = (Arc::new(chain), Runs::default());
+        let (chain, runs) = (Arc::new(self.clone()), Runs::default());
         let problem = |(body, material): (usize, Option<Material>)| {
             let (profile, material) = (&self.bodies()[body], material?);
             Some(Problem {
@@ -161,10 +157,13 @@ impl Problem {
             Start::Profile(profile) => profile.clone(),
             _ => Profile::default(),
         };
-        let original = original.clone().with_length(length.clone());
-        let original = original.with_start(velocity, displacement).with_strain(strain);
+        let own = original.clone().with_length(length.clone());
+        let own = own.with_start(velocity, displacement).with_strain(strain);
+        // A body that is given by its impedance stays so.
+        let is_original = self::material(*body, original).is_ok_and(|given| given.as_ref() == Some(material));
+        let own = if is_original { own } else { body_of(material, &own) };
         let gravity = gravity.clone().unwrap_or_else(|| 0.into());
-        let chain = chain.with_body(*body, body_of(material, &original)).with_gravity(gravity);
+        let chain = chain.with_body(*body, own).with_gravity(gravity);
         let chain = match stiffness {
             Some(stiffness) => chain.with_stiffness(*body, stiffness.clone()),
             None => chain,
@@ -248,6 +247,24 @@ impl Problem {
     pub fn rigid_contact(&self) -> Result<Option<Problem>, ProblemError> {
         let Some((chain, body)) = self.chain().filter(|(chain, _)| chain.has_springs()) else { return Ok(None) };
         Ok(Some(chain.without_springs()?.problem(body)?))
+    }
+
+    /// Returns the number of a value of the chain that the problem is a body of; `None` where there is none.
+    pub(super) fn chain_value(&self, parameter: ChainParameter) -> Option<Number> {
+        self.chain()?.0.value(parameter)
+    }
+
+    /// Returns the same body of a chain with `value` in place of one of the chain's values.
+    pub(super) fn with_chain_value(&self, parameter: Parameter, value: &Written) -> Result<Problem, ProblemError> {
+        let path = parameter.full_path();
+        let number = Given::new(&path, &path, value)?.number.clone();
+        match (self.chain(), parameter) {
+            (Some((chain, body)), Parameter::OfChain(parameter)) => chain.with_value(parameter, number)?.problem(body),
+            _ => {
+                let found = format!("{path} of a rod by itself");
+                Err(ProblemError::new(Kind::Contradiction, &path, found, "a body of a chain"))
+            }
+        }
     }
 
     /// Returns the problem itself if it describes a rod by itself, or a valid body of its chain.

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::{Builder, Problem, Start, Written};
+use crate::chain::{ChainParameter, ChainValue};
 use crate::names::{UnknownName, nearest};
 use crate::number::Number;
 
@@ -48,10 +49,12 @@ macro_rules! parameters {
             Strain(Option<usize>),
             /// `v_t(x,0)`, as the displacement.
             Velocity(Option<usize>),
+            /// A value of the chain that the rod is a body of.
+            OfChain(ChainParameter),
         }
 
         impl Parameter {
-            /// All parameters, in the order of messages.
+            /// All parameters of a rod by itself, in the order of messages.
             pub const ALL: &'static [Parameter] = &[
                 $(Parameter::$parameter,)+
                 Parameter::Displacement(None), Parameter::Strain(None), Parameter::Velocity(None),
@@ -89,6 +92,10 @@ macro_rules! parameters {
                         synonyms: &[],
                         is_differentiable: true,
                     },
+                    Parameter::OfChain(parameter) => {
+                        let name = chain_path(parameter.value());
+                        Names { path: name, field: name, noun: "a value", synonyms: &[], is_differentiable: true }
+                    }
                 }
             }
         }
@@ -154,9 +161,18 @@ parameters! {
 }
 
 impl Parameter {
-    /// Returns the path in a scene file: `impact.speed`.
+    /// Returns the path in a scene file: `impact.speed`; that of the list for one of its points.
     pub fn path(self) -> &'static str {
         self.names().path
+    }
+
+    /// Returns the path with the place of a point or of a body: `start.velocity[2]`, `body.2.length`.
+    pub fn full_path(self) -> String {
+        match (self, self.point()) {
+            (Parameter::OfChain(parameter), _) => parameter.to_string(),
+            (_, Some(point)) => format!("{}[{point}]", self.path()),
+            (_, None) => self.path().to_string(),
+        }
     }
 
     /// Returns the name of the setter of the [`Builder`] and of the field in Python: `impact_speed`; that of the list
@@ -258,17 +274,45 @@ impl Parameter {
     }
 }
 
+/// Returns the value of a chain that a text with a place of a chain was most likely meant to be.
+fn chain_nearest(text: &str) -> Option<String> {
+    let (place, word) = text.rsplit_once('.')?;
+    let values = <ChainValue as strum::VariantArray>::VARIANTS.iter().copied();
+    let near = |value: ChainValue| format!("{place}.{value}");
+    let known: Vec<String> = values.map(near).filter(|text| text.parse::<ChainParameter>().is_ok()).collect();
+    nearest(&format!("{place}.{word}"), known.iter().map(String::as_str)).map(String::from)
+}
+
+/// Returns the path of a value of a chain without its place.
+const fn chain_path(value: ChainValue) -> &'static str {
+    match value {
+        ChainValue::Length => "body.length",
+        ChainValue::WaveSpeed => "body.wave_speed",
+        ChainValue::Impedance => "body.impedance",
+        ChainValue::Modulus => "body.modulus",
+        ChainValue::Density => "body.density",
+        ChainValue::Area => "body.area",
+        ChainValue::Mass => "body.mass",
+        ChainValue::Velocity => "body.velocity",
+        ChainValue::Gap => "joint.gap",
+        ChainValue::Stiffness => "joint.stiffness",
+        ChainValue::Damping => "joint.damping",
+    }
+}
+
 /// The [field](Parameter::name), with the place of a point: `velocity[0]`.
 impl fmt::Display for Parameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.point() {
-            Some(point) => f.pad(&format!("{}[{point}]", self.name())),
-            None => f.pad(self.name()),
+        match (self, self.point()) {
+            (Parameter::OfChain(parameter), _) => parameter.fmt(f),
+            (_, Some(point)) => f.pad(&format!("{}[{point}]", self.name())),
+            (_, None) => f.pad(self.name()),
         }
     }
 }
 
-/// Reads a path or a field, with the place of a point behind it: `impact.speed`, `impact_speed`, `start.velocity[0]`.
+/// Reads a path or a field, with the place of a point behind it: `impact.speed`, `impact_speed`, `start.velocity[0]`; or
+/// a value of a chain: `body.2.length`, `joint.1.gap`.
 impl FromStr for Parameter {
     type Err = UnknownName;
 
@@ -278,6 +322,9 @@ impl FromStr for Parameter {
             Some((name, point)) => (name, Some(point.parse::<usize>().ok())),
             None => (text, None),
         };
+        if let Ok(parameter) = text.parse::<ChainParameter>() {
+            return Ok(Parameter::OfChain(parameter));
+        }
         let found = match (Parameter::named(name), point) {
             (found, None) => found,
             (Some(Parameter::Displacement(_)), Some(Some(k))) => Some(Parameter::Displacement(Some(k))),
@@ -293,7 +340,11 @@ impl FromStr for Parameter {
             // The key of a path.
             let word = text.rsplit('.').next().unwrap_or(text).to_lowercase();
             let meant = all().find(|known| known.table_and_key().1 == word || known.synonyms().contains(&&*word));
-            error.nearest = error.nearest.or_else(path).or_else(|| meant.map(|known| known.name().into()));
+            error.nearest = error
+                .nearest
+                .or_else(|| chain_nearest(text))
+                .or_else(path)
+                .or_else(|| meant.map(|known| known.name().into()));
             error
         })
     }

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use super::{Material, Parameter, Parameters, Problem, Profile, Speed, Start};
 use super::{ProblemError, given::Given};
+use crate::chain;
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
 
@@ -28,6 +29,9 @@ impl Parameter {
             (Parameter::Gravity, _) => zero(problem.gravity.as_ref()),
             (Parameter::Stiffness, _) => zero(self.given(problem).as_ref()),
             (Parameter::ImpactSpeed, Start::Above { speed, .. }) => speed.is_zero(),
+            (Parameter::OfChain(parameter), _) => {
+                parameter.is_non_negative() && zero(problem.chain_value(parameter).as_ref())
+            }
             // The end is on the ground.
             (Parameter::Displacement(Some(0)), _) => zero(self.list(problem).and_then(|list| Some(&list.first()?.1))),
             _ => false,
@@ -46,9 +50,10 @@ impl Parameter {
             Parameter::ImpactSpeed => "an impact, or a start above the ground",
             Parameter::Gap => "a start above the ground",
             Parameter::Stiffness => "a spring below the rod: [ground] stiffness or penalty in its scene",
+            Parameter::OfChain(_) => "a body of a chain that has this value",
             _ => &ALL_DIFFERENTIABLE,
         };
-        self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self.name(), expected })
+        self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self, expected })
     }
 
     /// Its value in `problem`; `None` where that has none.
@@ -63,6 +68,9 @@ impl Parameter {
             (Parameter::ImpactSpeed, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
             (Parameter::Displacement(None) | Parameter::Strain(None) | Parameter::Velocity(None), _) => {
                 self.list(problem).filter(|list| !list.is_empty()).map(|_| rod.length.one())
+            }
+            (Parameter::OfChain(parameter), _) => {
+                problem.chain_value(parameter).map(|number| S::from_number(&number, precision))
             }
             _ => self.number(&mut problem.clone()).map(|number| S::from_number(number, precision)),
         })
@@ -107,6 +115,13 @@ impl Parameter {
         let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
         let mut moved = problem.clone();
         match (self, &mut moved.start) {
+            (Parameter::OfChain(parameter), _) => {
+                let number = problem.chain_value(parameter)?;
+                let scale = self.scale_of_zero(problem);
+                let backwards = *step <= Rational::default() && self.only_grows(problem);
+                let number = if backwards { None } else { chain::moved(&number, step, &scale) }?;
+                return problem.with_chain_value(self, &number.into()).ok();
+            }
             (Parameter::Length, Start::Profile(Profile { displacement, strain, velocity })) => {
                 displacement.iter_mut().chain(strain).chain(velocity).try_for_each(|(x, _)| grow(x))?;
             }
@@ -147,6 +162,7 @@ impl Parameter {
     pub(crate) fn scale_of_zero(self, problem: &Problem) -> Number {
         let rod = Parameters::<f64>::of(problem, &());
         let scale = rod.map_or(1.0, |rod| match self {
+            Parameter::OfChain(parameter) => problem.chain().map_or(1.0, |(chain, _)| parameter.scale_of_zero(&chain)),
             Parameter::Gravity if rod.speed > 0.0 => rod.speed / rod.round_trip(),
             Parameter::Gravity => rod.wave_speed / rod.round_trip() / 1000.0,
             Parameter::ImpactSpeed => (2.0 * rod.gravity * problem.gap().map_or(0.0, Number::to_f64)).sqrt(),
@@ -175,6 +191,9 @@ impl Parameter {
             && let Some(problem) = self.step_to(problem, value).and_then(|step| self.moved(problem, &step))
         {
             return problem.to_builder().build();
+        }
+        if let Parameter::OfChain(_) = self {
+            return problem.with_chain_value(self, &value.into());
         }
         let written = |value: f64| Given::new("", self.name(), &value.into()).map(|given| given.number.clone());
         let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();

@@ -85,7 +85,7 @@ impl Target for Interval {
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Interval>, Error> {
-        Err(Error::Derivative { parameter: asked.by.name(), expected: "digits that need not be proved" })
+        Err(Error::Derivative { parameter: asked.by, expected: "digits that need not be proved" })
     }
 }
 

@@ -41,11 +41,11 @@ fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error>
     let zero = value.vanishes() == Ok(true);
     if asked.plan.engine == Engine::Chain {
         let expected = "digits or doubles: fractions carry no derivatives of a chain";
-        return Err(Error::Derivative { parameter: asked.by.name(), expected });
+        return Err(Error::Derivative { parameter: asked.by, expected });
     }
     if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
         let expected = "digits or doubles: a rod without it is another problem in fractions";
-        return Err(Error::Derivative { parameter: asked.by.name(), expected });
+        return Err(Error::Derivative { parameter: asked.by, expected });
     }
     let problem = &*asked.plan.reaching(asked.problem);
     let base = asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?;

@@ -3,7 +3,7 @@
 use crate::random_chain::Random;
 use dalembert::Numbers;
 use dalembert::Side;
-use dalembert::chain::{Chain, ChainColumn, ChainQuantity};
+use dalembert::chain::{Chain, ChainColumn, ChainParameter, ChainQuantity};
 use dalembert::number::{Bounded, Number, Rational, Scalar, Value};
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Quantity, Units};
@@ -229,4 +229,101 @@ fn a_changed_body_is_a_changed_chain() {
             .map(|f| f.same(&Rational::from(-2))),
         Some(true)
     );
+}
+
+/// Returns the chain of a built-in scene.
+fn builtin(name: &str) -> Chain {
+    dalembert::ChainScene::parse(dalembert::builtin::get(name).unwrap().source).unwrap().chain
+}
+
+/// Computes the central difference quotient of a quantity of the first body in fractions, and its change between two
+/// steps.
+fn quotient(chain: &Chain, by: ChainParameter, quantity: Quantity, time: &Number) -> Option<[f64; 2]> {
+    let value = chain.value(by)?.to_rational();
+    let moved = |step: Rational| -> Option<Rational> {
+        let number = (value.clone() + step).to_string().parse::<Number>().ok()?;
+        let moved = chain.with_value(by, number).ok()?.problem(0).ok()?;
+        let history = moved.solve_in(Numbers::Digits(60)).ok()?;
+        let found = history.at_time(quantity, time.clone(), Side::Right).ok()?;
+        spelled(&found).to_rational().into()
+    };
+    let slope = |exponent: u32| {
+        let h = Rational::from(1) / Rational::from(10i64.pow(exponent));
+        let rise = moved(h.clone())? - moved(-h.clone())?;
+        Some(Scalar::to_f64(&(rise / (h.clone() + &h))))
+    };
+    Some([slope(12)?, slope(13)?])
+}
+
+#[test]
+fn derivatives_by_values_of_the_whole_chain_are_difference_quotients() {
+    let mut random = Random(2027);
+    let quantities = ["u_top", "v_end", "force_top"].map(|name| name.parse::<Quantity>().unwrap());
+    let time = number("43/17");
+    let (mut compared, mut of_others) = (0, 0);
+    for _ in 0..6 {
+        let chain = random.chain();
+        let problem = chain.problem(0).unwrap();
+        let history = problem.solve_in(Numbers::Digits(20)).unwrap();
+        if history.end().to_f64() < time.to_f64() {
+            continue;
+        }
+        for by in chain.parameters() {
+            let parameter: Parameter = by.to_string().parse().unwrap();
+            assert_eq!(parameter.value(&problem), chain.value(by).map(|number| number.to_f64()), "{by}");
+            let Ok(found) =
+                history.derivatives_at(parameter, &quantities, std::slice::from_ref(&time), &[], Side::Right)
+            else {
+                continue;
+            };
+            for (quantity, found) in quantities.iter().zip(&found[0]) {
+                let Some(found) = found.as_ref().and_then(|found| found.value()) else { continue };
+                let Some([coarse, fine]) = quotient(&chain, by, *quantity, &time) else { continue };
+                let size = 1.0 + fine.abs();
+                // A ray may lie between the steps.
+                if (coarse - fine).abs() > 1e-9 * size {
+                    continue;
+                }
+                assert!((found.to_f64() - fine).abs() < 1e-9 * size, "{quantity} by {by}: {found}, {fine}; {chain:?}");
+                compared += 1;
+                of_others += usize::from(fine != 0.0 && !by.to_string().starts_with("body.1"));
+            }
+        }
+    }
+    assert!(compared > 60 && of_others > 10, "{compared} {of_others}");
+}
+
+#[test]
+fn values_of_other_bodies_have_derivatives_in_closed_form() {
+    // A striker of impedance 0.7 and velocity 0.1 meets a bar of impedance 1 across the gap d: until a wave returns, the
+    // force is 0.1/(1/0.7 + 1), and the end of the striker moves with 0.1·0.7/1.7 from t = d/0.1 on.
+    let chain = builtin("openfoam-7-1-2");
+    let history = chain.problem(0).unwrap().doubles().unwrap();
+    let derivative = |by: &str, quantity: &str| {
+        let (by, quantity) = (by.parse().unwrap(), [quantity.parse().unwrap()]);
+        let found = history.derivatives_at(by, &quantity, &[number("0.2")], &[], Side::Right).unwrap();
+        found[0][0].as_ref().unwrap().value().unwrap().to_f64()
+    };
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-7, "{found} {expected}");
+    near(derivative("joint.1.gap", "u_top"), 1.0 - 0.7 / 1.7);
+    near(derivative("body.1.velocity", "force_top"), 0.7 / 1.7);
+    // Z₂ = √(Eρ), so that ∂f/∂E = v Z₁²/(Z₁ + Z₂)² Z₂/2E.
+    near(derivative("body.2.modulus", "force_top"), 0.1 * (0.7f64 / 1.7).powi(2) / 200.0);
+    near(derivative("body.2.length", "force_top"), 0.0);
+}
+
+#[test]
+fn values_that_a_chain_does_not_have_are_refused_by_name() {
+    let chain = builtin("openfoam-7-1-2");
+    let rod = chain.problem(0).unwrap();
+    let refused = |text: &str| rod.to_builder().set(text.parse::<Parameter>().unwrap(), 1).build().unwrap_err();
+    for text in ["body.3.length", "body.2.mass", "joint.1.stiffness", "joint.2.gap", "bottom.gap"] {
+        let error = refused(text).to_string();
+        assert!(error.contains(text) && error.contains("joint.1.gap"), "{error}");
+    }
+    let negative = rod.to_builder().set("body.2.length".parse::<Parameter>().unwrap(), -1).build().unwrap_err();
+    assert_eq!(negative.to_string(), "found length = -1, expected a number above zero");
+    let alone = Problem::builder().length(1).wave_speed(1).impact_speed(1);
+    let alone = alone.set("body.2.length".parse::<Parameter>().unwrap(), 1);
+    assert!(alone.build().unwrap_err().to_string().contains("rod by itself"));
 }

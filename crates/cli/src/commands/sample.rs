@@ -315,7 +315,7 @@ impl Rows<'_> {
             return Ok(Vec::new());
         };
         let points = self.points.as_ref().map_or_else(|| Some(Vec::new()), List::numbers);
-        let too_long = Error::Derivative { parameter: first.name(), expected: "times and points of fewer digits" };
+        let too_long = Error::Derivative { parameter: *first, expected: "times and points of fewer digits" };
         let (times, points) = times.numbers().zip(points).ok_or(too_long)?;
         parameters.iter().map(|by| history.derivatives_at(*by, quantities, &times, &points, side)).collect()
     }

@@ -45,7 +45,8 @@ pub(crate) struct Solve {
     part: Option<HistoryPart>,
     /// Derivatives of events and contacts by values of the scene: length, wave_speed, modulus, density, damping,
     /// gravity, impact_speed, gap, stiffness of a contact that yields, displacement, strain or velocity of the start,
-    /// velocity[0] of its first point, or paths such as impact.speed; all others stay as they are
+    /// velocity[0] of its first point, body.2.length or joint.1.gap of a chain, or paths such as impact.speed; all
+    /// others stay as they are
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Parameter::differentiable)]
     derivatives: Vec<Parameter>,
     /// The Chebyshev coefficients of curved pieces, with --part stress; otherwise straight lines within 1e-6 of the

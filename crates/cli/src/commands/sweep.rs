@@ -30,6 +30,7 @@ pub(crate) struct Sweep {
     #[command(flatten)]
     scene: SceneArgs,
     /// A value to vary: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
+    /// With --body N also values of other bodies and of joints, such as body.2.mass and joint.1.gap.
     /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
@@ -90,7 +91,7 @@ impl Sweep {
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
-        let vary = |axis: &Axis| json!({"path": axis.parameter.path(), "values": axis.values});
+        let vary = |axis: &Axis| json!({"path": axis.parameter.full_path(), "values": axis.values});
         // Everything that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),

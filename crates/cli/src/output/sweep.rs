@@ -59,7 +59,7 @@ struct AxisJson<'a> {
 
 impl<'a> From<&'a Axis> for AxisJson<'a> {
     fn from(Axis { parameter, values }: &'a Axis) -> Self {
-        AxisJson { path: parameter.path().to_string(), values }
+        AxisJson { path: parameter.full_path(), values }
     }
 }
 
@@ -88,7 +88,7 @@ struct PointRow {
 /// Returns the columns of a sweep; a table has one of notes where there are any.
 fn columns(sweep: &Sweep, noted: bool) -> Vec<Column> {
     let axis = |path: String| Column::new(path.clone()).keyed(format!("at/{path}"));
-    let axes = sweep.grid.axes.iter().map(|it| axis(it.parameter.path().to_string()));
+    let axes = sweep.grid.axes.iter().map(|it| axis(it.parameter.full_path()));
     let numbers = sweep.units().flat_map(|(quantity, unit)| {
         let name = quantity.name();
         let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };

@@ -107,8 +107,32 @@ fn a_body_is_swept_and_drawn() {
 }
 
 #[test]
+fn values_of_other_bodies_are_swept() {
+    // A mass m on a clamped rod with Z = c = 1 and speed 1: the force is e^(−t/m) until the wave returns at t = 2.
+    let swept = run("sweep saint-venant-mass --body 1 --vary body.2.mass=1/2,1,2,6 --vary body.2.velocity=-1,-2 \
+                     --quantity force_top --time 1/2 --format csv");
+    let mut lines = swept.lines();
+    assert_eq!(
+        lines.next().map(|head| head.starts_with("point,body.2.mass,body.2.velocity,force_top")),
+        Some(true),
+        "{swept}"
+    );
+    for mass in [0.5, 1.0, 2.0, 6.0] {
+        for speed in [1.0, 2.0] {
+            let force: f64 = lines.next().unwrap().split(',').nth(3).unwrap().parse().unwrap();
+            assert!((force - speed * (-0.5f64 / mass).exp()).abs() < 1e-13, "{swept}");
+        }
+    }
+}
+
+#[test]
 fn bodies_that_are_not_there_are_refused() {
     for (arguments, part) in [
+        ("sweep openfoam-7-1-2 --body 1 --vary body.2.lenght=1 --quantity u_top", "did you mean body.2.length?"),
+        (
+            "sample openfoam-7-1-2 --body 1 --times 1/5 --quantity u_top --derivatives body.2.mass",
+            "that has this value",
+        ),
         ("sweep openfoam-7-1-2 --vary gravity.acceleration=1 --quantity peak_force", "expected one of them"),
         ("solve openfoam-7-1-2 --body 3", "expected a body from 1, the lowest, to 2"),
         ("solve openfoam-7-1-2 --body 0", "expected a body from 1, the lowest, to 2"),

@@ -30,7 +30,7 @@ pub enum GridError {
     Number(#[from] NumberError),
     /// Two axes of one path.
     #[error("found {0} varied twice, expected each value once")]
-    Twice(&'static str),
+    Twice(String),
     /// Axes of these sizes, with too many points.
     #[error("found {0} points, expected at most {MOST_POINTS}")]
     TooManyPoints(String),
@@ -107,7 +107,7 @@ impl Grid {
     pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, GridError> {
         for (k, axis) in axes.iter().enumerate() {
             if axes[..k].iter().any(|other| other.parameter == axis.parameter) {
-                return Err(GridError::Twice(axis.parameter.path()));
+                return Err(GridError::Twice(axis.parameter.full_path()));
             }
         }
         let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.values.len()));
