@@ -4,7 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, Header, Layout, RowWriter, json_bytes, rows_bytes};
+use crate::output::{Cell, Column, Dataset, Header, Layout, RowWriter, Worth, json_bytes, rows_bytes};
 use crate::progress::Progress;
 use crate::terminal;
 use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForeseenPieces};
@@ -291,8 +291,8 @@ impl ChainRows<'_> {
                 Column::new(column.name(chain)).with_meaning(column.meaning(chain)).with_unit(unit)
             }))
             .collect();
-        let writer =
-            |destination: &Destination| RowWriter::new(destination.format, &heads, self.uncertainty, digits(*numbers));
+        let worth = Worth::new(self.uncertainty, self.bare);
+        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, worth, digits(*numbers));
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         for part in times.chunks(CHUNK) {
             let mut cells = vec![Vec::new(); heads.len()];
@@ -308,7 +308,7 @@ impl ChainRows<'_> {
         };
         let header = Header::of_chain((scene, until.until().to_f64()), *numbers, warnings(&history), ends);
         let below = format!("\n{}", unit_line(scene, &measures));
-        let layout = Layout { below, keys: (!self.wide).then_some(2), bare: self.bare };
+        let layout = Layout { below, keys: (!self.wide).then_some(2) };
         writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
     }
 }

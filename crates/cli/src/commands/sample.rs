@@ -13,7 +13,7 @@ use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
 use crate::output::{
-    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
+    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, Worth, code, derivative_rows, derivative_table,
 };
 use crate::quantities::{NameParser, Scope, has_material};
 use crate::source::AnyScene;
@@ -96,7 +96,7 @@ struct SampleArgs {
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
     wide: bool,
-    /// Leave out the comments above a CSV
+    /// Leave out the comments above a CSV, and digits beyond their bound where there is no column of bounds
     #[arg(long)]
     bare: bool,
 }
@@ -332,10 +332,11 @@ impl Rows<'_> {
             by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
         let columns = self.quantities.iter().map(|quantity| Column::from_quantity(*quantity, &info.units));
         let columns: Vec<Column> = columns.chain(derived_columns).collect();
+        let worth = Worth::new(self.args.uncertainty, self.args.bare);
         let writer = |destination: &Destination| {
             // A table has derivatives below it.
             let count = if destination.format == Format::Table { self.quantities.len() } else { columns.len() };
-            RowWriter::new(destination.format, &columns[..count], self.args.uncertainty, info.digits)
+            RowWriter::new(destination.format, &columns[..count], worth, info.digits)
         };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let mut write = |cells: &[Vec<Cell>]| writers.iter_mut().try_for_each(|writer| writer.push(cells));
@@ -361,7 +362,7 @@ impl Rows<'_> {
         drop(progress);
         let below = format!("\n{tables}{}", info.below_values(&self.quantities));
         let key_count = self.quantities.iter().take_while(is_key).count().max(1);
-        let layout = Layout { below, keys: (!self.args.wide).then_some(key_count), bare: self.args.bare };
+        let layout = Layout { below, keys: (!self.args.wide).then_some(key_count) };
         let header = Header::new(&history, info, self.scene.source(), "each column", self.times.is_none());
         for (writer, destination) in writers.into_iter().zip(destinations) {
             writer.finish(&header, destination, &layout)?;

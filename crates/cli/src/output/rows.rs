@@ -24,14 +24,38 @@ pub(crate) struct Layout {
     pub(crate) below: String,
     /// Number of columns that each part of a table begins with that is too wide for a page; `None` to keep it wide.
     pub(crate) keys: Option<usize>,
-    /// Whether a CSV has no comments.
-    pub(crate) bare: bool,
+}
+
+/// Marks of what the digits of a number are worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Worth {
+    /// The greatest bound of each column, above the rows.
+    Header,
+    /// The same, and beside each column of numbers one of their bounds.
+    Columns,
+    /// No comments above a CSV and no columns of bounds: digits beyond the bound are left out.
+    Digits,
+    /// Columns of bounds without comments above a CSV.
+    BareColumns,
+}
+
+impl Worth {
+    /// Returns the marks for columns of bounds, and for a CSV without comments.
+    pub(crate) fn new(bounds: bool, bare: bool) -> Self {
+        match (bounds, bare) {
+            (false, false) => Worth::Header,
+            (true, false) => Worth::Columns,
+            (false, true) => Worth::Digits,
+            (true, true) => Worth::BareColumns,
+        }
+    }
 }
 
 /// Rows that are kept in temporary files until their bounds, which stand above them, are known.
 #[derive(Debug)]
 pub(crate) struct RowWriter {
     format: Format,
+    worth: Worth,
     /// Columns, each with the place of its values.
     columns: Vec<(Column, usize)>,
     /// Digits of a long number; 0 for doubles and fractions.
@@ -47,8 +71,9 @@ pub(crate) struct RowWriter {
 const BUFFER: usize = 1 << 16;
 
 impl RowWriter {
-    /// Returns a writer without rows; with `bounds` each column of numbers is followed by one of their bounds.
-    pub(crate) fn new(format: Format, columns: &[Column], bounds: bool, digits: u32) -> Result<Self, Failure> {
+    /// Returns a writer without rows.
+    pub(crate) fn new(format: Format, columns: &[Column], worth: Worth, digits: u32) -> Result<Self, Failure> {
+        let bounds = matches!(worth, Worth::Columns | Worth::BareColumns);
         let mut all = Vec::new();
         for (place, column) in columns.iter().enumerate() {
             all.push((column.clone(), place));
@@ -60,7 +85,7 @@ impl RowWriter {
         let kept = (0..files).map(|_| Ok(BufWriter::with_capacity(BUFFER, tempfile::tempfile()?)));
         let kept = kept.collect::<io::Result<_>>().map_err(cannot("keep the rows"))?;
         let bounds = vec![Bound::from_log2(f64::NEG_INFINITY); all.len()];
-        Ok(RowWriter { format, columns: all, digits, kept, table: Vec::new(), bounds, count: 0 })
+        Ok(RowWriter { format, worth, columns: all, digits, kept, table: Vec::new(), bounds, count: 0 })
     }
 
     /// Adds rows, given column by column.
@@ -109,7 +134,7 @@ impl RowWriter {
 
     /// Writes all rows to `destination`.
     pub(crate) fn finish(self, header: &Header<'_>, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
-        let RowWriter { format, columns, kept, table, bounds, count, .. } = self;
+        let RowWriter { format, worth, columns, kept, table, bounds, count, .. } = self;
         let columns: Vec<Column> = columns.into_iter().map(|(column, _)| column).collect();
         let names = || columns.iter().map(|column| column.csv_name()).collect::<Vec<&str>>();
         let rewound = |file: BufWriter<File>| {
@@ -154,7 +179,10 @@ impl RowWriter {
                 npz.finish()
             }
             _ => {
-                let comments = if layout.bare { String::new() } else { header.comments(&columns, &bounds) };
+                let comments = match worth {
+                    Worth::Digits | Worth::BareColumns => String::new(),
+                    Worth::Header | Worth::Columns => header.comments(&columns, &bounds),
+                };
                 writeln!(file, "{comments}{}", names().join(","))?;
                 io::copy(&mut kept[0], file).map(drop)
             }
@@ -207,6 +235,11 @@ impl RowWriter {
                 // A bound below the least double is a text.
                 let is_double = bound.parse::<f64>().is_ok_and(|double| double > 0.0 || bound == "0");
                 add(if is_double { "" } else { quote }, &bound);
+            }
+            (Cell::Number(value), Kind::Number | Kind::Word)
+                if value.is_double() && self.worth == Worth::Digits && !value.is_exact() =>
+            {
+                add("", &value.to_digits(DOUBLE_DIGITS));
             }
             // The shortest text that reads as the same double.
             (Cell::Number(value), Kind::Number | Kind::Word) if value.is_double() => {
