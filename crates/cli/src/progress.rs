@@ -1,5 +1,6 @@
 //! The progress bar of a single run.
 
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,7 +15,7 @@ use dalembert::Scene;
 use dalembert::problem::Parameters;
 use dalembert::solve::{Observer, Plan, Reach};
 
-/// A progress bar on standard error: only on a terminal, and only for runs over a second.
+/// A progress bar on standard error: on a terminal for runs over a second; elsewhere one note in a long run.
 pub(crate) struct Progress {
     bar: ProgressBar,
     /// The thread that shows the bar after a second, and the channel whose closing ends it.
@@ -53,6 +54,10 @@ impl Progress {
             if receiver.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
                 shown.set_draw_target(terminal::draw_target());
                 shown.enable_steady_tick(Duration::from_millis(100));
+                let is_silent = !std::io::stderr().is_terminal();
+                if is_silent && receiver.recv_timeout(SILENCE) == Err(RecvTimeoutError::Timeout) {
+                    terminal::note(reached(&shown));
+                }
             }
         });
         Progress { bar, delay: Some((sender, thread)) }
@@ -84,6 +89,17 @@ impl Progress {
             ControlFlow::Continue(())
         })
     }
+}
+
+/// Time after which a run off a terminal says how far it is.
+const SILENCE: Duration = Duration::from_secs(15);
+
+/// Returns how far a run is, in words.
+fn reached(bar: &ProgressBar) -> String {
+    let of = bar.length().map_or_else(String::new, |length| format!(" of {length}"));
+    let message = bar.message();
+    let stage = if message.is_empty() { String::new() } else { format!(" ({message})") };
+    format!("still running: {}{of} steps done{stage}; an interrupted run leaves no file half-written", bar.position())
 }
 
 impl Drop for Progress {
