@@ -22,6 +22,10 @@
 //!
 //! The cause that leaves the least over all columns is asserted, unless another one leaves about as little: then all of
 //! these are listed, and none is asserted.
+//!
+//! A contact that may be as soft as a mesh makes it is named only where it is clear: it leaves at most a quarter of
+//! ‖e‖₂, so that it and not the mesh dominates, and `EA/kc` exceeds two steps by twice its standard error, so that the
+//! samples show its front.
 
 use super::cause::Cause;
 use super::hint::Detectable;
@@ -67,6 +71,13 @@ const MAX_RATIO: f64 = 1000.0;
 pub(super) const NO_GRAVITY: f64 = 0.009;
 /// Factor of the ‖e‖₂² that the best cause leaves, up to which another cause explains the data about as well.
 const ABOUT_EQUAL: f64 = 2.0;
+/// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
+const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
+/// `EA/kL` of the softest contact that a mesh may make: a penalty of the stiffness of an element is softer than this on
+/// fewer than 20 elements.
+const SOFT_MESH: f64 = 0.05;
+/// Number of steps in time within which samples show no front: schemes spread a jump over as many.
+const BLURRED: f64 = 2.0;
 /// Share of the whole ‖e‖₂² below which a difference between two causes does not count.
 const NO_DIFFERENCE: f64 = 1e-6;
 
@@ -79,6 +90,8 @@ pub(super) struct Fitted {
     pub(super) error: f64,
     /// ‖e‖₂² that is left over all signals.
     left: f64,
+    /// The share of ‖e‖₂² that is left over the columns that count.
+    pub(super) share_left: f64,
 }
 
 /// The fits of causes to the signals of a data set.
@@ -337,7 +350,7 @@ impl CauseFits<'_> {
         }
         let slope = self.slopes(cause, p, &found)?;
         let error = self.accepted(cause, p, &concerned, &slope, &found)?;
-        Some(Fitted { kind, cause, value: p, error, left: self.squares(&found) })
+        Some(Fitted { kind, cause, value: p, error, left: self.squares(&found), share_left: left / base })
     }
 
     /// Returns the standard error of the number `p` of a cause, `None` where a condition at the head of this module
@@ -416,6 +429,14 @@ impl CauseFits<'_> {
         };
         fits.retain(|fit| fit.left <= most && competes(fit));
         fits
+    }
+
+    /// Returns whether the only explanation is a contact that may be as soft as a mesh makes it, and that is not clear.
+    pub(super) fn is_soft_mesh(&self, best: &[Fitted]) -> bool {
+        let [Fitted { cause: Cause::SoftContact, value, error, share_left, .. }] = best else { return false };
+        // `EA/kc` of a share of the length is that share of half a round trip.
+        let (least, blurred) = (value - 2.0 * error, BLURRED * self.model.step / (self.trip / 2.0));
+        least < SOFT_MESH && (*share_left > CLEAR || least <= blurred)
     }
 
     /// Corrects the column that a cause concerns; returns `false` for a cause that concerns all columns.

@@ -3,7 +3,7 @@
 use super::agreement::Agreement;
 use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
-use super::cause_fits::{Candidate, CauseFits, Fitted};
+use super::cause_fits::{Candidate, CauseFits};
 use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
@@ -15,9 +15,6 @@ use dalembert::quantity::Measure;
 
 /// Largest number of times of a model.
 const SAMPLES: usize = 150;
-/// `EA/kL` of the softest contact that is not called too soft: a penalty of the stiffness of an element is softer than
-/// this on fewer than 20 elements.
-const SOFTEST: f64 = 0.05;
 /// Largest number of round trips over which a damped run is tried for an undamped rod.
 const DAMPED_TRIPS: f64 = 200.0;
 
@@ -81,7 +78,7 @@ impl Diagnosis {
         // A column that is wrong by itself is corrected before the others are looked at.
         while self.hints.len() <= columns.len() {
             let best = fits.best();
-            if best.is_empty() || is_soft_mesh(&best) {
+            if best.is_empty() || fits.is_soft_mesh(&best) {
                 break;
             }
             let asserted = best.len() == 1;
@@ -130,9 +127,4 @@ fn causes_of_columns(model: &Model<'_>) -> Vec<(&'static str, Cause)> {
         }
     }
     causes
-}
-
-/// Returns whether the only explanation is a contact that is about as soft as a mesh makes it.
-fn is_soft_mesh(best: &[Fitted]) -> bool {
-    matches!(best, [fit] if fit.cause == Cause::SoftContact && fit.value - 2.0 * fit.error < SOFTEST)
 }

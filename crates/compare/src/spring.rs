@@ -21,8 +21,9 @@ pub(super) struct SpringContact {
     states: Vec<State>,
 }
 
-/// Bounds of the number of cells, and of the cells in the whole march.
-const CELLS: [f64; 2] = [20.0, 60.0];
+/// Bounds of the number of cells; the greater one has two cells in the front of a contact of `EA/k = L/100`.
+const CELLS: [f64; 2] = [20.0, 200.0];
+/// Bound of the number of cells times that of steps.
 const MOST_CELLS: f64 = 1e6;
 
 impl SpringContact {

@@ -1,11 +1,11 @@
 //! Causes that were once named wrongly: damping, soft contacts, causes that are alike, velocities of Verlet's scheme.
 
-use dalembert::{Quantity, Side};
+use dalembert::{Quantity, Scene, Side};
 use dalembert_compare::Options;
 use serde_json::Value;
 
 use crate::conventions::with;
-use crate::peers::{self, BAR, Rod, Row, Scheme};
+use crate::peers::{self, BAR, Rod, Row, SCHEMES, Scheme};
 use crate::{compare, compare_columns, scene};
 
 const END: f64 = 4.5;
@@ -85,6 +85,55 @@ fn soft_contact_is_named() {
             assert_eq!(kinds(&found).first(), Some(&"soft_contact"), "{spring} {names:?}: {found:#?}");
             let value = number(&found[0], "value") * BAR.length;
             assert!((value / softness - 1.0).abs() < 0.2 && found[0]["asserted"] == true, "{softness}: {found:#?}");
+        }
+    }
+}
+
+/// A rod of unit length, wave speed and mass that hits the ground at unit speed.
+const UNIT: Rod = Rod { length: 1.0, modulus: 1.0, speed: 1.0, ..BAR };
+
+/// The scene of [`UNIT`] under a gravity.
+fn unit_scene(gravity: f64) -> Scene {
+    scene(&format!(
+        "rod = {{ length = 1, modulus = 1, density = 1, area = 1 }}\nimpact.speed = 1\n\
+         gravity.acceleration = {gravity}\nrun.time = {END}\n"
+    ))
+}
+
+/// The columns of the tests of soft contacts.
+const MANY_AND_FEW: [&[&str]; 2] =
+    [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate", "E_total"], &["t", "u", "force"]];
+
+/// A penalty of up to 100 EA/L is told by its effects where the mesh and the steps are so fine that it dominates.
+#[test]
+fn stiff_penalties_on_fine_meshes_are_named() {
+    for (gravity, penalty) in [0.0, 0.3].into_iter().flat_map(|g| [20.0, 40.0, 100.0].map(|k| (g, k))) {
+        let rod = Rod { gravity, ..UNIT };
+        let rows = rod.run(Scheme::Hht(penalty / rod.elements as f64), END, |_| true);
+        for names in MANY_AND_FEW {
+            let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
+            let found = hints(&report);
+            let soft = &found[0];
+            assert!(soft["kind"] == "soft_contact" && soft["asserted"] == true, "{gravity} {penalty}: {found:#?}");
+            // The mesh and the steps yield too, by a share of an element.
+            let off = number(soft, "value") - 1.0 / penalty;
+            assert!(off.abs() <= 0.5 / rod.elements as f64, "{gravity} {penalty}: {found:#?}");
+        }
+    }
+}
+
+/// Schemes with rigid contact are not called soft, on coarse meshes and on fine ones.
+#[test]
+fn rigid_contacts_are_not_soft() {
+    let rigid = SCHEMES.into_iter().filter(|scheme| !matches!(scheme, Scheme::Penalty | Scheme::Hht(_)));
+    for (scheme, elements) in rigid.flat_map(|scheme| [20, 100, 400].map(|elements| (scheme, elements))) {
+        for gravity in [0.0, 0.3] {
+            let rows = Rod { gravity, elements, ..UNIT }.run(scheme, END, |_| true);
+            for names in MANY_AND_FEW {
+                let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
+                let found = hints(&report);
+                assert!(!kinds(&found).contains(&"soft_contact"), "{scheme:?} {elements} {gravity}: {found:#?}");
+            }
         }
     }
 }
