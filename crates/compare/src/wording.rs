@@ -35,6 +35,7 @@ impl CauseFits<'_> {
                 hint.value = -1.0;
                 "no gravity: is the weight missing?".into()
             }
+            Cause::Value(Parameter::Stiffness) => format!("contact stiffness off by {off}"),
             Cause::Value(parameter) => format!("{} off by {off}", parameter.name()),
             Cause::Damping => {
                 let (scene, error) = (self.damping(), error / self.trip);

@@ -138,6 +138,32 @@ fn rigid_contacts_are_not_soft() {
     }
 }
 
+/// Beside a rod on a spring, data of another stiffness are told by how much it is off, and those of the same one by
+/// nothing.
+#[test]
+fn another_stiffness_is_named() {
+    let options = Options { contact_stiffness: Some("20".parse().unwrap()), ..Options::default() };
+    for (gravity, share) in [0.0, 0.3].into_iter().flat_map(|g| [-0.5, 0.0, 0.5].map(|p| (g, p))) {
+        let rod = Rod { gravity, elements: 100, ..UNIT };
+        let rows = rod.run(Scheme::Hht(20.0 * (1.0 + share) / rod.elements as f64), END, |_| true);
+        // The energy of the spring is not that of the rod.
+        for names in [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate"][..], &["t", "u", "force"]] {
+            let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &options);
+            let found = hints(&report);
+            if share == 0.0 {
+                assert!(found.is_empty(), "{gravity}: {found:#?}");
+                continue;
+            }
+            assert!(kinds(&found) == ["contact_stiffness"] && found[0]["asserted"] == true, "{share}: {found:#?}");
+            let (value, error) = (number(&found[0], "value"), number(&found[0], "error"));
+            assert!((value - share).abs() <= 2.0 * error && error < share.abs() / 2.0, "{share}: {found:#?}");
+            let text = found[0]["text"].as_str().unwrap();
+            let sign = if share > 0.0 { '+' } else { '−' };
+            assert!(text.starts_with(&format!("contact stiffness off by {sign}")), "{text}");
+        }
+    }
+}
+
 /// The top alone does not tell a contact that is soft by an element of a coarse mesh from a longer rod: both are
 /// listed, and neither is asserted.
 #[test]
