@@ -255,18 +255,22 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`; `None` where the rod
-    /// does not start with a uniform velocity, or bounces too long.
+    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`: zero for energies,
+    /// which do not count after the start. `None` where the rod does not start with a uniform velocity, bounces too
+    /// long, or has a signal that the march does not record.
     pub(super) fn change_by_spring(&self, softness: f64) -> Option<Vec<Vec<f64>>> {
         let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
         let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
         let soft = march(softness)?;
         let change = |signal: &Signal| {
+            if signal.model.measure() == Some(Measure::Energy) {
+                return Some(vec![0.0; self.times.len()]);
+            }
             let factor = if signal.model == Quantity::Impulse { self.mass } else { 1.0 };
-            let change = |time: &f64| factor * (soft.at(signal.model, *time) - rigid.at(signal.model, *time));
+            let change = |time: &f64| Some(factor * (soft.at(signal.model, *time)? - rigid.at(signal.model, *time)?));
             self.times.iter().map(change).collect()
         };
-        Some(self.signals.iter().map(change).collect())
+        self.signals.iter().map(change).collect()
     }
 }
 

@@ -77,19 +77,20 @@ impl SpringContact {
         Some(SpringContact { step, states })
     }
 
-    /// Returns a displacement, velocity of the centre or impulse per mass, linear between steps; zero for others.
-    pub(super) fn at(&self, quantity: Quantity, time: f64) -> f64 {
+    /// Returns a displacement, the velocity of the centre or the impulse per mass, linear between steps; `None` for
+    /// other quantities, which are no part of a [`State`].
+    pub(super) fn at(&self, quantity: Quantity, time: f64) -> Option<f64> {
+        let value: fn(&State) -> f64 = match quantity {
+            Quantity::EndDisplacement => |state| state.end,
+            Quantity::TopDisplacement => |state| state.top,
+            Quantity::Centre => |state| state.centre,
+            Quantity::CentreVelocity => |state| state.centre_velocity,
+            Quantity::Impulse => |state| state.impulse,
+            _ => return None,
+        };
         let place = (time / self.step).clamp(0.0, (self.states.len() - 2) as f64);
         let (k, part) = (place as usize, place.fract());
-        let value = |state: &State| match quantity {
-            Quantity::EndDisplacement => state.end,
-            Quantity::TopDisplacement => state.top,
-            Quantity::Centre => state.centre,
-            Quantity::CentreVelocity => state.centre_velocity,
-            Quantity::Impulse => state.impulse,
-            _ => 0.0,
-        };
-        value(&self.states[k]) * (1.0 - part) + value(&self.states[k + 1]) * part
+        Some(value(&self.states[k]) * (1.0 - part) + value(&self.states[k + 1]) * part)
     }
 }
 
@@ -114,3 +115,7 @@ fn end_after(end: f64, down: f64, step: f64, rate: f64) -> f64 {
     let release = (1.0 - start / balance).ln() / rate;
     down * (rest - release)
 }
+
+#[cfg(test)]
+#[path = "tests/spring.rs"]
+mod tests;
