@@ -148,16 +148,16 @@ impl ChainParameter {
         self.value
     }
 
-    /// Returns the index of the body that the value is of.
-    pub(crate) fn body(self) -> Option<usize> {
+    /// Returns the index of the body that the value is of; `None` for a joint or an end.
+    pub fn body(self) -> Option<usize> {
         match self.place {
             Place::Body(k) => Some(k),
             _ => None,
         }
     }
 
-    /// Returns the node that the value is of: 0 is the bottom of `chain`.
-    pub(crate) fn node(self, chain: &Chain) -> Option<usize> {
+    /// Returns the node of `chain` that the value is of, 0 at the bottom; `None` for a body.
+    pub fn node(self, chain: &Chain) -> Option<usize> {
         let top = chain.bodies.len();
         match self.place {
             Place::Body(_) => None,

@@ -281,8 +281,9 @@ impl CauseFits<'_> {
             let share = least.max(2.0 * by_step);
             let most = if column.is_some() { 1.0 } else { LINEAR };
             let quantity = column.map_or("all", |place| self.model.signals[place].column.name());
-            // The models of these are of first order.
-            let is_known = share <= most && !matches!(cause, Cause::EndMass | Cause::SoftContact);
+            // The models of the first two are of first order; the last would fill a page.
+            let is_known = share <= most
+                && !matches!(cause, Cause::EndMass | Cause::SoftContact | Cause::Value(Parameter::OfChain(_)));
             is_known.then_some(Detectable { kind, quantity, value: share * unit })
         };
         self.candidates.iter().filter_map(least_named).collect()

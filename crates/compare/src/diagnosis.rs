@@ -11,6 +11,8 @@ use super::symptoms::{
     FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, turned_axis, unlike_mass, unstable_energy,
 };
 use dalembert::Error;
+use dalembert::chain::{ChainParameter, ChainValue};
+use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::Measure;
 
 /// Largest number of times of a model.
@@ -62,6 +64,7 @@ impl Diagnosis {
         let mut fits = CauseFits { model, base, exact, candidates: Vec::new(), part_ends, trip };
         let unstable = unstable_energy(columns);
         let mut causes = GENERAL.to_vec();
+        causes.extend(causes_of_chain(fits.model.problem));
         // Damped rods are followed round trip by round trip.
         causes.retain(|(_, cause)| *cause != Cause::Damping || fits.damping() > 0.0 || last < DAMPED_TRIPS * trip);
         if unstable.is_none() {
@@ -110,6 +113,19 @@ fn unpaired_hints(audit: &Audit) -> impl Iterator<Item = Hint> {
         let text = format!("contacts {whose}: {count}; see the table of contacts");
         Hint { quantity: "contact", ..Hint::new(kind, count as f64, text) }
     })
+}
+
+/// Returns the values of a chain that may be wrong, beside those that every rod has.
+fn causes_of_chain(problem: &Problem) -> Vec<(&'static str, Cause)> {
+    let Some((chain, body)) = problem.chain() else { return Vec::new() };
+    let is_of_rod = |parameter: &ChainParameter| {
+        use ChainValue::{Density, Length, Modulus, Stiffness, WaveSpeed};
+        let is_own = parameter.body() == Some(body) || parameter.node(&chain) == Some(body);
+        is_own && matches!(parameter.value(), Length | Modulus | Density | WaveSpeed | Stiffness)
+    };
+    let is_zero = |parameter: &ChainParameter| chain.value(*parameter).is_none_or(|value| value.is_zero());
+    let parameters = chain.parameters().filter(|parameter| !is_of_rod(parameter) && !is_zero(parameter));
+    parameters.map(Parameter::OfChain).map(|parameter| (parameter.path(), Cause::Value(parameter))).collect()
 }
 
 /// Returns the causes that concern one column each.

@@ -36,7 +36,7 @@ impl CauseFits<'_> {
                 "no gravity: is the weight missing?".into()
             }
             Cause::Value(Parameter::Stiffness) => format!("contact stiffness off by {off}"),
-            Cause::Value(parameter) => format!("{} off by {off}", parameter.name()),
+            Cause::Value(parameter) => format!("{parameter} off by {off}"),
             Cause::Damping => {
                 let (scene, error) = (self.damping(), error / self.trip);
                 (hint.value, hint.error) = (scene + p / self.trip, error);

@@ -107,3 +107,31 @@ fn what_needs_one_body_is_refused() {
     assert!(refused(&["run.csv", "--body", "3"]).contains("expected a body from 1, the lowest, to 2"));
     assert!(!folder.path().join("run.svg").exists());
 }
+
+/// A wrong value of a neighbour, of a joint or of a start is named by its place.
+#[test]
+fn values_of_a_chain_are_causes() {
+    let folder = TempDir::new().unwrap();
+    let folder = folder.path();
+    let source = text(&run(folder, &["scenes", "openfoam-7-1-2"]), 0);
+    let hints = |wrong: &str, right: &str| {
+        assert!(source.contains(right), "{source}");
+        fs::write(folder.join("wrong.toml"), source.replace(right, wrong)).unwrap();
+        let columns = ["--quantity", "u_top,v_top,force_top", "--times", "0..0.5:1001", "--side", "right"];
+        let sampled = ["sample", "wrong.toml", "--body", "1", "--format", "csv", "-o", "run.csv"];
+        text(&run(folder, &[&sampled, &columns[..]].concat()), 0);
+        let report = json(folder, &["compare", "openfoam-7-1-2", "run.csv", "--body", "1"]);
+        let hint = |hint: &Value| (hint["text"].as_str().unwrap().to_string(), hint["value"].as_f64().unwrap());
+        report["hints"].as_array().unwrap().iter().map(hint).collect::<Vec<_>>()
+    };
+    for (wrong, right, place, share) in [
+        ("modulus = 110", "modulus = 100", "body.2.modulus", 0.1),
+        ("gap = 0.012", "gap = 0.01", "joint.1.gap", 0.2),
+        ("velocity = 0.11", "velocity = 0.1", "body.1.velocity", 0.1),
+    ] {
+        let found = hints(wrong, right);
+        let [(hint, value)] = &found[..] else { panic!("{found:?}") };
+        assert!(hint.starts_with(place) && (value - share).abs() < 0.01, "{found:?}");
+    }
+    assert!(hints("gap = 0.01", "gap = 0.01").is_empty());
+}
