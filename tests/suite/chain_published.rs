@@ -35,6 +35,7 @@ fn every_chain_is_read_solved_and_explained() {
         assert!(scene.effects().iter().all(|effect| !effect.because.is_empty()), "{}", builtin.name);
         let (history, listing) = doubles(builtin.name);
         assert!(history.warning().is_none(), "{}: {:?}", builtin.name, history.warning());
+        assert!(scene.chain.strain_warning().is_none(), "{}", builtin.name);
         // Each number is within 1e-9 of the scale.
         for contact in &listing.contacts {
             assert!(contact.impulse.bound().to_f64() <= 1e-9 * contact.impulse.to_f64().abs(), "{}", builtin.name);

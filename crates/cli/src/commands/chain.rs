@@ -15,9 +15,8 @@ use dalembert::{ChainScene, Error, Estimate, Number, Side};
 
 /// Prints what an answer does not decide.
 fn note(history: &ChainHistory) -> Result<(), Failure> {
-    if let Some(warning) = history.warning() {
-        terminal::note(warning);
-    }
+    history.warning().into_iter().for_each(terminal::note);
+    history.chain().strain_warning().into_iter().for_each(terminal::warn);
     let ending = history.ending()?;
     if ending.is_open() {
         terminal::note(ending);
@@ -329,7 +328,7 @@ fn agree(a: &Value, b: &Value) -> bool {
 }
 
 fn warnings(history: &ChainHistory) -> Vec<String> {
-    history.warning().into_iter().map(|warning| warning.to_string()).collect()
+    history.warning().into_iter().chain(history.chain().strain_warning()).map(|warning| warning.to_string()).collect()
 }
 
 /// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.

@@ -178,3 +178,16 @@ fn a_rod_on_a_spring_needs_no_impedance() {
     let two = "[[body]]\nlength = 1\nwave_speed = 1\n[run]\ntime = 1\n";
     refused_with(&["solve", "-"], two, &["no impedance in [[body]] 1"]);
 }
+
+/// A modulus in GPa beside a density in kg/m³ is noticed, in a table, in JSON, and for a single body.
+#[test]
+fn a_modulus_of_the_wrong_unit_is_noticed_in_chains() {
+    let gigapascals = SPRING.replace("210e9", "210").replace("70e9", "70");
+    for args in [&["solve", "-"][..], &["sample", "-", "--times", "1e-3"], &["solve", "-", "--format", "json"]] {
+        let [right, wrong] = [SPRING, &gigapascals].map(|scene| run_with(args, scene));
+        assert!(!right.err.contains("GPa") && wrong.err.contains("such as GPa in place of Pa"), "{}", wrong.err);
+        assert_eq!((right.code, wrong.code), (Some(0), Some(0)));
+    }
+    let found = run_with(&["solve", "-", "--format", "json"], &gigapascals).out;
+    assert!(found.contains("such as GPa in place of Pa"), "{found}");
+}
