@@ -79,7 +79,8 @@ pub enum Error {
     },
     /// The history has more pieces than the limit allows.
     #[error(
-        "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time or fewer impacts"
+        "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time, for fewer impacts \
+         of a rod, or for a greater run.pieces of a chain"
     )]
     TooManyPieces {
         /// The limit.
@@ -174,7 +175,9 @@ pub enum Error {
     )]
     Curved,
     /// A contact that the history does not have.
-    #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
+    #[error(
+        "found contact {contact} asked for, expected one of the {found} that the history has, counted from 0 (targets from 1)"
+    )]
     NoContact {
         /// Its number.
         contact: usize,

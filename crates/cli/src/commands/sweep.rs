@@ -16,6 +16,7 @@ use crate::quantities::{NameParser, Scope, has_material};
 use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
 use crate::terminal;
 use dalembert::number::Number;
+use dalembert::problem::Parameter;
 use dalembert::quantity::Needs;
 use dalembert_verify::regimes::GridError;
 
@@ -77,6 +78,13 @@ impl Sweep {
         let destinations = self.scene.output.destinations(FORMATS)?;
         let (scene, numbers) = self.scene.read()?;
         let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
+        // A value that the chain does not have would make every point a row without a number.
+        let absent = |axis: &&Axis| {
+            matches!(axis.parameter, Parameter::OfChain(_)) && axis.parameter.value(&scene.problem).is_none()
+        };
+        if let Some((axis, value)) = axes.iter().find(absent).and_then(|axis| Some((axis, axis.values.first()?))) {
+            scene.problem.to_builder().set(axis.parameter, value).build()?;
+        }
         if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
             return Err(failure!("found time {time}, expected one from 0 on"));
         }

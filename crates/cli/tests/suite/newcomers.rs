@@ -191,3 +191,42 @@ fn a_modulus_of_the_wrong_unit_is_noticed_in_chains() {
     let found = run_with(&["solve", "-", "--format", "json"], &gigapascals).out;
     assert!(found.contains("such as GPa in place of Pa"), "{found}");
 }
+
+/// A rod above ground that yields starts as one above rigid ground: its displacement is its height, whether a gap or a
+/// displacement gives it, and it lands at the same time.
+#[test]
+fn a_rod_above_a_spring_starts_as_above_rigid_ground() {
+    let by_gap = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 0\ngap = 0.5\n[gravity]\nacceleration = 1\n\
+                  [run]\ntime = 2\n";
+    let start = "[start]\ndisplacement = [[0, 0.5], [1, 0.5]]";
+    let by_displacement = by_gap.replace("[impact]\nspeed = 0\ngap = 0.5", start);
+    let sampled = |scene: &str| {
+        let args =
+            ["sample", "-", "--times", "0,0.5,1", "--quantity", "u_end,h,v_end,E_total", "--format", "csv", "--bare"];
+        let rows = run_with(&args, scene).out.lines().skip(1).map(String::from).collect::<Vec<_>>();
+        let numbers = |row: &String| row.split(',').skip(2).map(|x| x.parse::<f64>().unwrap()).collect::<Vec<f64>>();
+        rows.iter().map(numbers).collect::<Vec<_>>()
+    };
+    let rigid = sampled(by_gap);
+    for scene in [by_gap, &by_displacement] {
+        let soft = format!("{scene}[ground]\nstiffness = 1e5\n");
+        for (row, (found, expected)) in sampled(&soft).iter().zip(&rigid).enumerate() {
+            // The velocity at the landing has the limit after it: contact on rigid ground stops the end.
+            let near = |k: usize| (found[k] - expected[k]).abs() < 1e-12;
+            assert!((0..4).all(|k| near(k) || (row == 2 && k == 2)), "{found:?} {expected:?}\n{scene}");
+        }
+        let events = run_with(&["solve", "-", "--part", "events", "--format", "csv"], &soft).out;
+        assert!(events.contains("\nbottom,impact,1,-1,-1,"), "{events}");
+    }
+    let below = by_displacement.replace("0.5]", "-0.5]") + "[ground]\nstiffness = 1e5\n";
+    refused_with(&["solve", "-"], &below, &["found the displacement -0.5 at x = 0", "the ground is at zero"]);
+}
+
+/// A value that a chain does not have is refused before a sweep.
+#[test]
+fn a_sweep_over_a_value_that_is_not_there_is_refused() {
+    for value in ["body.9.density", "top.stiffness", "joint.3.gap"] {
+        let args = ["sweep", "openfoam-7-1-2", "--body", "1", "--quantity", "u_top", "--time", "0.1"];
+        refused(&[&args[..], &["--vary", &format!("{value}=1")]].concat(), &[value, "one that the chain has"]);
+    }
+}
