@@ -10,6 +10,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("impact", &["drop", "collision"]),
     ("start", &["initial", "initial_conditions"]),
     ("run", &["simulation", "solver"]),
+    ("body", &["bodies", "bars", "rods"]),
     ("run.accuracy", &["tolerance", "tol", "precision"]),
 ];
 
@@ -47,6 +48,7 @@ pub(super) fn key(key: &str, table: &str, known: &[&'static str]) -> Option<Stri
     Some(match path.split_once('.') {
         Some((other, key)) if other != table => format!("{key} in [{other}]"),
         Some((_, key)) => key.into(),
+        None if path == "body" => "[[body]]".into(),
         None => format!("[{path}]"),
     })
 }

@@ -15,7 +15,7 @@ fn a_rod_with_other_ends_is_a_body() {
         (
             "top = { velocity = 3 }\n",
             "[impact]\nspeed = 2\ngap = 1\n",
-            "velocity = -2\n",
+            "velocity = -2\ndisplacement = [[0, 1], [15, 1]]\n",
             "bottom = { gap = 1 }\ntop = { velocity = 3 }\n",
         ),
         ("bottom = 'ground'\n", "[impact]\nspeed = '1/3'\n", "velocity = '-1/3'\n", "bottom = 'ground'\n"),
@@ -48,6 +48,15 @@ fn a_rod_on_the_ground_moves_alike() {
     };
     assert_eq!(times(&rod), times(&body));
     assert_eq!(times(&rod).len(), 1);
+    // The gap is a height of both.
+    for time in [0, 1, 3] {
+        let height = |history: &crate::TypedHistory<Rational>| {
+            history
+                .columns(&[crate::Quantity::EndDisplacement], &[Rational::from(time)], Some(crate::Side::Right))
+                .unwrap()
+        };
+        assert_eq!(height(&rod), height(&body), "{time}");
+    }
 }
 
 #[test]

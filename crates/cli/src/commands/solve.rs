@@ -131,7 +131,7 @@ impl Solve {
             (self.legend, "--legend"),
         ];
         if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
-            return Err(failure!("found {option} with a chain of bodies, expected it with a single rod, [rod]"));
+            return Err(failure!("found {option} with a chain, expected it with one of its bodies, --body N"));
         }
         if let Some(to) = &self.to {
             scene.chain = scene.chain.with_until(to.clone())?;

@@ -222,6 +222,13 @@ fn a_rod_above_a_spring_starts_as_above_rigid_ground() {
     refused_with(&["solve", "-"], &below, &["found the displacement -0.5 at x = 0", "the ground is at zero"]);
 }
 
+/// Bodies under another name are told theirs.
+#[test]
+fn bodies_by_another_name_are_told_theirs() {
+    let scene = SPRING.replace("[[body]]", "[[bodies]]");
+    refused_with(&["solve", "-"], &scene, &["unknown key `bodies`", "did you mean [[body]]?"]);
+}
+
 /// A value that a chain does not have is refused before a sweep.
 #[test]
 fn a_sweep_over_a_value_that_is_not_there_is_refused() {
