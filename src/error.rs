@@ -175,9 +175,7 @@ pub enum Error {
     )]
     Curved,
     /// A contact that the history does not have.
-    #[error(
-        "found contact {contact} asked for, expected one of the {found} that the history has, counted from 0 (targets from 1)"
-    )]
+    #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
     NoContact {
         /// Its number.
         contact: usize,

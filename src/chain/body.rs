@@ -45,6 +45,15 @@ pub enum BodyMaterial {
     },
 }
 
+/// Returns the greatest slope between neighbours; zero for fewer than two points.
+pub(crate) fn steepest(points: &[(Number, Number)]) -> f64 {
+    let slope = |pair: &[(Number, Number)]| {
+        let [x, v] = [pair[1].0.to_f64() - pair[0].0.to_f64(), pair[1].1.to_f64() - pair[0].1.to_f64()];
+        (v / x).abs()
+    };
+    points.windows(2).map(slope).fold(0.0, f64::max)
+}
+
 impl Body {
     /// Returns an undeformed bar at rest, with this length, wave speed and impedance.
     pub fn new(length: Number, wave_speed: Number, impedance: Number) -> Self {

@@ -1,6 +1,6 @@
 //! A chain of bodies in exact numbers, checked once.
 
-use super::body::{Body, BodyMaterial, Points};
+use super::body::{Body, BodyMaterial, Points, steepest};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::number::{Number, Rational, Scalar, short};
 use crate::reason::Warning;
@@ -412,11 +412,7 @@ impl Chain {
                 return 0.0;
             }
             let [impedance, wave_speed] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
-            let slope = |pair: &[(Number, Number)]| {
-                let [x, v] = [pair[1].0.to_f64() - pair[0].0.to_f64(), pair[1].1.to_f64() - pair[0].1.to_f64()];
-                (v / x).abs()
-            };
-            let slope = body.displacement.windows(2).map(slope).fold(0.0, f64::max);
+            let slope = steepest(&body.displacement);
             (speed / wave_speed).max(force / (impedance * wave_speed)).max(slope).max(size(&body.strain))
         };
         let strain = self.bodies.iter().map(strained).fold(0.0, f64::max);

@@ -44,6 +44,7 @@ mod start;
 mod step;
 mod wave;
 
+pub(crate) use body::steepest;
 pub use body::{Body, BodyMaterial, Points};
 pub(crate) use body_motion::{BodyMotion, Runs};
 pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity};
@@ -51,7 +52,6 @@ pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing};
-pub(crate) use parameter::moved;
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 

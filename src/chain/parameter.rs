@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::body::{Body, BodyMaterial, Points};
 use super::definition::{Chain, End, Joint};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
-use crate::number::{Number, Rational};
+use crate::number::Number;
 use crate::quantity::Measure;
 
 /// A kind of value that bodies, joints and ends of a chain have.
@@ -307,13 +307,5 @@ impl Body {
         let [velocity, displacement, strain] = [&self.velocity, &self.displacement, &self.strain].map(stretched);
         let longer = Body { length, ..self.clone() };
         Some(longer.with_start(velocity?, displacement?).with_strain(strain?))
-    }
-}
-
-/// Returns `number` greater by the part `step` of itself, or by `step` times `scale` where it is zero.
-pub(crate) fn moved(number: &Number, step: &Rational, scale: &Number) -> Option<Number> {
-    match number.is_zero() {
-        true => Number::of_rational(&(scale.to_rational() * step)),
-        false => Number::of_rational(&(number.to_rational() * (Rational::from(1) + step))),
     }
 }

@@ -116,7 +116,11 @@ pub struct StressPiece<S> {
     pub strain_start: S,
     /// `v_x(0, end⁻)`.
     pub strain_end: S,
-    /// Chebyshev coefficients of `v_x(0,·)` on the piece (first one whole, not halved); empty where it is linear.
+    /// Chebyshev coefficients, the first one whole and not halved, of a polynomial near `v_x(0,·)` on the piece; empty
+    /// where it is linear.
+    ///
+    /// The bound of the first one has the distance of the polynomial from `v_x(0,·)`, so that the sum is within the sum
+    /// of the bounds. The others are those of the polynomial, and `v_x(0,·)` may have other coefficients of its own.
     pub chebyshev: Vec<S>,
 }
 

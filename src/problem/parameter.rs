@@ -311,8 +311,8 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// Reads a path or a field, with the place of a point behind it: `impact.speed`, `impact_speed`, `start.velocity[0]`; or
-/// a value of a chain: `body.2.length`, `joint.1.gap`.
+/// Reads a path or a field, with the place of a point behind it: `impact.speed`, `impact_speed`, `start.velocity[0]`;
+/// or a value of a chain: `body.2.length`, `joint.1.gap`.
 impl FromStr for Parameter {
     type Err = UnknownName;
 

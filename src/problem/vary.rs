@@ -4,7 +4,6 @@ use std::sync::LazyLock;
 
 use super::{Material, Parameter, Parameters, Problem, Profile, Speed, Start};
 use super::{ProblemError, given::Given};
-use crate::chain;
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
 
@@ -113,13 +112,16 @@ impl Parameter {
         let factor = Rational::from(1) + step;
         let by = |number: &Number, factor: &Rational| Number::of_rational(&(number.to_rational() * factor));
         let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
+        let next = |number: &Number| match number.is_zero() {
+            false => by(number, &factor),
+            true if *step > Rational::default() || !self.only_grows(problem) => by(&self.scale_of_zero(problem), step),
+            // Zero has values on one side only.
+            true => None,
+        };
         let mut moved = problem.clone();
         match (self, &mut moved.start) {
             (Parameter::OfChain(parameter), _) => {
-                let number = problem.chain_value(parameter)?;
-                let scale = self.scale_of_zero(problem);
-                let backwards = *step <= Rational::default() && self.only_grows(problem);
-                let number = if backwards { None } else { chain::moved(&number, step, &scale) }?;
+                let number = next(&problem.chain_value(parameter)?)?;
                 return problem.with_chain_value(self, &number.into()).ok();
             }
             (Parameter::Length, Start::Profile(Profile { displacement, strain, velocity })) => {
@@ -135,14 +137,7 @@ impl Parameter {
             _ => {}
         }
         let number = self.number(&mut moved)?;
-        if !number.is_zero() {
-            grow(number)?;
-        } else if *step > Rational::default() || !self.only_grows(problem) {
-            *number = by(&self.scale_of_zero(problem), step)?;
-        } else {
-            // Zero has values on one side only.
-            return None;
-        }
+        *number = next(number)?;
         Some(moved)
     }
 

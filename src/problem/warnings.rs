@@ -2,6 +2,7 @@
 
 use super::parameters::touch_speed;
 use super::{Material, Parameter, Parameters, Problem, Run, Speed, Start};
+use crate::chain::steepest;
 use crate::number::Number;
 use crate::reason::Warning;
 
@@ -55,17 +56,10 @@ impl Problem {
         }
         let rod = Parameters::<f64>::of(self, &()).ok()?;
         let impact = self.touch_speed(rod.gravity).unwrap_or(0.0) / rod.wave_speed;
-        let slopes = match &self.start {
-            Start::Profile(profile) => profile.displacement.as_slice(),
-            _ => &[],
-        };
-        let slope = |pair: &[(Number, Number)]| {
-            let (x, v) = (pair[1].0.to_f64() - pair[0].0.to_f64(), pair[1].1.to_f64() - pair[0].1.to_f64());
-            (v / x).abs()
-        };
+        let slope = steepest(Parameter::Displacement(None).list(self).unwrap_or_default());
         let given =
             Parameter::Strain(None).list(self).unwrap_or_default().iter().map(|(_, strain)| strain.to_f64().abs());
-        let strain = slopes.windows(2).map(slope).chain(given).fold(known.max(impact), f64::max);
+        let strain = given.fold(known.max(impact).max(slope), f64::max);
         (strain > 1.0).then_some(Warning::StrainAboveOne { strain })
     }
 

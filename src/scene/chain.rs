@@ -10,7 +10,7 @@ use super::publication::Publication;
 use super::read::Scene;
 use super::reader::{Reader, Value};
 use super::target::{ChainTarget, Target};
-use crate::chain::{Body, BodyMaterial, Chain, End, Joint, MAX_PIECES, Points, Spring};
+use crate::chain::{Body, BodyMaterial, Chain, Joint, MAX_PIECES, Points, Spring};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::names::nearest;
 use crate::number::{Number, Rational};
@@ -490,30 +490,6 @@ impl<'a> Reader<'a> {
         let span = self.get("impact.speed").map_or(0..0, |(_, value)| value.span());
         let refused = || self.error(span, Kind::NotANumber, format!("speed = {speed}"), "a number of fewer digits");
         Ok(body.with_velocity(Number::of_rational(&-speed.to_rational()).ok_or_else(refused)?))
-    }
-
-    /// Returns the body of a `[rod]` whose displacement is counted from the ground, as that of a rod on rigid ground is:
-    /// the gap of a start that is given by its displacement is that of its lower end, and a gap displaces the whole
-    /// body.
-    fn above_ground(&self, body: Body, bottom: &mut End) -> Result<Body, SceneError> {
-        let End::Ground { gap, .. } = bottom else { return Ok(body) };
-        let height = body.displacement().first().map(|(_, height)| height.clone());
-        match height {
-            Some(height) if self.get("rod.bottom").is_none_or(|(_, value)| value.get_ref().as_table().is_none()) => {
-                if height.to_f64() < 0.0 {
-                    let span = self.get("start.displacement").map_or(0..0, |(_, value)| value.span());
-                    let found = format!("the displacement {height} at x = 0");
-                    return Err(self.error(span, Kind::OutOfRange, found, "zero or more: the ground is at zero"));
-                }
-                *gap = height;
-                Ok(body)
-            }
-            None if !gap.is_zero() && self.get("impact.gap").is_some() => {
-                let points = [0.into(), body.length().clone()].map(|x| (x, gap.clone()));
-                Ok(body.with_displacement(points.into()))
-            }
-            _ => Ok(body),
-        }
     }
 
     /// Returns the modulus of waves: `modulus` itself, or the constrained one under uniaxial strain.

@@ -93,6 +93,30 @@ impl Reader<'_> {
         Ok(([bottom, top.unwrap_or(End::Free)], [below.or(yielding), above]))
     }
 
+    /// Returns the body of a `[rod]` with its displacement counted from the ground, as that of a rod on rigid ground:
+    /// the displacement of its lower end at the start is its gap, and a gap displaces the whole body.
+    pub(super) fn above_ground(&self, body: Body, bottom: &mut End) -> Result<Body, SceneError> {
+        let End::Ground { gap, .. } = bottom else { return Ok(body) };
+        let has_own = self.get("rod.bottom").is_some_and(|(_, value)| value.get_ref().as_table().is_some());
+        let height = body.displacement().first().map(|(_, height)| height.clone());
+        match height {
+            Some(height) if !has_own && self.get("impact.gap").is_none() => {
+                if height.to_f64() < 0.0 {
+                    let span = self.get("start.displacement").map_or(0..0, |(_, value)| value.span());
+                    let found = format!("the displacement {height} at x = 0");
+                    return Err(self.error(span, Kind::OutOfRange, found, "zero or more: the ground is at zero"));
+                }
+                *gap = height;
+                Ok(body)
+            }
+            None if !gap.is_zero() && self.get("impact.gap").is_some() => {
+                let points = [0.into(), body.length().clone()].map(|x| (x, gap.clone()));
+                Ok(body.with_displacement(points.into()))
+            }
+            _ => Ok(body),
+        }
+    }
+
     /// Reads the end at `name` of the table called `place`, at an end of `body`, and its spring.
     fn end(&self, name: &str, place: &str, body: &Body) -> Result<(Option<End>, Option<Spring>), SceneError> {
         let Some((key, value)) = self.get(name) else { return Ok((None, None)) };

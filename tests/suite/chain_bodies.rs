@@ -295,8 +295,8 @@ fn derivatives_by_values_of_the_whole_chain_are_difference_quotients() {
 
 #[test]
 fn values_of_other_bodies_have_derivatives_in_closed_form() {
-    // A striker of impedance 0.7 and velocity 0.1 meets a bar of impedance 1 across the gap d: until a wave returns, the
-    // force is 0.1/(1/0.7 + 1), and the end of the striker moves with 0.1·0.7/1.7 from t = d/0.1 on.
+    // A striker of impedance 0.7 and velocity 0.1 meets a bar of impedance 1 across the gap d: until a wave returns,
+    // the force is 0.1/(1/0.7 + 1), and the end of the striker moves with 0.1·0.7/1.7 from t = d/0.1 on.
     let chain = builtin("openfoam-7-1-2");
     let history = chain.problem(0).unwrap().doubles().unwrap();
     let derivative = |by: &str, quantity: &str| {

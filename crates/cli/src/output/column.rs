@@ -38,6 +38,8 @@ pub(crate) struct Column {
     pub(super) is_bounded: bool,
     /// Whether JSON leaves it out where it is empty.
     pub(super) is_optional: bool,
+    /// Whether it tells rows apart: a time or a place.
+    pub(super) is_key: bool,
 }
 
 impl Column {
@@ -59,7 +61,8 @@ impl Column {
             _ => Kind::Number,
         };
         let (symbol, meaning) = (quantity.symbol().into(), quantity.meaning().into());
-        Column { symbol, meaning, unit: quantity.unit(units), kind, ..Column::new(quantity.name()) }
+        let is_key = matches!(quantity, Quantity::Time | Quantity::Point);
+        Column { symbol, meaning, unit: quantity.unit(units), kind, is_key, ..Column::new(quantity.name()) }
     }
 
     /// Returns a column of tables.

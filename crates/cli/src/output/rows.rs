@@ -33,7 +33,7 @@ pub(crate) enum Worth {
     Header,
     /// The same, and beside each column of numbers one of their bounds.
     Columns,
-    /// No comments above a CSV and no columns of bounds: digits beyond the bound are left out.
+    /// No comments above a CSV and no columns of bounds: digits beyond the bound are left out, but in keys.
     Digits,
     /// Columns of bounds without comments above a CSV.
     BareColumns,
@@ -216,12 +216,12 @@ impl RowWriter {
         text.extend_from_slice(begin.as_bytes());
         for (k, (column, place)) in self.columns.iter().enumerate() {
             text.extend_from_slice(if k > 0 { between.as_bytes() } else { b"" });
-            self.write_cell(text, column.kind, &cells[*place][row]);
+            self.write_cell(text, column, &cells[*place][row]);
         }
         text.extend_from_slice(end.as_bytes());
     }
 
-    fn write_cell(&self, text: &mut Vec<u8>, kind: Kind, cell: &Cell) {
+    fn write_cell(&self, text: &mut Vec<u8>, &Column { kind, is_key, .. }: &Column, cell: &Cell) {
         let is_json = self.format == Format::Json;
         let quote = if is_json { "\"" } else { "" };
         let mut add = |quote: &str, word: &str| {
@@ -236,8 +236,9 @@ impl RowWriter {
                 let is_double = bound.parse::<f64>().is_ok_and(|double| double > 0.0 || bound == "0");
                 add(if is_double { "" } else { quote }, &bound);
             }
+            // Keys keep the digits that tell rows apart.
             (Cell::Number(value), Kind::Number | Kind::Word)
-                if value.is_double() && self.worth == Worth::Digits && !value.is_exact() =>
+                if value.is_double() && self.worth == Worth::Digits && !is_key && !value.is_exact() =>
             {
                 add("", &value.to_digits(DOUBLE_DIGITS));
             }
