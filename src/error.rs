@@ -109,7 +109,7 @@ pub enum Error {
         damping: String,
     },
     /// An accuracy outside of its range.
-    #[error("found accuracy {found}, expected one between 1e-300 and 0.1")]
+    #[error("found accuracy {found:?}, expected one between 1e-15 and 0.1 for doubles; digits give more")]
     Accuracy {
         /// The number that was asked for.
         found: f64,

@@ -17,7 +17,7 @@ use crate::number::{
 use crate::quantity::Measure;
 use crate::reason::Warning;
 use crate::solve::chain::{EXACT_PIECES, rungs};
-use crate::solve::{DEFAULT_ACCURACY, LONG, MAX_DIGITS, Numbers, Observer, Rung};
+use crate::solve::{DEFAULT_ACCURACY, LONG, Numbers, Observer, Rung};
 use crate::threads::locked;
 
 /// Events, contacts and forces of a chain.
@@ -300,18 +300,14 @@ impl Chain {
     /// Solves the chain in `numbers`.
     ///
     /// **Errors**: [`Error::TooManyPieces`]; [`Error::Irrational`] if fractions cannot hold a parameter;
-    /// [`Error::Digits`].
+    /// [`Error::Accuracy`]; [`Error::Digits`].
     pub fn solve(&self, numbers: Numbers) -> Result<ChainHistory, Error> {
         self.solve_observed(numbers, crate::solve::unobserved())
     }
 
     /// Solves the chain as [`Chain::solve`] does; `observe` receives the number of events and of wave pieces.
     pub fn solve_observed(&self, numbers: Numbers, observe: Observer) -> Result<ChainHistory, Error> {
-        if let Numbers::Digits(found) | Numbers::ExactThenDigits(found) | Numbers::Certified(found) = numbers
-            && !(1..=MAX_DIGITS).contains(&found)
-        {
-            return Err(Error::Digits { found, most: MAX_DIGITS });
-        }
+        numbers.check()?;
         if self.is_soft() && numbers == Numbers::Exact {
             return Err(Error::SoftExact);
         }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::number::Scalar;
+use crate::number::{Bounded, Scalar};
 use crate::reason::{Near, Reason, Warning};
 
 /// One of the two limits at a jump in time.
@@ -119,8 +119,8 @@ pub struct StressPiece<S> {
     /// Chebyshev coefficients, the first one whole and not halved, of a polynomial near `v_x(0,·)` on the piece; empty
     /// where it is linear.
     ///
-    /// The bound of the first one has the distance of the polynomial from `v_x(0,·)`, so that the sum is within the sum
-    /// of the bounds. The others are those of the polynomial, and `v_x(0,·)` may have other coefficients of its own.
+    /// In an answer the bound or enclosure of each one holds for that coefficient of `v_x(0,·)` itself. In an engine the
+    /// first one alone has the distance of the polynomial from `v_x(0,·)`, as its sums are sharper so.
     pub chebyshev: Vec<S>,
 }
 
@@ -203,6 +203,24 @@ impl<S> StressPiece<S> {
             strain_end: f(self.strain_end),
             chebyshev: self.chebyshev.into_iter().map(f).collect(),
         }
+    }
+}
+
+impl<N: Bounded> StressPiece<N> {
+    /// Widens each coefficient, so that it holds for that of `v_x(0,·)` itself: the bound of the first one holds for the
+    /// distance ε of the sum.
+    ///
+    /// **Source**: `c_k = (2/π) ∫ f(cos θ) cos kθ dθ` over 0 … π, and `∫ |cos kθ| dθ = 2`, so f within ε has `c_k`
+    /// within 4ε/π.
+    pub(crate) fn with_own_coefficients(mut self) -> Self {
+        if let Some((first, others)) = self.chebyshev.split_first_mut() {
+            let distance = first.centred().1;
+            let wider = distance.ratio(4, 3) * &distance;
+            for other in others {
+                *other = other.clone().widened(&wider);
+            }
+        }
+        self
     }
 }
 

@@ -140,7 +140,8 @@ macro_rules! quantities {
 quantities! {
     // Over time.
     Time: "t" also ["time"], "t", Some(Time), Time 0, "time";
-    Side: "side", "", None, Side 0, "which limit at a jump: from earlier times, from later ones, or both the same";
+    Side: "side", "", None, Side 0,
+        "which limit at a jump: from earlier times, from later ones, or both the same; t is the time of the jump, rounded";
     EndDisplacement: "u_end" also ["u", "displacement", "disp", "gap", "u_y", "uy"], "v(0,t)", Some(Length),
         End 0, "displacement of the end at the ground, upwards: its gap";
     EndVelocity: "v_end" also ["v", "velocity", "vel", "v_y", "vy"], "v_t(0,t)", Some(Velocity), End 1,

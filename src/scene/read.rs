@@ -11,12 +11,13 @@ use super::suggest;
 use super::target::Target;
 use crate::names::did_you_mean;
 use crate::number::Number;
-use crate::problem::given::{Given, within};
+use crate::problem::given::Given;
 use crate::problem::profile::{Points, SHAPE};
 use crate::problem::validate::Draft;
 use crate::problem::written::{has_unit, short};
 use crate::problem::{Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Top};
 use crate::quantity::UnitSystem;
+use crate::solve::ACCURACIES;
 
 /// The keys of the scene itself.
 const TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "gravity", "start", "run", "publication", "target"];
@@ -32,7 +33,6 @@ fn keys(table: &str) -> Vec<&'static str> {
 }
 
 const MAX_BYTES: usize = 16 << 20;
-const ACCURACY: (f64, f64) = (1e-300, 0.1);
 
 /// A scene file, checked: a problem in exact numbers, and the line that each value stands on.
 ///
@@ -112,7 +112,7 @@ const ACCURACY: (f64, f64) = (1e-300, 0.1);
 /// `journal`, `volume`, `pages`, `publisher`, `year`, `doi`, `url`, all of them texts, and a `verdict` on its values.
 ///
 /// # Limits
-/// Those of a [problem](crate::Problem#limits), an accuracy of 1e-300 … 0.1, and at most 16 MiB of text.
+/// Those of a [problem](crate::Problem#limits), an accuracy of 1e-15 … 0.1, and at most 16 MiB of text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// `title`.
@@ -303,10 +303,10 @@ impl<'a> Reader<'a> {
         let Some(written) = self.number("run.accuracy")? else { return Ok(None) };
         let given = Given::new("run.accuracy", "accuracy", &written).map_err(|error| self.located(error))?;
         let accuracy = given.number.to_f64();
-        if within(accuracy, ACCURACY) {
+        if ACCURACIES.contains(&accuracy) {
             return Ok(Some(accuracy));
         }
-        let expected = "a relative accuracy between 1e-300 and 0.1";
+        let expected = "a relative accuracy between 1e-15 and 0.1";
         Err(self.located(given.error(Kind::OutOfRange, "", expected)))
     }
 

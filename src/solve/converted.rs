@@ -134,13 +134,19 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if time.is_finite() { Ok(()) } else { Err(outside()) }
     }
 
+    /// Returns the time of an event, or the end, that `time` was rounded from.
     fn known(&self, time: &M) -> Option<N> {
         let end = self.engine.end();
         // A spelled number represents itself, except for the end, at which a run to that time stops.
         if spelled(time).is_some() {
             return M::read(end.clone()).alike(time).then_some(end);
         }
-        let mut known = self.engine.events().iter().map(|event| &event.t).chain([&end]);
+        // Events are in order: those that doubles tell from the time are not compared.
+        let (events, at) = (self.engine.events(), time.to_f64());
+        let apart = at.abs() * (1e-12 + 4.0 * (end.log2_roundoff().exp2() + time.log2_roundoff().exp2()));
+        let from = events.partition_point(|event| event.t.to_f64() < at - apart);
+        let near = events[from..].iter().take_while(|event| event.t.to_f64() <= at + apart);
+        let mut known = near.map(|event| &event.t).chain([&end]);
         // Both numbers are rounded, each to its own bits.
         let same = |known: &&N| {
             let known = M::read((*known).clone());

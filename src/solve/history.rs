@@ -409,7 +409,10 @@ impl History {
                 events: self.rows(lists[0], events, &scales),
                 contacts: self.rows(lists[1], contacts, &scales),
                 flights: self.rows(lists[2], flights, &scales),
-                stress: curve.into_iter().map(|piece| piece.map(|x| self.value(x, None))).collect(),
+                stress: curve
+                    .into_iter()
+                    .map(|piece| piece.with_own_coefficients().map(|x| self.value(x, None)))
+                    .collect(),
                 is_curved,
             })
         })

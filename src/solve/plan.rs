@@ -165,14 +165,10 @@ pub(crate) enum Lacks {
     Exactness,
 }
 
-/// Maximum requested digits; a larger number is a slip, not a question.
-pub const MAX_DIGITS: u32 = 100_000;
 /// Number of proved digits if none is requested.
 pub const CERTIFIED_DIGITS: u32 = 15;
 /// Default accuracy of doubles, relative to the greatest number of an answer; digits beyond the bound are not printed.
 pub const DEFAULT_ACCURACY: f64 = 1e-9;
-/// Maximum accuracy of a double in digits.
-const MOST_DOUBLE_DIGITS: f64 = 15.0;
 /// Digits below the requested ones, and below its natural scale, at which a number that is indistinguishable from zero
 /// is settled.
 const FAINT_DIGITS: f64 = 30.0;
@@ -596,9 +592,7 @@ fn series_digits(bits: f64) -> f64 {
 impl Goal {
     fn of(numbers: Numbers) -> Self {
         let (digits, spare, faint) = match numbers {
-            Numbers::Double(accuracy) => {
-                ((-accuracy.unwrap_or(DEFAULT_ACCURACY).log10()).min(MOST_DOUBLE_DIGITS), 0.0, 0.0)
-            }
+            Numbers::Double(accuracy) => (-accuracy.unwrap_or(DEFAULT_ACCURACY).log10(), 0.0, 0.0),
             Numbers::Exact => (0.0, 0.0, FAINT_DIGITS),
             Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => {
                 (f64::from(digits), f64::from(SPARE_DIGITS), FAINT_DIGITS)
@@ -623,23 +617,10 @@ const SPARE_DIGITS: u32 = 8;
 const FLOOR_DIGITS: u32 = 30;
 
 fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
-    let digits = match numbers {
-        Numbers::Double(accuracy) => {
-            return match accuracy.filter(|accuracy| !(1e-300..=0.1).contains(accuracy)) {
-                Some(found) => Err(Error::Accuracy { found }),
-                None => Ok(()),
-            };
-        }
-        Numbers::Exact => None,
-        Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => Some(digits),
-    };
     if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (problem.damping(), numbers) {
         return Err(Error::DampedExact { damping: damping.to_string() });
     }
-    if let Some(found) = digits.filter(|digits| !(1..=MAX_DIGITS).contains(digits)) {
-        return Err(Error::Digits { found, most: MAX_DIGITS });
-    }
-    Ok(())
+    numbers.check()
 }
 
 impl Rung {

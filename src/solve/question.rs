@@ -1,12 +1,18 @@
 //! Questions about a problem, their number systems, and observers of the progress of a run.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, RangeInclusive};
 use std::sync::{Arc, LazyLock};
 
 use serde::Serialize;
 
+use crate::error::Error;
 use crate::number::Number;
 use crate::quantity::{Needs, Quantity};
+
+/// Accuracies of doubles that can be asked for: doubles hold no better one.
+pub const ACCURACIES: RangeInclusive<f64> = 1e-15..=0.1;
+/// Maximum requested digits; a larger number is a slip, not a question.
+pub const MAX_DIGITS: u32 = 100_000;
 
 /// A question about a problem and its number system: with the problem, all that a [`Plan`](super::Plan) depends on.
 ///
@@ -89,6 +95,21 @@ impl Question {
     /// Returns the question for values between two times.
     pub fn between(from: Number, to: Number, numbers: Numbers) -> Self {
         Question { want: Want::Between(from, to), numbers }
+    }
+}
+
+impl Numbers {
+    /// Refuses an accuracy or a number of digits outside of its range.
+    pub(crate) fn check(self) -> Result<(), Error> {
+        match self {
+            Numbers::Double(Some(found)) if !ACCURACIES.contains(&found) => Err(Error::Accuracy { found }),
+            Numbers::Digits(found) | Numbers::ExactThenDigits(found) | Numbers::Certified(found)
+                if !(1..=MAX_DIGITS).contains(&found) =>
+            {
+                Err(Error::Digits { found, most: MAX_DIGITS })
+            }
+            _ => Ok(()),
+        }
     }
 }
 

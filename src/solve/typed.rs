@@ -277,7 +277,8 @@ impl<S: Target> TypedHistory<S> {
     /// Returns `v_x(0,·)` piece by piece: strains, see [`StressHistory`].
     pub fn stress_history(&self) -> Result<StressHistory<S>, Error> {
         let pieces = self.ask(|engine| Ok(engine.stress_pieces()), |pieces| StressPiece::numbers(pieces))?;
-        let pieces = pieces.into_iter().map(|piece| piece.map(S::strip)).collect::<Vec<_>>();
+        let answer = |piece: StressPiece<S::Carried>| piece.with_own_coefficients().map(S::strip);
+        let pieces = pieces.into_iter().map(answer).collect();
         Ok(StressHistory { pieces, ending: self.ending.clone() })
     }
 

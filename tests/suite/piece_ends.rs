@@ -2,7 +2,8 @@
 //! is a fraction, and against forty digits of the same run.
 
 use dalembert::number::Scalar;
-use dalembert::{Estimate, Number, Numbers, Problem, Scene};
+use dalembert::solve::StressForm;
+use dalembert::{Estimate, Number, Numbers, Problem, Scene, Side};
 use rug::Float;
 
 const BITS: u32 = 320;
@@ -87,6 +88,41 @@ fn pieces_and_the_end_are_those_of_forty_digits() {
                     lies_within(ours, theirs.value(), &format!("{what} of piece {k} of {text}"));
                 }
             }
+        }
+    }
+}
+
+/// The Chebyshev coefficients of a contact's stress, from strains at 40 digits at times of their own, against those of
+/// the pieces in doubles and in enclosures.
+#[test]
+fn coefficients_are_those_of_the_stress_itself() {
+    let scene = dalembert::builtin::get("figure-4-r02").unwrap().source;
+    let long = problem(scene).digits(40).unwrap();
+    let piece = &long.stress_history().unwrap().pieces[0];
+    let number = |p: i64, q: i64| Float::with_val(BITS, p) / q;
+    let (nodes, pi) = (48, Float::with_val(BITS, rug::float::Constant::Pi));
+    let angle = |j: i64| Float::with_val(BITS, &pi * number(2 * j + 1, 2 * nodes));
+    let strain = |j: i64| {
+        let share = (angle(j).cos() + 1) / 2;
+        let time = Float::with_val(BITS, &piece.end - &piece.start) * share + &piece.start;
+        long.strain(time, Side::Right).unwrap()
+    };
+    let strains: Vec<Float> = (0..nodes).map(strain).collect();
+    let truth = |k: i64| {
+        let term = |j: i64| Float::with_val(BITS, angle(j) * k).cos() * &strains[j as usize];
+        let sum = (0..nodes).map(term).fold(Float::new(BITS), |sum, term| sum + term);
+        sum * number(if k == 0 { 1 } else { 2 }, nodes)
+    };
+    for numbers in [Numbers::Double(None), Numbers::Certified(20), Numbers::Certified(40)] {
+        let history = problem(scene).solve_in(numbers).unwrap();
+        let listing = history.listing(Some(StressForm::Series), true).unwrap();
+        let coefficients = &listing.stress[0].chebyshev;
+        assert!(coefficients.len() > 10);
+        for (k, found) in coefficients.iter().enumerate() {
+            let value = Float::with_val(BITS, Float::parse(found.to_digits(60)).unwrap());
+            let (off, bound) = ((value - truth(k as i64)).to_f64().abs(), found.bound_to_digits(60).to_f64());
+            assert!(off <= bound * (1.0 + 1e-6) + 1e-36, "{numbers:?}, {k}: off by {off:e}, more than {bound:e}");
+            assert!(bound < 1e-12, "{numbers:?}, {k}: {bound:e}");
         }
     }
 }

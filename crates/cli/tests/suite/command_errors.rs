@@ -9,7 +9,7 @@ fn bad_scenes_are_refused_where_they_are_wrong() {
     refused_with(&["explain", "-"], "[rod]\nlength = 1\nwavespeed = 1\n", &["did you mean wave_speed?"]);
     let damped = SCENE.replace("wave_speed = 1", "wave_speed = 1\ndamping = 0.1");
     refused_with(&["solve", "-", "--exact"], &damped, &["found damping = 0.1 in fractions", "ask for digits"]);
-    refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-300 and 0.1"]);
+    refused_with(&["solve", "-", "--accuracy", "2"], &damped, &["found accuracy 2", "between 1e-15 and 0.1"]);
     refused(&["solve", "no-such-file.toml"], &["found no file and no built-in scene called `no-such-file.toml`"]);
     refused(&["solve", "doyen"], &["did you mean `doyen-ern-piperno`?"]);
     refused(&["solve", env!("CARGO_MANIFEST_DIR")], &["found the folder", "as a scene", "a scene file in it"]);

@@ -474,7 +474,8 @@ fn limits_are_where_the_documentation_says() {
     assert_eq!(scene("0", "1e40", ""), Ok(()));
     assert_eq!(scene("0", "1", "run.time = 1e12"), Ok(()));
     assert_eq!(scene("0", "1", "run.impacts = 10_000_000"), Ok(()));
-    assert_eq!(scene("0", "1", "run = { impacts = 1, accuracy = 1e-300 }"), Ok(()));
+    assert_eq!(scene("0", "1", "run = { impacts = 1, accuracy = 1e-15 }"), Ok(()));
+    assert_eq!(scene("0", "1", "run = { impacts = 1, accuracy = 9e-16 }"), Err(Kind::OutOfRange));
 }
 
 /// `1/3` and `2/6` are one point; kept as two texts they would be two doubles.
