@@ -175,9 +175,9 @@ pub enum Error {
     )]
     Curved,
     /// A contact that the history does not have.
-    #[error("found contact {contact} asked for, expected one of the {found} that the history has, counted from 0")]
+    #[error("found contact number {} asked for, expected one of the {found} contacts of the history", contact + 1)]
     NoContact {
-        /// Its number.
+        /// Its index, from 0.
         contact: usize,
         /// The number of contacts.
         found: usize,

@@ -152,6 +152,11 @@ impl Body {
         &self.material
     }
 
+    /// Returns whether the body is given by its impedance, so that its stresses are forces.
+    pub(crate) fn is_by_impedance(&self) -> bool {
+        matches!(self.material, BodyMaterial::Impedance { .. })
+    }
+
     /// Returns `EA/L`; `None` for a rigid body.
     pub(crate) fn stiffness(&self) -> Option<Rational> {
         let force = match &self.material {

@@ -113,11 +113,26 @@ impl Scene {
         let is_strained = profile.is_some_and(|profile| !profile.strain.is_empty());
         let points = |name: &str, points: Option<&Vec<(Number, Number)>>| {
             let points = points.filter(|points| points.iter().any(|(_, v)| !v.is_zero()))?;
-            Some(format!("the {name} has {} points", points.len()))
+            let (_, first) = points.first()?;
+            let is_constant = points.iter().all(|(_, v)| v == first);
+            Some(if is_constant { shown(name, first) } else { format!("the {name} has {} points", points.len()) })
         };
+        let place = problem.place();
         // The key that decides so; why the effect is called for, if it is; what is not computed where it is not.
         let (key, called, otherwise) = match effect {
-            Effect::UnilateralContact => ("", Some("the ground is in every scene".into()), ""),
+            Effect::UnilateralContact => match place {
+                None => ("", Some("the ground is in every scene".into()), ""),
+                Some((chain, body)) => {
+                    let pushes = [body, body + 1].map(|node| chain.is_contact(node));
+                    let because = match pushes {
+                        [true, true] => Some("both ends of the body push and never pull"),
+                        [true, false] => Some("the lower end of the body pushes and never pulls"),
+                        [false, true] => Some("the upper end of the body pushes and never pulls"),
+                        [false, false] => None,
+                    };
+                    ("", because.map(Into::into), "no end of the body opens or closes")
+                }
+            },
             Effect::Gravity => (
                 "gravity.acceleration",
                 problem.gravity().map(|g| shown("acceleration", g)),
@@ -138,7 +153,10 @@ impl Scene {
             Effect::FixedTop => (
                 "rod.top",
                 (problem.top() == Top::Fixed).then(|| "top = \"fixed\"".into()),
-                "the top is free: waves come back with the same strain reversed",
+                match place {
+                    None => "the top is free: waves come back with the same strain reversed",
+                    Some(_) => "the chain acts on the upper end of the body",
+                },
             ),
             Effect::InitialGap => {
                 let above = |gap| format!("{}: t = 0 is the start, before the first touch", shown("gap", gap));
@@ -163,6 +181,9 @@ impl Scene {
                 },
             ),
             Effect::SiForces => match problem.material() {
+                _ if place.is_some_and(|(chain, body)| chain.bodies()[body].is_by_impedance()) => {
+                    ("", Some("the impedance is given: a stress is a force".into()), "")
+                }
                 Material::Elastic { area: Some(_), .. } => {
                     ("rod.modulus", Some("modulus, density and area are given".into()), "")
                 }

@@ -74,6 +74,11 @@ impl Orbits {
                 rows.push(OrbitRow { number: rows.len() + 1, orbit, values, growth: None });
             }
         }
+        for (period, ratio) in self.ratios(&scene)?.unwrap_or_default() {
+            if !rows.iter().any(|row| row.orbit.period_ratio() == ratio) {
+                terminal::warn(format_args!("no orbit with one contact in each period has the period {period}"));
+            }
+        }
         if let Some(number) = self.orbit {
             let count = rows.len();
             rows.retain(|row| row.number == number);
@@ -106,15 +111,11 @@ impl Orbits {
     /// Returns the orbits of the chosen periods, those of a gap that the scene does not have among them.
     fn orbits(&self, scene: &Scene) -> Result<Vec<Orbit>, Failure> {
         let top = scene.problem.top();
-        let (periods, unit) = match (&self.period, &self.period_ratio) {
-            (None, None) => return Ok(Orbit::up_to(top, self.finest, self.longest)?),
-            (Some(periods), _) => (periods, Parameters::<Rational>::of(&scene.problem, &())?.round_trip()),
-            (None, Some(ratios)) => (ratios, Rational::from(1)),
-        };
+        let Some(ratios) = self.ratios(scene)? else { return Ok(Orbit::up_to(top, self.finest, self.longest)?) };
         let mut orbits = Vec::new();
-        for period in periods.lift::<Rational>(&()) {
+        for (period, ratio) in ratios {
             // A fraction prints as its numerator over its denominator.
-            let ratio = (period.clone() / &unit).to_string();
+            let ratio = ratio.to_string();
             let (cells, round_trip) = ratio.split_once('/').unwrap_or((&ratio, "1"));
             let (Ok(cells), Ok(round_trip)) = (cells.parse(), round_trip.parse()) else {
                 let most = dalembert::orbits::MOST_CELLS;
@@ -124,6 +125,17 @@ impl Orbits {
             orbits.extend(Orbit::of_period(top, cells, round_trip)?);
         }
         Ok(orbits)
+    }
+
+    /// Returns the chosen periods, each as it was given and over the round trip; `None` where none is chosen.
+    fn ratios(&self, scene: &Scene) -> Result<Option<Vec<(Rational, Rational)>>, Failure> {
+        let (periods, unit) = match (&self.period, &self.period_ratio) {
+            (None, None) => return Ok(None),
+            (Some(periods), _) => (periods, Parameters::<Rational>::of(&scene.problem, &())?.round_trip()),
+            (None, Some(ratios)) => (ratios, Rational::from(1)),
+        };
+        let ratio = |period: Rational| (period.clone(), period / &unit);
+        Ok(Some(periods.lift::<Rational>(&()).into_iter().map(ratio).collect()))
     }
 
     /// Returns the only one of `rows` as a scene.

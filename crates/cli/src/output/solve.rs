@@ -227,7 +227,12 @@ impl HistoryTables {
             let peaks = self.contacts.rows.iter().filter_map(|contact| Some(contact.get(place?)?.to_f64()));
             out += &sparkline(&self.outline, self.end.to_f64(), peaks.fold(0.0, f64::min), info);
         }
-        out += &format!("{}\n\n{}\n\n", self.events.table(), self.contacts.table());
+        if self.events.rows.is_empty() {
+            out += "no event\n";
+        }
+        for table in [&self.events, &self.contacts].into_iter().filter(|table| !table.rows.is_empty()) {
+            out += &format!("{}\n\n", table.table());
+        }
         if !self.undefined.is_empty() {
             out += &info.unit_line(&[Measure::Impulse, Measure::Stress, Measure::Force, Measure::Energy]);
         }
