@@ -3,6 +3,7 @@
 //! The strips are those marched from their checkpoint, so that a query finds the same cells, bit for bit, whatever
 //! queries came before it.
 
+use std::collections::VecDeque;
 use std::num::NonZero;
 use std::sync::{Arc, LazyLock, Mutex};
 
@@ -105,11 +106,11 @@ impl<S: RoundedSpecial> Strips<S> {
 }
 
 /// Cache of recent queries: each query takes the strips it needs and puts them back. The nodes along the whole rod at
-/// one time serve all queries about that time.
+/// one time serve all queries about that time, such as those of the solution and of its lists at an event.
 #[derive(Debug)]
 pub(super) struct Pool<S> {
     strips: Mutex<Vec<Strips<S>>>,
-    lines: Mutex<Vec<(S, Nodes<S>)>>,
+    lines: Mutex<VecDeque<(S, Nodes<S>)>>,
 }
 
 /// A node of a quadrature along the rod.
@@ -138,17 +139,11 @@ pub(super) type Line<S> = (Vec<Node<S>>, usize);
 /// The nodes along the whole rod at a time.
 pub(super) type Nodes<S> = Arc<Vec<Node<S>>>;
 
-/// Maximum number of cache entries: two for each core, since a core marches from one checkpoint to the next.
-static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
+/// Maximum number of nodes kept, 1.3 MB in doubles: some 20 events of a rod with 50 rays.
+const MOST_NODES: usize = 1 << 15;
 
-/// Appends `item`, and removes the first item of a full list.
-fn push<T>(list: &Mutex<Vec<T>>, item: T) {
-    let mut all = locked(list);
-    if all.len() >= *MOST {
-        all.remove(0);
-    }
-    all.push(item);
-}
+/// Maximum number of strips in the cache: two for each core, since a core marches from one checkpoint to the next.
+static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
 
 impl<S> Default for Pool<S> {
     fn default() -> Self {
@@ -171,7 +166,11 @@ impl<S: PartialEq> Pool<S> {
     }
 
     pub(super) fn put(&self, strips: Strips<S>) {
-        push(&self.strips, strips);
+        let mut all = locked(&self.strips);
+        if all.len() >= *MOST {
+            all.remove(0);
+        }
+        all.push(strips);
     }
 
     /// Returns the nodes at `time`, from the cache or from `find`.
@@ -179,10 +178,15 @@ impl<S: PartialEq> Pool<S> {
     where
         S: Clone,
     {
-        let known = locked(&self.lines).iter().find(|(at, _)| at == time).map(|(_, line)| line.clone());
+        let known = locked(&self.lines).iter().rev().find(|(at, _)| at == time).map(|(_, line)| line.clone());
         known.unwrap_or_else(|| {
             let line = Arc::new(find());
-            push(&self.lines, (time.clone(), line.clone()));
+            let mut all = locked(&self.lines);
+            all.push_back((time.clone(), line.clone()));
+            let mut nodes: usize = all.iter().map(|(_, line)| line.len()).sum();
+            while nodes > MOST_NODES && all.len() > 1 {
+                nodes -= all.pop_front().map_or(0, |(_, line)| line.len());
+            }
             line
         })
     }

@@ -1,15 +1,15 @@
 //! The motion of one body of a chain, for the queries of a rod.
 
 use std::any::Any;
+use std::collections::VecDeque;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use super::curve::Signal;
 use super::definition::Chain;
 use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::start::Bar;
-use super::wave::{Piece, Wave};
+use super::wave::Wave;
 use crate::error::Error;
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece, Stretch};
 use crate::number::{Bounded, Open};
@@ -70,19 +70,38 @@ pub(crate) struct BodyMotion<N> {
     /// The natural speed of the chain.
     speed: f64,
     course: OnceLock<Course<N>>,
+    /// Latest sums over the body, each with its time: its centre and its energies are read from the same ones.
+    sums: Mutex<VecDeque<(N, BodySums<N>)>>,
 }
+
+/// Number of sums that are kept: several, as threads ask at times of their own.
+const KEPT_SUMS: usize = 8;
 
 /// Limit of the distance, in travel times, at which the centre of mass is read beside an event.
 const MAX_ASIDE: f64 = 1e-6;
 
 impl<N: Bounded> BodyMotion<N> {
     pub(crate) fn new(chain: &Chain, body: usize, run: Arc<ChainRun<N>>) -> Self {
-        BodyMotion { run, body, speed: chain.scale(Measure::Velocity), course: OnceLock::new() }
+        let speed = chain.scale(Measure::Velocity);
+        BodyMotion { run, body, speed, course: OnceLock::new(), sums: Mutex::default() }
     }
 
     /// Returns the first time at which events that agree within their bounds count as one.
     pub(crate) fn undetermined_from(&self) -> Option<f64> {
         self.run.undetermined_from()
+    }
+
+    /// Returns the sums over the body at a time.
+    fn sums(&self, time: &N) -> Result<BodySums<N>, Error> {
+        let is_same = |at: &N| at.alike(time) && at.log2_error() == time.log2_error();
+        if let Some((_, sums)) = locked(&self.sums).iter().find(|(at, _)| is_same(at)) {
+            return Ok(sums.clone());
+        }
+        let sums = self.run.sums(self.body, time)?;
+        let mut kept = locked(&self.sums);
+        kept.truncate(KEPT_SUMS - 1);
+        kept.push_front((time.clone(), sums.clone()));
+        Ok(sums)
     }
 
     fn bar(&self) -> &Bar<N> {
@@ -212,7 +231,7 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     }
 
     fn pair(&self, pair: Pair, time: &N, side: Side) -> Result<[N; 2], Error> {
-        let sums = || self.run.sums(self.body, time);
+        let sums = || self.sums(time);
         Ok(match pair {
             Pair::GroundEnd => {
                 let Field { displacement, velocity, .. } = self.run.end_field(self.body, false, time, side)?;
@@ -252,22 +271,8 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     }
 
     fn departures(&self) -> Result<[Vec<(N, N)>; 2], Error> {
-        let ray = |pair: &[Piece<N>]| {
-            let from = &pair[1].from;
-            let jump = pair[1].signal.value_at(from) - pair[0].signal.value_at(from);
-            (from.clone(), jump.halved())
-        };
-        let [up, down] = &self.run.waves[self.body];
-        // Curves are continued by others without a jump.
-        let is_ray = |(pair, jump): &(&[Piece<N>], N)| {
-            matches!(pair[1].signal, Signal::Line(_)) || jump.positive() == Ok(true) || jump.negative() == Ok(true)
-        };
-        let rays = |wave: &Wave<N>| {
-            let pairs = wave.pieces.windows(2).map(|pair| (pair, ray(pair)));
-            let rays = pairs.map(|(pair, (from, jump))| ((pair, jump), from)).filter(|(pair, _)| is_ray(pair));
-            rays.map(|((_, jump), from)| (from, jump)).collect()
-        };
-        Ok([rays(up), rays(down)])
+        let rays = |wave: &Wave<N>| wave.rays().map(|(from, jump)| (from.clone(), jump.halved())).collect();
+        Ok(self.run.waves[self.body].each_ref().map(rays))
     }
 
     /// Returns nothing: other bodies or loads may act on the body in flight.

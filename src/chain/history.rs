@@ -221,12 +221,14 @@ fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>
         Rung::Double => Box::new(Answering::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?)),
         Rung::Fractions => Box::new(Answering::new(ChainRun::<Rational>::new(chain, &(), observe)?)),
         Rung::Bits(..=128) if LONG => {
-            Box::new(Answering::new(ChainRun::<Estimate<Wide<2>>>::new(chain, &(), observe)?))
+            Box::new(Answering::new(ChainRun::<Estimate<Wide<2>>>::confirmed(chain, &(), 128, observe)?))
         }
         Rung::Bits(129..=256) if LONG => {
-            Box::new(Answering::new(ChainRun::<Estimate<Wide<4>>>::new(chain, &(), observe)?))
+            Box::new(Answering::new(ChainRun::<Estimate<Wide<4>>>::confirmed(chain, &(), 256, observe)?))
         }
-        Rung::Bits(bits) if LONG => Box::new(Answering::new(ChainRun::<Estimate<Float>>::new(chain, &bits, observe)?)),
+        Rung::Bits(bits) if LONG => {
+            Box::new(Answering::new(ChainRun::<Estimate<Float>>::confirmed(chain, &bits, bits, observe)?))
+        }
         Rung::Enclosures(bits) if LONG => {
             let precision = IntervalPrecision { bits, exact: true };
             Box::new(Answering::new(ChainRun::<Interval>::new(chain, &precision, observe)?))

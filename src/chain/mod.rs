@@ -27,6 +27,7 @@ mod body;
 mod body_motion;
 mod cluster;
 mod column;
+mod confirm;
 mod curve;
 mod definition;
 mod field;
@@ -59,6 +60,8 @@ pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 #[path = "tests"]
 #[allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 mod tests {
+    #[cfg(feature = "mp")]
+    mod confirm;
     mod conformance;
     mod peak;
     mod properties;

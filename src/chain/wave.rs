@@ -87,6 +87,19 @@ impl<N: Bounded> Line<N> {
 }
 
 impl<N: Bounded> Wave<N> {
+    /// Returns where lines begin and curves jump, with the jumps: curves are continued by others without one.
+    pub(super) fn rays(&self) -> impl Iterator<Item = (&N, N)> {
+        let ray = |pair: &'_ [Piece<N>]| {
+            let from = &pair[1].from;
+            pair[1].signal.value_at(from) - pair[0].signal.value_at(from)
+        };
+        let rays = self.pieces.windows(2).map(move |pair| (&pair[1], ray(pair)));
+        let is_ray = |(piece, jump): &(&Piece<N>, N)| {
+            matches!(piece.signal, Signal::Line(_)) || jump.positive() == Ok(true) || jump.negative() == Ok(true)
+        };
+        rays.filter(is_ray).map(|(piece, jump)| (&piece.from, jump))
+    }
+
     /// Continues the wave with `line` from `time` on. `off` is zero within the error of the integral that the uncertain
     /// place of the break causes.
     pub(super) fn push(&mut self, time: &N, line: Line<N>, off: N) {

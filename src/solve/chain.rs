@@ -58,7 +58,11 @@ pub(super) fn motion<N: Bounded>(
     let run = || {
         let limit = Chain::with_max_pieces;
         let chain = if limited { &limit(&chain, EXACT_PIECES) } else { &chain };
-        ChainRun::<N>::new(chain, precision, &|events, pieces| observe(events, pieces))
+        let observe = &|events: usize, pieces: usize| observe(events, pieces);
+        match rung {
+            Rung::Bits(bits) if LONG => ChainRun::<N>::confirmed(chain, precision, bits, observe),
+            _ => ChainRun::<N>::new(chain, precision, observe),
+        }
     };
     let run = match place.runs.get(&chain, rung.bits(), run) {
         Err(Error::TooManyPieces { .. }) if limited => return Err(undecided("by fractions")),

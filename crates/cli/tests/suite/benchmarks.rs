@@ -106,7 +106,7 @@ fn chains_have_values_of_their_nodes() {
         refused_with(&["scenes", "-", "--targets"], &target(lines), &[found]);
     }
     let second = target("quantity = 'release.1'\ncontact = 2\npublished = 0\n");
-    refused_with(&["scenes", "-", "--targets"], &second, &["found contact 1 asked for"]);
+    refused_with(&["scenes", "-", "--targets"], &second, &["found contact number 2 asked for"]);
 }
 
 /// The references of a run: program, paper, numbers, scene and values.

@@ -59,6 +59,22 @@ fn scenes_come_from_standard_input() {
     }
 }
 
+/// A body of a chain has no ground of its own: its ends are explained, and so is a run without a contact below it.
+#[test]
+fn a_body_is_explained_by_its_ends() {
+    for (command, because) in [
+        ("explain openfoam-7-1-2 --body 1 --wide", "the upper end of the body pushes and never pulls"),
+        ("explain openfoam-7-1-2 --body 2 --wide", "the lower end of the body pushes and never pulls"),
+        ("explain saint-venant-mass --body 1 --wide", "the chain acts on the upper end of the body"),
+        ("explain schwarz-two-bars --body 1 --wide", "velocity = "),
+    ] {
+        let text = run(command);
+        assert!(text.contains(because) && !text.contains("the ground is in every scene"), "{command}: {text}");
+    }
+    let text = run("solve saint-venant-mass --body 1");
+    assert!(text.contains("\n\nno event\n\nends at t = 12"), "{text}");
+}
+
 #[test]
 fn a_golden_file_names_its_body() {
     let csv = run("reference openfoam-7-1-2 --body 2 --times 1/5");

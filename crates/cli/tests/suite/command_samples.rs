@@ -158,7 +158,7 @@ fn published_values_beside_ours() {
     std::fs::remove_file(path("b.toml")).unwrap();
     refused(&["scenes", &shown, "--targets"], &["found no .toml in the folder"]);
     let missing = scene.replace("published = 2.5", "contact = 3\npublished = 2.5");
-    refused_with(&["scenes", "-", "--targets"], &missing, &["found contact 2 asked for"]);
+    refused_with(&["scenes", "-", "--targets"], &missing, &["found contact number 3 asked for"]);
     assert_eq!(quiet(&["scenes", "figure-2", "--targets"]).lines().count(), 3);
     refused(&["scenes", "ansys-vm85", "--format", "json"], &["found --format, expected it with --targets"]);
 }

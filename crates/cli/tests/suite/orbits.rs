@@ -1,6 +1,6 @@
 //! `dalembert orbits`.
 
-use crate::command::{quiet, refused, refused_with, run_with};
+use crate::command::{Run, quiet, refused, refused_with, run, run_with};
 use dalembert::rug::Rational;
 
 /// The fields of a CSV without its comments, row by row.
@@ -69,10 +69,12 @@ fn the_backbone_is_drawn() {
     let svg = quiet(&["orbits", "first-nonsmooth-mode", "--finest", "12", "--format", "svg"]);
     assert!(svg.contains("first branch") && svg.contains("energy above rest"), "{svg}");
     // Nothing to draw is drawn as an empty picture.
-    let none = quiet(&["orbits", "first-nonsmooth-mode", "--period", "2", "--format", "svg"]);
-    assert!(none.contains("</svg>"));
-    let none = quiet(&["orbits", "first-nonsmooth-mode", "--period", "2"]);
-    assert!(none.contains("no orbit with one contact in each period"), "{none}");
+    let none = run(&["orbits", "first-nonsmooth-mode", "--period", "2", "--format", "svg"]);
+    assert!(none.code == Some(0) && none.out.contains("</svg>"));
+    assert_eq!(none.err, "warning: no orbit with one contact in each period has the period 2\n");
+    let Run { code, out, err } = run(&["orbits", "first-nonsmooth-mode", "--period", "2,7/2"]);
+    assert_eq!((code, err), (Some(0), none.err));
+    assert_eq!(out.matches("7/4").count(), 2, "{out}");
 }
 
 #[test]
