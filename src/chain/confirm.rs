@@ -13,7 +13,7 @@ impl<N: Bounded> ChainRun<N> {
     /// enclosures of this many bits, with exact roots, may confirm that they coincide.
     ///
     /// The run is confirmed if that of the enclosures decides every event and has the same events and rays, each at the
-    /// same time within the bounds: of two breaks that do not coincide, each sends rays of its own.
+    /// same time within the bounds, and if events and arrivals of rays that agree within the bounds are at equal times.
     ///
     /// **Errors**: those of [`ChainRun::new`].
     pub(crate) fn confirmed(
@@ -51,6 +51,23 @@ impl<N: Bounded> ChainRun<N> {
                     }
                 }
             })
+            && self.meets_exactly(decided)
+    }
+
+    /// Returns whether events and arrivals of rays are at equal times in `decided` wherever they agree within the
+    /// bounds. Both runs have the same of them.
+    fn meets_exactly(&self, decided: &ChainRun<Interval>) -> bool {
+        let events = self.events.iter().zip(&decided.events);
+        let mut times: Vec<(N, Interval)> = events.map(|(own, other)| (own.t.clone(), other.t.clone())).collect();
+        for (body, (own, other)) in self.waves.iter().zip(&decided.waves).enumerate() {
+            let travels = (&self.bars[body].travel, &decided.bars[body].travel);
+            for (own, other) in own.iter().zip(other) {
+                let rays = own.rays().zip(other.rays());
+                times.extend(rays.map(|((a, _), (b, _))| (a.clone() + travels.0, b.clone() + travels.1)));
+            }
+        }
+        times.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
+        times.windows(2).all(|pair| !agree(&pair[0].0, &pair[1].1) || pair[0].1.same(&pair[1].1))
     }
 }
 
