@@ -27,9 +27,14 @@ const searches = [
   ["numbers", "Hopkinson", "guide/11"],
 ];
 for (const [from, words, found] of searches) {
-  await page.goto(`${SITE}/${from}.html`);
-  await page.fill("[data-md-component=search-query]", words);
-  await page.waitForSelector(`.md-search-result__item a[href*="${found}"]`, { state: "attached", timeout: 120000 });
+  // Words that are typed before the search listens are lost: they are typed again, on the page opened anew.
+  for (let tries = 3, is_found = false; !is_found; tries -= 1) {
+    await page.goto(`${SITE}/${from}.html`);
+    await page.fill("[data-md-component=search-query]", words);
+    is_found = await page.waitForSelector(`.md-search-result__item a[href*="${found}"]`, {
+      state: "attached", timeout: 60000,
+    }).then(() => true, (error) => { if (tries === 1) throw error; return false; });
+  }
 }
 // Formulas are drawn, in the fonts beside the site.
 for (const [name, count] of [["guide/06-damping", 15], ["guide/02-lattice", 15], ["start", 1], ["index", 1]]) {
