@@ -92,12 +92,12 @@ fn pieces_and_the_end_are_those_of_forty_digits() {
     }
 }
 
-/// The Chebyshev coefficients of a contact's stress, from strains at 40 digits at times of their own, against those of
+/// The Chebyshev coefficients of a contact's stress, from strains at 60 digits at times of their own, against those of
 /// the pieces in doubles and in enclosures.
 #[test]
 fn coefficients_are_those_of_the_stress_itself() {
     let scene = dalembert::builtin::get("figure-4-r02").unwrap().source;
-    let long = problem(scene).digits(40).unwrap();
+    let long = problem(scene).digits(60).unwrap();
     let piece = &long.stress_history().unwrap().pieces[0];
     let number = |p: i64, q: i64| Float::with_val(BITS, p) / q;
     let (nodes, pi) = (48, Float::with_val(BITS, rug::float::Constant::Pi));
@@ -121,7 +121,7 @@ fn coefficients_are_those_of_the_stress_itself() {
         for (k, found) in coefficients.iter().enumerate() {
             let value = Float::with_val(BITS, Float::parse(found.to_digits(60)).unwrap());
             let (off, bound) = ((value - truth(k as i64)).to_f64().abs(), found.bound_to_digits(60).to_f64());
-            assert!(off <= bound * (1.0 + 1e-6) + 1e-36, "{numbers:?}, {k}: off by {off:e}, more than {bound:e}");
+            assert!(off <= bound * (1.0 + 1e-6) + 1e-55, "{numbers:?}, {k}: off by {off:e}, more than {bound:e}");
             assert!(bound < 1e-12, "{numbers:?}, {k}: {bound:e}");
         }
     }
