@@ -167,6 +167,19 @@ impl Body {
         Some(force / self.length.to_rational())
     }
 
+    /// Returns modulus, density and cross-section, which are `Zc`, `Z/c` and one for a bar that is given by its
+    /// impedance; zeros for a rigid body.
+    pub(super) fn elastic_numbers(&self) -> [Rational; 3] {
+        match &self.material {
+            BodyMaterial::Impedance { wave_speed, impedance } => {
+                let [speed, impedance] = [wave_speed, impedance].map(Number::to_rational);
+                [impedance.clone() * &speed, impedance / speed, Rational::from(1)]
+            }
+            BodyMaterial::Elastic { modulus, density, area } => [modulus, density, area].map(Number::to_rational),
+            BodyMaterial::Rigid { .. } => Default::default(),
+        }
+    }
+
     /// Returns `Z²` and `c²`, which are fractions; zero and one for a rigid body.
     pub(super) fn squares(&self) -> [Rational; 2] {
         match &self.material {

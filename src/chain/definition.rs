@@ -59,6 +59,24 @@ pub enum End {
     },
 }
 
+impl End {
+    /// Returns the points of a force or a velocity over time.
+    pub(super) fn points(&self) -> Option<&Points> {
+        match self {
+            End::Force(points) | End::Velocity(points) | End::Ground { velocity: points, .. } => Some(points),
+            End::Free | End::Infinite { .. } => None,
+        }
+    }
+
+    /// Returns the impedance of a half-infinite bar, if it has one of its own.
+    pub(super) fn impedance(&self) -> Option<&Number> {
+        match self {
+            End::Infinite { impedance, .. } => impedance.as_ref(),
+            _ => None,
+        }
+    }
+}
+
 /// A chain of undamped elastic bars and rigid masses along one axis, from the bottom up.
 ///
 /// ```

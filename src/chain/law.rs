@@ -26,6 +26,8 @@ pub(super) struct Mix<N> {
     pub(super) conductance: N,
     /// `2Y₋` and `2Y₊`.
     pub(super) twice: [N; 2],
+    /// Whether the side below has no impedance.
+    is_rigid_below: bool,
 }
 
 /// Signals that leave a node.
@@ -48,8 +50,9 @@ impl<N: Bounded> Mix<N> {
             [Some(below), None] => below.clone(),
             [None, None] => zero.zero(),
         };
+        let is_rigid_below = impedances[0].is_none();
         let twice = impedances.map(|z| z.map_or_else(|| zero.zero(), |z| one.int(2) / z));
-        Mix { reflection, passed, conductance, twice }
+        Mix { reflection, passed, conductance, twice, is_rigid_below }
     }
 
     /// Returns the signals that leave a node on which `arriving` signals fall.
@@ -60,7 +63,7 @@ impl<N: Bounded> Mix<N> {
         match law {
             Law::Force => {
                 // The side without compliance carries the pulling force; its own wave goes nowhere.
-                let force = if is_exact_zero(&self.twice[0]) { -below.clone() } else { -above.clone() };
+                let force = if self.is_rigid_below { -below.clone() } else { -above.clone() };
                 let reaction = |k: usize| force.scaled(&self.twice[k]);
                 let waves = [below.clone().minus(&reaction(0)), above.clone().plus(&reaction(1))];
                 Leaving { force, waves }

@@ -55,6 +55,7 @@ pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing};
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
+pub(crate) use start::Moving;
 
 #[cfg(test)]
 #[path = "tests"]

@@ -1,6 +1,6 @@
 //! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
 
-use super::body::{Body, Points};
+use super::body::{Body, BodyMaterial, Points};
 use super::cluster::{Cluster, Mass};
 use super::curve::Signal;
 use super::definition::{Chain, End, Joint, Spring};
@@ -11,7 +11,7 @@ use super::node::{Node, Source};
 use super::wave::{Piece, Wave};
 use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::lattice::Line;
-use crate::number::{Bounded, Number, Rational, Scalar};
+use crate::number::{Bounded, Dual, Number, Rational, Scalar};
 use crate::quantity::Measure;
 
 /// A body in the numbers of a run.
@@ -48,10 +48,107 @@ pub(super) enum Nodes<N> {
     Soft(Vec<Cluster<N>>),
 }
 
-/// Converts a fraction; rounded once if it is short enough for a [`Number`].
+/// A chain with the rates of its numbers, which numbers that carry a rate take over.
+#[derive(Clone, Copy)]
+pub(crate) struct Moving<'a> {
+    pub(crate) chain: &'a Chain,
+    /// The same chain with one value greater: each number is greater by its rate.
+    pub(crate) further: &'a Chain,
+    /// Whether the value falls, so that the rates are negative.
+    pub(crate) falls: bool,
+}
+
+/// An exact number of a chain with its rate.
+type Given = Dual<Rational>;
+
+/// A part of a chain, and the same part of the chain with one value greater.
+#[derive(Debug)]
+struct Part<'a, T: ?Sized> {
+    now: &'a T,
+    further: &'a T,
+    falls: bool,
+}
+
+impl<T: ?Sized> Clone for Part<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: ?Sized> Copy for Part<'_, T> {}
+
+impl<'a, T: ?Sized> Part<'a, T> {
+    fn part<U: ?Sized>(self, pick: impl Fn(&'a T) -> &'a U) -> Part<'a, U> {
+        self.with(pick(self.now), pick(self.further))
+    }
+
+    fn with<U: ?Sized>(self, now: &'a U, further: &'a U) -> Part<'a, U> {
+        Part { now, further, falls: self.falls }
+    }
+
+    /// Returns a part that both chains have.
+    fn some<U: ?Sized>(self, pick: impl Fn(&'a T) -> Option<&'a U>) -> Option<Part<'a, U>> {
+        Some(self.with(pick(self.now)?, pick(self.further)?))
+    }
+
+    /// Returns an exact number that is computed from the part, with its rate.
+    fn number(self, value: impl Fn(&'a T) -> Rational) -> Given {
+        let [now, further] = [self.now, self.further].map(value);
+        let rate = if self.falls { now.clone() - further } else { further - &now };
+        Dual::new(now, rate)
+    }
+}
+
+impl<'a> Part<'a, Number> {
+    fn given(self) -> Given {
+        if self.now == self.further { Dual::constant(self.now.to_rational()) } else { self.number(Number::to_rational) }
+    }
+}
+
+impl<'a> Part<'a, Points> {
+    fn given(self) -> Vec<(Given, Given)> {
+        let pairs = self.now.iter().zip(self.further);
+        let number = |now: &'a Number, further: &'a Number| self.with(now, further).given();
+        pairs.map(|(now, further)| (number(&now.0, &further.0), number(&now.1, &further.1))).collect()
+    }
+}
+
+impl<'a> Part<'a, Body> {
+    /// Returns the mass of a rigid body; `None` for a bar.
+    fn mass(self) -> Option<Part<'a, Number>> {
+        self.some(Body::rigid_mass)
+    }
+
+    /// Returns `Z²` and `c²`; zero and one for a rigid body.
+    fn squares(self) -> [Given; 2] {
+        use BodyMaterial::{Elastic, Impedance};
+        let number = |now: &'a Number, further: &'a Number| self.with(now, further).given();
+        match (&self.now.material, &self.further.material) {
+            (Impedance { wave_speed: c, impedance: z }, Impedance { wave_speed: further_c, impedance: further_z }) => {
+                [number(z, further_z), number(c, further_c)].map(|number| number.square())
+            }
+            (Impedance { .. } | Elastic { .. }, Impedance { .. } | Elastic { .. }) => {
+                let [modulus, density, area] = [0, 1, 2].map(|k| self.number(|body| body.elastic_numbers()[k].clone()));
+                [area.square() * &modulus * &density, modulus / density]
+            }
+            _ => self.now.squares().map(Dual::constant),
+        }
+    }
+}
+
+/// Converts an exact number with its rate.
 ///
-/// **Errors**: [`Kind::OutOfRange`] if it is below 1e-300 or above 1e300.
-fn lift<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> {
+/// **Errors**: [`Kind::OutOfRange`] if one of both is below 1e-300 or above 1e300.
+fn lift<N: Bounded>(x: &Given, precision: &N::Precision) -> Result<N, Error> {
+    let value = lifted::<N>(x.value(), precision)?;
+    match x.rate() {
+        Some(rate) if *rate != Rational::default() => Ok(value.with_rate(&lifted(rate, precision)?)),
+        _ => Ok(value),
+    }
+}
+
+/// Converts a fraction; rounded once if it is short enough for a [`Number`].
+fn lifted<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> {
     if let Some(number) = Number::of_rational(x) {
         return Ok(N::from_number(&number, precision));
     }
@@ -71,49 +168,56 @@ fn lift<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> 
     }
 }
 
-/// Returns the square root of a fraction.
-fn root<N: Bounded>(quantity: &'static str, square: &Rational, precision: &N::Precision) -> Result<N, Error> {
+/// Returns the square root of an exact number.
+fn root<N: Bounded>(quantity: &'static str, square: &Given, precision: &N::Precision) -> Result<N, Error> {
     if let Some(root) = square.try_sqrt() {
         return lift(&root, precision);
     }
-    let irrational = || Error::Irrational { quantity, square: square.to_string() };
+    let irrational = || Error::Irrational { quantity, square: square.value().to_string() };
     lift::<N>(square, precision)?.try_sqrt().ok_or_else(irrational)
 }
 
 impl<N: Bounded> Start<N> {
-    /// Converts `chain`.
+    /// Converts a chain.
     ///
     /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance.
-    pub(super) fn new(chain: &Chain, precision: &N::Precision) -> Result<Self, Error> {
-        let number = |x: &Number| N::from_number(x, precision);
-        let gravity = number(&chain.gravity);
+    pub(super) fn new(moving: Moving<'_>, precision: &N::Precision) -> Result<Self, Error> {
+        let Moving { chain, further, falls } = moving;
+        let moving = Part { now: chain, further, falls };
+        let number = |x: Part<'_, Number>| lift::<N>(&x.given(), precision);
+        let gravity = number(moving.part(|chain| &chain.gravity))?;
         let mut squares = Vec::new();
         let mut bars = Vec::new();
-        for body in &chain.bodies {
+        let bodies: Vec<Part<'_, Body>> =
+            (0..chain.bodies.len()).map(|k| moving.part(|chain| &chain.bodies[k])).collect();
+        for body in &bodies {
             let [impedance, wave_speed] = body.squares();
-            if let Some(mass) = body.rigid_mass() {
+            if let Some(mass) = body.mass() {
                 let [zero, one] = [gravity.zero(), gravity.one()];
                 let [length, travel, force] = [zero.clone(), zero.clone(), zero];
-                bars.push(Bar { length, wave_speed: one, impedance: force, travel, mass: Some(number(mass)) });
+                bars.push(Bar { length, wave_speed: one, impedance: force, travel, mass: Some(number(mass)?) });
                 squares.push(impedance);
                 continue;
             }
             let speed: N = root("wave speed", &wave_speed, precision)?;
-            let length = number(&body.length);
+            let own = body.part(|body| &body.length).given();
+            let length: N = lift(&own, precision)?;
             let travel = match wave_speed.try_sqrt() {
-                Some(speed) => lift(&(body.length.to_rational() / speed), precision)?,
+                Some(speed) => lift(&(own / speed), precision)?,
                 None => length.clone() / &speed,
             };
             let force = root("impedance", &impedance, precision)?;
             bars.push(Bar { length, wave_speed: speed, impedance: force, travel, mass: None });
             squares.push(impedance);
         }
-        let waves = chain.bodies.iter().zip(&bars).map(|(body, bar)| waves(body, bar, precision));
+        let waves = bodies.iter().zip(&bars).map(|(body, bar)| waves(*body, bar, precision));
         let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
-        let springs = (0..=top).map(|node| chain.spring(node).map(|spring| soft(spring, precision)).transpose());
+        let spring = |node: usize| moving.some(|chain| chain.spring(node));
+        let springs = (0..=top).map(|node| spring(node).map(|spring| soft(spring, precision)).transpose());
         let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
         let is_soft = SOFT && chain.is_soft();
+        let until = number(moving.part(|chain| &chain.until))?;
         let mut masses = 0;
         let mut nodes = Vec::with_capacity(top + 1);
         let mut clusters = Vec::new();
@@ -134,18 +238,24 @@ impl<N: Bounded> Start<N> {
                     ((Source::Nothing, None), if contact { Law::Contact } else { Law::Held })
                 }
                 _ => {
-                    let signal = |points: &Points, fall: &N| Source::Data(signal(points, fall, precision));
+                    let side = usize::from(at == top);
+                    // An end without points has no signal.
+                    let points = || moving.some(|chain| chain.ends[side].points());
+                    let signal = |fall: &N| {
+                        let points = points().map_or_else(Vec::new, Part::<Points>::given);
+                        Ok::<_, Error>(Source::Data(signal(&points, fall, precision)?))
+                    };
                     let zero = gravity.zero();
                     let own = squares[if at == 0 { 0 } else { top - 1 }].clone();
-                    match &chain.ends[usize::from(at == top)] {
+                    match &chain.ends[side] {
                         End::Free => ((Source::Nothing, None), Law::Force),
-                        End::Force(points) => ((signal(points, &zero), None), Law::Force),
-                        End::Velocity(points) => ((signal(points, &gravity), None), Law::Held),
-                        End::Ground { velocity, .. } => ((signal(velocity, &gravity), None), Law::Contact),
-                        End::Infinite { impedance, gap } => {
+                        End::Force(_) => ((signal(&zero)?, None), Law::Force),
+                        End::Velocity(_) => ((signal(&gravity)?, None), Law::Held),
+                        End::Ground { .. } => ((signal(&gravity)?, None), Law::Contact),
+                        End::Infinite { gap, .. } => {
                             let law = if gap.is_some() { Law::Contact } else { Law::Held };
-                            let square = impedance.as_ref().map_or(own, |z| Scalar::square(&z.to_rational()));
-                            ((signal(&Vec::new(), &gravity), Some(square)), law)
+                            let impedance = moving.some(|chain| chain.ends[side].impedance());
+                            ((signal(&gravity)?, Some(impedance.map_or(own, |z| z.given().square()))), law)
                         }
                     }
                 }
@@ -156,7 +266,7 @@ impl<N: Bounded> Start<N> {
                 (Some(below), None) => [wave(below), outer],
                 (None, None) => [(Source::Nothing, None), outer],
             };
-            let impedance = |square: &Option<Rational>| {
+            let impedance = |square: &Option<Given>| {
                 square.as_ref().map(|square| root::<N>("impedance", square, precision)).transpose()
             };
             let impedances = [impedance(&below_square)?, impedance(&above_square)?];
@@ -177,7 +287,10 @@ impl<N: Bounded> Start<N> {
                 (_, None) => -gravity.one(),
             };
             let is_bar = |body: Option<usize>| body.filter(|body| !is_mass(Some(*body)));
-            let gap = chain.start_gap(at).map_or_else(|| Ok(gravity.zero()), |gap| lift(&gap, precision))?;
+            let gap = match chain.is_contact(at) {
+                true => lift(&moving.number(|chain| chain.start_gap(at).unwrap_or_default()), precision)?,
+                false => gravity.zero(),
+            };
             let delays = [below, above].map(|body| is_bar(body).map(|body| bars[body].travel.clone()));
             let mix = Mix::new(reflection, impedances.clone(), &gravity);
             if !is_soft {
@@ -189,7 +302,7 @@ impl<N: Bounded> Start<N> {
             let outer = usize::from(at == top && at > 0);
             parts.0.push(Interface::new((law, springs[at].clone()), (sides, impedances), (&mix, outer), &gap));
             if let (Some(body), true) = (above, is_mass(above)) {
-                parts.1.push(mass(body, chain, precision)?);
+                parts.1.push(mass(body, bodies[body], precision)?);
                 masses += 1;
                 continue;
             }
@@ -199,50 +312,62 @@ impl<N: Bounded> Start<N> {
             let speed = chain.scale(Measure::Velocity);
             // A run that ends at once takes a short step, so that it has a state.
             let shortest = bars.iter().map(|bar| bar.travel.to_f64()).filter(|t| *t > 0.0).fold(1.0, f64::min);
-            let until = if chain.until.is_zero() { gravity.double(shortest / 1024.0) } else { number(&chain.until) };
+            let until = if chain.until.is_zero() { gravity.double(shortest / 1024.0) } else { until.clone() };
             clusters.push(Cluster::new(first, interfaces, own, speed, &until));
         }
         let nodes = if is_soft { Nodes::Soft(clusters) } else { Nodes::Rigid(nodes) };
-        Ok(Start { bars, nodes, springs, waves, gravity, until: number(&chain.until) })
+        Ok(Start { bars, nodes, springs, waves, gravity, until })
     }
 }
 
 /// Converts a spring.
-fn soft<N: Bounded>(spring: &Spring, precision: &N::Precision) -> Result<Soft<N>, Error> {
-    let [stiffness, damping] = [&spring.stiffness, &spring.damping].map(|x| N::from_number(x, precision));
-    let irrational = || Error::Irrational { quantity: "stiffness", square: spring.stiffness.to_string() };
+fn soft<N: Bounded>(spring: Part<'_, Spring>, precision: &N::Precision) -> Result<Soft<N>, Error> {
+    let [stiffness, damping] = [spring.part(|spring| &spring.stiffness), spring.part(|spring| &spring.damping)]
+        .map(|number| lift::<N>(&number.given(), precision));
+    let stiffness = stiffness?;
+    let irrational = || Error::Irrational { quantity: "stiffness", square: stiffness.text() };
     let root = stiffness.try_sqrt().ok_or_else(irrational)?;
-    Ok(Soft { stiffness, root, damping })
+    Ok(Soft { stiffness, root, damping: damping? })
 }
 
 /// Converts the rigid body with this index.
-fn mass<N: Bounded>(body: usize, chain: &Chain, precision: &N::Precision) -> Result<Mass<N>, Error> {
-    let of = &chain.bodies[body];
-    let mass = N::from_number(of.rigid_mass().unwrap_or(&of.length), precision);
-    let velocity = of.velocity.first().map_or_else(|| mass.zero(), |(_, v)| N::from_number(v, precision));
+fn mass<N: Bounded>(index: usize, body: Part<'_, Body>, precision: &N::Precision) -> Result<Mass<N>, Error> {
+    let mass = body.mass().unwrap_or_else(|| body.part(|body| &body.length));
+    let mass = lift::<N>(&mass.given(), precision)?;
+    let velocity = velocity(body, &mass.zero(), precision)?;
     let root = mass.try_sqrt().ok_or_else(|| Error::Irrational { quantity: "mass", square: mass.text() })?;
-    Ok(Mass::new(body, velocity, mass.one() / mass, root))
+    Ok(Mass::new(index, velocity, mass.one() / mass, root))
+}
+
+/// Returns the velocity of a rigid body at the start.
+fn velocity<N: Bounded>(body: Part<'_, Body>, zero: &N, precision: &N::Precision) -> Result<N, Error> {
+    let points = body.part(|body| &body.velocity).given();
+    points.first().map_or_else(|| Ok(zero.clone()), |(_, velocity)| lift(velocity, precision))
 }
 
 /// Returns the data through `points`, with `fall·t` added: constant after the last point, and zero without points.
-fn signal<N: Bounded>(points: &Points, fall: &N, precision: &N::Precision) -> Vec<(N, Line<N>)> {
-    let number = |x: &Number| N::from_number(x, precision);
+fn signal<N: Bounded>(
+    points: &[(Given, Given)],
+    fall: &N,
+    precision: &N::Precision,
+) -> Result<Vec<(N, Line<N>)>, Error> {
+    let number = |x: &Given| lift::<N>(x, precision);
     let constant = |value: N| Line { intercept: value, slope: fall.clone() };
     let Some((last_time, last)) = points.last() else {
-        return vec![(fall.zero(), constant(fall.zero()))];
+        return Ok(vec![(fall.zero(), constant(fall.zero()))]);
     };
     let mut lines = Vec::new();
     for pair in points.windows(2) {
         let [(from, a), (to, b)] = [&pair[0], &pair[1]];
-        if from.compare(to).is_lt() {
-            let [time, a, b] = [number(from), number(a), number(b)];
-            let slope = (b - &a) / (number(to) - &time);
+        if from.value() < to.value() {
+            let [time, a, b] = [number(from)?, number(a)?, number(b)?];
+            let slope = (b - &a) / (number(to)? - &time);
             let intercept = a - slope.clone() * &time;
             lines.push((time, Line { intercept, slope: slope + fall }));
         }
     }
-    lines.push((number(last_time), constant(number(last))));
-    lines
+    lines.push((number(last_time)?, constant(number(last)?)));
+    Ok(lines)
 }
 
 /// Builds the waves that are in a body at the start.
@@ -250,47 +375,54 @@ fn signal<N: Bounded>(points: &Points, fall: &N, precision: &N::Precision) -> Ve
 /// **Source**: the upward wave leaves the bottom at `s` with `p(−cs, 0)`, the downward one the top with `q(L + cs, 0)`,
 /// for `−L/c ≤ s < 0`. Their integrals are 0 and `2v(0,0)` where the bottom is at the start, so that
 /// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
-fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
+fn waves<N: Bounded>(body: Part<'_, Body>, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
     if bar.mass.is_some() {
         let zero = length.zero();
-        let velocity = body.velocity.first().map_or_else(|| zero.clone(), |(_, v)| N::from_number(v, precision));
-        let line = Line { intercept: velocity, slope: zero.clone() };
+        let line = Line { intercept: velocity(body, &zero, precision)?, slope: zero.clone() };
         let still = || wave(vec![(zero.clone(), line.clone())], N::clone, &zero);
         return Ok([still(), still()]);
     }
-    let fraction = |x: &Number| x.to_rational();
+    let top = body.part(|body| &body.length).given();
+    let velocity = body.part(|body| &body.velocity).given();
+    let displacement = body.part(|body| &body.displacement).given();
+    let strain = body.part(|body| &body.strain).given();
     // Places at which the start has a break, in exact order.
-    let mut places: Vec<Rational> = vec![Rational::default(), fraction(&body.length)];
-    places.extend(body.velocity.iter().chain(&body.displacement).chain(&body.strain).map(|(x, _)| fraction(x)));
-    places.sort();
-    places.dedup();
+    let zero = Given::constant(Rational::default());
+    let lists = [&velocity, &displacement, &strain];
+    let mut places = vec![zero.clone(), top.clone()];
+    places.extend(lists.iter().flat_map(|points| points.iter()).map(|(x, _)| x.clone()));
+    places.sort_by(|a, b| a.value().cmp(b.value()));
+    places.dedup_by(|a, b| a.value() == b.value());
     let mut up = Vec::new();
     let mut down = Vec::new();
     for pair in places.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
-        let lists = [&body.velocity, &body.displacement, &body.strain];
         let [(speed, rise), (_, stretch), (strain, bend)] = lists.map(|points| {
-            let within = |pair: &&[(Number, Number)]| {
-                fraction(&pair[0].0) <= *from && *to <= fraction(&pair[1].0) && pair[0].0.compare(&pair[1].0).is_lt()
+            let within = |pair: &&[(Given, Given)]| {
+                let [first, last] = [pair[0].0.value(), pair[1].0.value()];
+                first <= from.value() && to.value() <= last && first < last
             };
-            points.windows(2).find(within).map_or_else(Default::default, |pair| {
-                let [x, v] = [fraction(&pair[0].0), fraction(&pair[0].1)];
-                let slope = (fraction(&pair[1].1) - &v) / (fraction(&pair[1].0) - &x);
-                (v - slope.clone() * x, slope)
-            })
+            points.windows(2).find(within).map_or_else(
+                || (zero.clone(), zero.clone()),
+                |pair| {
+                    let [x, v] = [&pair[0].0, &pair[0].1];
+                    let slope = (pair[1].1.clone() - v) / (pair[1].0.clone() - x);
+                    (v.clone() - slope.clone() * x, slope)
+                },
+            )
         });
         // v_t = speed + rise·x and v_x = strain + bend·x, each extrapolated to either end.
         let strain = strain + stretch;
         let numbers = [
             speed.clone(),
-            speed + rise.clone() * fraction(&body.length),
+            speed + rise.clone() * &top,
             rise,
             strain.clone(),
-            strain + bend.clone() * fraction(&body.length),
+            strain + bend.clone() * &top,
             bend,
             from.clone(),
-            fraction(&body.length) - to,
+            top.clone() - to,
         ]
         .map(|x| lift::<N>(&x, precision));
         let [speed, at_top, rise, strain, top_strain, bend, from, to] = numbers;
@@ -305,7 +437,7 @@ fn waves<N: Bounded>(body: &Body, bar: &Bar<N>, precision: &N::Precision) -> Res
         down.push((down_from, down_line));
     }
     up.reverse();
-    let start = body.displacement.first().map_or_else(|| length.zero(), |(_, v)| N::from_number(v, precision));
+    let start = displacement.first().map_or_else(|| Ok(length.zero()), |(_, v)| lift(v, precision))?;
     let zero = length.zero();
     let up = wave(up, |total| -total.clone(), &zero);
     Ok([up, wave(down, |_| start.doubled(), &zero)])

@@ -30,6 +30,12 @@ pub trait Bounded: Scalar {
         self - other
     }
 
+    /// Returns the number with this rate of change, if its kind has one.
+    fn with_rate(self, rate: &Self) -> Self {
+        let _ = rate;
+        self
+    }
+
     /// Returns the product with the stored value of `other`.
     fn times_stored(self, other: &Self) -> Self {
         self * other

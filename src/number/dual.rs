@@ -37,6 +37,11 @@ impl<S: Bounded> Dual<S> {
         Some(&self.rate).filter(|_| self.known)
     }
 
+    /// Returns the number with its rate multiplied by `factor`.
+    pub(crate) fn at_rate(self, factor: &S) -> Self {
+        Dual { rate: self.rate * factor, ..self }
+    }
+
     pub(crate) fn value(&self) -> &S {
         &self.value
     }
@@ -154,6 +159,10 @@ impl<S: Bounded> Scalar for Dual<S> {
         Some(floor - i64::from(past.negative().ok()?))
     }
 
+    fn alike(&self, other: &Self) -> bool {
+        self.known && other.known && self.value.alike(&other.value) && self.rate.alike(&other.rate)
+    }
+
     fn is_finite(&self) -> bool {
         self.known && self.value.is_finite()
     }
@@ -171,6 +180,10 @@ impl<S: Bounded> Bounded for Dual<S> {
     /// Returns a number above zero even for exact numbers: they may be equal in first order only.
     fn roundoffs(&self) -> f64 {
         self.value.roundoffs().max(f64::MIN_POSITIVE)
+    }
+
+    fn with_rate(self, rate: &Self) -> Self {
+        Dual { rate: rate.value.clone(), ..self }
     }
 
     fn nominal(self) -> Self {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::plan::{LONG, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer};
-use crate::chain::{BodyMotion, Chain, ChainRun};
+use crate::chain::{BodyMotion, Chain, ChainRun, Moving};
 use crate::error::Error;
 use crate::motion::{Ending, Motion};
 use crate::number::{Bounded, bits_for_digits};
@@ -80,6 +80,25 @@ pub(super) fn motion<N: Bounded>(
         return Err(undecided("what happens at a joint"));
     }
     Ok(motion)
+}
+
+/// Returns the motion of the body that `problem` describes, in numbers that carry the rates at which they change as the
+/// problem changes to `further`, or away from it where the value `falls`.
+///
+/// **Errors**: those of the run.
+pub(super) fn moving<N: Bounded>(
+    [problem, further]: [&Problem; 2],
+    falls: bool,
+    precision: &N::Precision,
+    observe: &Observer,
+) -> Result<BodyMotion<N>, Error> {
+    let (Some((chain, body)), Some((further, _))) = (problem.chain(), further.chain()) else {
+        return Err(Error::NotDecided { what: "a chain without neighbours", bits: 0 });
+    };
+    let chain = chain.with_max_pieces(chain.max_pieces().min(EXACT_PIECES));
+    let moving = Moving { chain: &chain, further: &further, falls };
+    let run = ChainRun::moving(moving, precision, &|events, pieces| observe(events, pieces))?;
+    Ok(BodyMotion::new(&chain, body, Arc::new(run)))
 }
 
 /// Returns [`motion`] as a shared engine.

@@ -1,16 +1,16 @@
-//! Derivatives of undamped rods from their histories in numbers `a + b ε`: in fractions for a growing and a shrinking
-//! value; in doubles, if no threshold is met, for a growing one.
+//! Derivatives of undamped rods and chains from their histories in numbers `a + b ε`: in fractions for a growing and a
+//! shrinking value; in doubles, if no threshold is met, for a growing one.
 
-use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
+use super::derivative::{Asked, At, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
 use super::ladder::Engined;
-use super::long;
 use super::plan::{Engine, Rung};
+use super::{chain, long};
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
-use crate::motion::{AtStart, Datum, Motion};
+use crate::motion::{AtStart, Datum, Motion, Side};
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Reads, Scalar};
-use crate::problem::{Material, Parameter, Parameters, Problem};
-use crate::quantity::{Measure, Quantity};
+use crate::problem::{Parameter, Parameters, Problem};
+use crate::quantity::{Quantity, UnitSystem, Units};
 use crate::reason::Warning;
 
 type OneSide = Result<Rational, NoDerivative>;
@@ -39,16 +39,18 @@ fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
 fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
     let value = asked.by.value_in::<Rational>(asked.problem, &())?;
     let zero = value.vanishes() == Ok(true);
-    if asked.plan.engine == Engine::Chain {
-        let expected = "digits or doubles: fractions carry no derivatives of a chain";
-        return Err(Error::Derivative { parameter: asked.by, expected });
-    }
     if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
         let expected = "digits or doubles: a rod without it is another problem in fractions";
         return Err(Error::Derivative { parameter: asked.by, expected });
     }
     let problem = &*asked.plan.reaching(asked.problem);
-    let base = asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?;
+    let base = match asked.plan.engine {
+        Engine::Chain => {
+            let run = chain::engine::<Rational>(problem, asked.plan, (Rung::Fractions, &()), asked.observe)?;
+            asked.values(problem, &*run)?
+        }
+        _ => asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?,
+    };
     let (right, mut settled) = with_rates(asked, problem, &value, 1)?;
     let left = match asked.by.only_grows(problem) {
         true => None,
@@ -58,8 +60,6 @@ fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error>
             Some(left)
         }
     };
-    // A queried time may be that of a ray in first order only.
-    settled &= asked.at.is_none();
     let rates = of_each(&base, |place, number| {
         let right = side(&right, number, place);
         let there = |rows: &&Rows<Dual<Rational>>| !asked.is_stretched() || at(rows, place).is_some();
@@ -118,10 +118,10 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     Ok(settled.then_some(found))
 }
 
-/// Computes the derivatives in doubles that are `asked` for, by fractions, if fractions have decided the order of
-/// events in this `run`; `None` if first order does not settle them.
+/// Computes the derivatives in doubles that are `asked` for, by fractions, if the rod is a body of a chain or fractions
+/// have decided the order of events in this `run`; `None` if first order does not settle them.
 pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Estimate<f64>>>, Error> {
-    if asked.rung != Rung::Fractions || asked.plan.engine == Engine::Chain {
+    if asked.rung != Rung::Fractions && asked.plan.engine != Engine::Chain {
         return Ok(None);
     }
     let (rates, settled) = on_both_sides(asked)?;
@@ -133,22 +133,86 @@ pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Opti
 }
 
 /// Returns the numbers of the problem with a growing or a shrinking value, with their rates, as far as comparisons are
-/// settled; and whether no two events were taken as one on the way.
+/// settled; and whether first order settles them.
+///
+/// Not so where two events were taken as one, or where a queried time may be that of a ray in first order only: then
+/// the limits from both sides, or their rates, differ.
 fn with_rates<S: Bounded>(
     asked: &Asked<'_>,
     problem: &Problem,
     value: &S,
     sign: i64,
 ) -> Result<(Rows<Dual<S>>, bool), Error> {
+    let further = asked.by.moved(problem, &Rational::from(1));
+    let expected = "a value that could be twice as great";
+    let further = &further.ok_or(Error::Derivative { parameter: asked.by, expected })?;
+    let is_chain = asked.plan.engine == Engine::Chain;
+    let motion: Box<dyn Motion<Dual<S>>> = match is_chain {
+        true => Box::new(chain::moving([problem, further], sign < 0, &value.precision(), asked.observe)?),
+        false => Box::new(lattice(asked, problem, value, &value.int(sign))?),
+    };
+    let powers = unit_powers(asked, [problem, further]);
+    // The problem has a power of the value, and `further` has twice that, or a scale of its own in place of zero.
+    let scale = match value.vanishes() {
+        Ok(true) => S::from_number(&asked.by.scale_of_zero(problem), &value.precision()),
+        _ => value.clone(),
+    };
+    let per_value = value.int(asked.by.power(problem)) / scale;
+    let rows = |asked: &Asked<'_>| {
+        let mut rows = asked.values(problem, &*motion)?;
+        for row in &mut rows {
+            for (number, power) in row.iter_mut().zip(&powers) {
+                if is_chain {
+                    *number = number.take().map(|number| number.at_rate(&per_value));
+                }
+                if *power != 0 {
+                    let unit = Dual::new(value.one(), per_value.clone() * value.int(sign * power));
+                    *number = number.take().map(|number| number * unit);
+                }
+            }
+        }
+        Ok::<_, Error>(rows)
+    };
+    let found = rows(asked)?;
+    let mut settled = true;
+    if let Some(at) = asked.at.filter(|_| value.bits().is_none()) {
+        let side = if at.side == Side::Left { Side::Right } else { Side::Left };
+        let other = rows(&Asked { at: Some(At { side, ..at }), want: asked.want.clone(), ..*asked })?;
+        let pairs = found.iter().flatten().zip(other.iter().flatten());
+        settled = pairs.into_iter().all(|pair| matches!(pair, (Some(a), Some(b)) if a.alike(b)));
+    }
+    // All that is listed or queried precedes the coincidence, which is in the trip that begins at `from`.
+    let before = |from: f64| match asked.at {
+        Some(at) => at.times.iter().all(|time| time.to_f64() < from),
+        None => motion.events().iter().all(|event| event.t.to_f64() < from),
+    };
+    let is_later = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
+    settled &= motion.warnings().iter().all(is_later);
+    Ok((found, settled))
+}
+
+/// Returns the power of the value in the unit of each quantity, where `further` is the problem with twice the value, or
+/// with twice the power of it that the problem has.
+fn unit_powers(asked: &Asked<'_>, [problem, further]: [&Problem; 2]) -> Vec<i64> {
+    let [units, others] = [problem, further].map(|problem| Units::new(problem, UnitSystem::default()));
+    let power = |quantity: &Quantity| {
+        let measure = quantity.measure()?;
+        let [unit, other] = [&units, &others].map(|units| units.factor::<f64>(measure, &()));
+        Some((other? / unit?).log2().round() as i64)
+    };
+    asked.quantities.iter().map(|quantity| power(quantity).unwrap_or(0)).collect()
+}
+
+/// Returns the history of a rod on the lattice with a growing or a shrinking value.
+fn lattice<S: Bounded>(asked: &Asked<'_>, problem: &Problem, value: &S, sign: &S) -> Result<Undamped<Dual<S>>, Error> {
     let precision = value.precision();
     let given = Parameters::<S>::of(problem, &precision)?;
-    let sign = value.int(sign);
     let dual = |number: S, by: Parameter| {
         let rate = if asked.by == by { sign.clone() } else { sign.zero() };
         Dual::new(number, rate)
     };
     // The rate of √(E/ρ) is c/2E, or −c/2ρ.
-    let share = |c: &S| (c.clone() / value).halved() * &sign;
+    let share = |c: &S| (c.clone() / value).halved() * sign;
     let wave_speed = match asked.by {
         Parameter::Modulus => Dual::new(given.wave_speed.clone(), share(&given.wave_speed)),
         Parameter::Density => Dual::new(given.wave_speed.clone(), -share(&given.wave_speed)),
@@ -174,35 +238,10 @@ fn with_rates<S: Bounded>(
             | (Datum::Velocity(k), Parameter::Velocity(Some(node))) => number.int(i64::from(k == node)),
             _ => number.zero(),
         };
-        Dual::new(number, rate * &sign)
+        Dual::new(number, rate * sign)
     };
     let data = AtStart::with(problem, &given, &datum);
     let scaled = Scaled::with(problem, &given, data)?;
     let limits = asked.plan.lattice_limits(problem);
-    let history = Undamped::<Dual<S>>::solve_scaled(scaled, problem.run(), limits, &**asked.observe)?;
-    let mut rows = asked.values(problem, &history)?;
-    for row in &mut rows {
-        for (number, quantity) in row.iter_mut().zip(asked.quantities) {
-            let power = unit_power(asked.by, *quantity, problem.material());
-            if let Some(number) = number.as_mut().filter(|_| power != 0) {
-                *number = number.clone() * Dual::new(value.one(), sign.clone() * value.int(power) / value);
-            }
-        }
-    }
-    // All listed events precede the coincidence, which is in the trip that begins at `from`.
-    let before = |from: f64| asked.at.is_none() && history.events().iter().all(|event| event.t.to_f64() < from);
-    let settled = |warning: &Warning| matches!(warning, Warning::Coincidence { from } if before(*from));
-    Ok((rows, history.warnings().iter().all(settled)))
-}
-
-/// Returns the power of the value in the unit of `quantity`: stress and force contain `E`, which is `c² ρ` at the same
-/// density; impulse and energy contain `ρ`.
-fn unit_power(by: Parameter, quantity: Quantity, material: &Material) -> i64 {
-    match (by, quantity.measure(), material) {
-        (_, _, Material::WaveSpeed(_)) => 0,
-        (Parameter::Modulus, Some(Measure::Stress | Measure::Force), _) => 1,
-        (Parameter::WaveSpeed, Some(Measure::Stress | Measure::Force), _) => 2,
-        (Parameter::Density, Some(Measure::Impulse | Measure::Energy), _) => 1,
-        _ => 0,
-    }
+    Undamped::solve_scaled(scaled, problem.run(), limits, &**asked.observe)
 }
