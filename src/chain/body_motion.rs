@@ -82,7 +82,7 @@ const MAX_ASIDE: f64 = 1e-6;
 
 impl<N: Bounded> BodyMotion<N> {
     pub(crate) fn new(chain: &Chain, body: usize, run: Arc<ChainRun<N>>) -> Self {
-        let speed = chain.scale(Measure::Velocity);
+        let speed = chain.scales().of(Measure::Velocity);
         BodyMotion { run, body, speed, course: OnceLock::new(), sums: Mutex::default() }
     }
 

@@ -1,7 +1,7 @@
 //! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
 
 use std::fmt;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::body::Body;
 use super::column::{ChainColumn, ChainQuantity};
@@ -42,6 +42,18 @@ const FAINT: f64 = 1e-6;
 type Judged<'a> = (&'a Value, Measure);
 
 impl ChainListing {
+    /// Converts the numbers.
+    fn map(self, f: impl Fn(Value) -> Value) -> Self {
+        let pieces = |pieces: Vec<ForcePiece<Value>>| pieces.into_iter().map(|piece| piece.map(&f)).collect();
+        ChainListing {
+            events: self.events.into_iter().map(|event| event.map(&f)).collect(),
+            touches: self.touches.into_iter().map(|touch| touch.map(&f)).collect(),
+            contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
+            forces: self.forces.into_iter().map(pieces).collect(),
+            end: f(self.end),
+        }
+    }
+
     /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to
     /// half as many digits as the force, and that of a plateau not at all: it says so by its bound.
     fn numbers(&self, peaks: bool) -> Vec<Judged<'_>> {
@@ -239,20 +251,33 @@ fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>
     })
 }
 
-/// A run with its listing.
-#[derive(Debug)]
-struct Solved {
-    run: Box<dyn Answers>,
-    listing: OnceLock<ChainListing>,
+type Attempt = OnceLock<Result<Box<dyn Answers>, Error>>;
+
+/// The largest numbers that a chain can be expected to have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales {
+    time: f64,
+    velocity: f64,
+    force: f64,
+    /// Length of the longest body.
+    length: f64,
 }
 
-impl Solved {
-    fn listing(&self) -> &ChainListing {
-        self.listing.get_or_init(|| self.run.listing())
+impl Scales {
+    /// Returns the largest number of a measure.
+    pub(super) fn of(&self, measure: Measure) -> f64 {
+        let Scales { time, velocity, force, length } = self;
+        match measure {
+            Measure::Time => *time,
+            Measure::Length => velocity * time,
+            Measure::Velocity => *velocity,
+            Measure::Force | Measure::Stress => *force,
+            Measure::Impulse => force * time,
+            Measure::Energy => force * velocity * time,
+            Measure::Strain => velocity * time / length,
+        }
     }
 }
-
-type Attempt = OnceLock<Result<Solved, Error>>;
 
 /// A solved chain.
 ///
@@ -287,6 +312,9 @@ pub struct ChainHistory {
     numbers: Numbers,
     observe: Observer,
     attempts: Vec<(Rung, Attempt)>,
+    scales: Scales,
+    /// Events, contacts and forces, with the reason of the end by the same attempt.
+    listed: OnceLock<Result<(Arc<ChainListing>, Ending), Error>>,
 }
 
 impl fmt::Debug for ChainHistory {
@@ -315,7 +343,8 @@ impl Chain {
         }
         let is_possible = |rung: &Rung| !(self.is_soft() && *rung == Rung::Fractions);
         let attempts = rungs(numbers).into_iter().filter(is_possible).map(|rung| (rung, Attempt::new())).collect();
-        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts };
+        let (scales, listed) = (self.scales(), OnceLock::new());
+        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts, scales, listed };
         history.attempt(0).map(|_| ()).or_else(|error| match error {
             Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
             error => Err(error),
@@ -323,8 +352,8 @@ impl Chain {
         Ok(history)
     }
 
-    /// Returns the largest number of each measure that the chain can be expected to have.
-    pub(super) fn scale(&self, measure: Measure) -> f64 {
+    /// Returns the natural scales of the chain.
+    pub(super) fn scales(&self) -> Scales {
         let size = |points: &[(Number, Number)]| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
         let mut velocity = self.gravity.to_f64() * self.until.to_f64();
         let (mut impedance, mut length) = (0.0f64, 0.0f64);
@@ -356,15 +385,7 @@ impl Chain {
         }
         let time = self.until.to_f64();
         let force = (impedance * velocity).max(forces);
-        match measure {
-            Measure::Time => time,
-            Measure::Length => velocity * time,
-            Measure::Velocity => velocity,
-            Measure::Force | Measure::Stress => force,
-            Measure::Impulse => force * time,
-            Measure::Energy => force * velocity * time,
-            Measure::Strain => velocity * time / length,
-        }
+        Scales { time, velocity, force, length }
     }
 }
 
@@ -377,18 +398,28 @@ impl ChainHistory {
     /// Returns events, contacts and forces.
     ///
     /// **Errors**: the errors of the runs.
-    pub fn listing(&self) -> Result<ChainListing, Error> {
+    pub fn listing(&self) -> Result<Arc<ChainListing>, Error> {
+        self.listed().map(|(listing, _)| listing.clone())
+    }
+
+    /// Returns the reason of the end, by the attempt that gives the listing.
+    ///
+    /// **Errors**: the errors of the runs.
+    pub fn ending(&self) -> Result<Ending, Error> {
+        self.listed().map(|(_, ending)| ending.clone())
+    }
+
+    fn listed(&self) -> Result<&(Arc<ChainListing>, Ending), Error> {
         let peaks = !self.chain.is_soft();
-        let listing = self.settled(|solved| Ok(solved.listing().clone()), |listing| listing.numbers(peaks))?;
         let printed = |value: Value| self.printed(value);
-        let forces = listing.forces.into_iter();
-        Ok(ChainListing {
-            events: listing.events.into_iter().map(|event| event.map(printed)).collect(),
-            touches: listing.touches.into_iter().map(|touch| touch.map(printed)).collect(),
-            contacts: listing.contacts.into_iter().map(|contact| contact.map(printed)).collect(),
-            forces: forces.map(|pieces| pieces.into_iter().map(|piece| piece.map(printed)).collect()).collect(),
-            end: printed(listing.end),
-        })
+        let list = || {
+            let found = self.settled(
+                |run| Ok((run.listing(), run.ending().clone())),
+                |(listing, _)| listing.numbers(peaks),
+            );
+            found.map(|(listing, ending)| (Arc::new(listing.map(printed)), ending))
+        };
+        self.listed.get_or_init(list).as_ref().map_err(Clone::clone)
     }
 
     /// Returns the value of a column at a time; at a jump, the limit from `side`.
@@ -423,13 +454,13 @@ impl ChainHistory {
     /// **Errors**: the errors of the runs.
     pub fn time(&self, time: &Number) -> Result<Value, Error> {
         let value =
-            self.settled(|solved| solved.run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
+            self.settled(|run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
         Ok(self.printed(value))
     }
 
     fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
         let value = self.settled(
-            |solved| solved.run.column(column, time, side),
+            |run| run.column(column, time, side),
             |value| vec![(value, column.quantity.measure())],
         )?;
         Ok(self.printed(value))
@@ -443,59 +474,46 @@ impl ChainHistory {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
         }
-        let field = self.settled(|solved| solved.run.field(body, point, time, side), judged)?;
+        let field = self.settled(|run| run.field(body, point, time, side), judged)?;
         Ok(field.map(|value| self.printed(value)))
-    }
-
-    /// Returns the reason of the end, by the attempt that gives the listing.
-    ///
-    /// **Errors**: the errors of the runs.
-    pub fn ending(&self) -> Result<Ending, Error> {
-        let peaks = !self.chain.is_soft();
-        self.settled(
-            |solved| Ok((solved.listing().clone(), solved.run.ending().clone())),
-            |(listing, _)| listing.numbers(peaks),
-        )
-        .map(|(_, end)| end)
     }
 
     /// Returns the number of wave pieces of the first attempt that reaches its end.
     pub fn pieces(&self) -> usize {
-        self.reached().map_or(0, |solved| solved.run.pieces())
+        self.reached().map_or(0, |run| run.pieces())
     }
 
     /// Returns the warning of events that even the last attempt does not tell apart.
     pub fn warning(&self) -> Option<Warning> {
-        let runs = || self.attempts.iter().filter_map(|(_, attempt)| attempt.get()?.as_ref().ok());
+        let runs = || self.attempts.iter().filter_map(|(_, attempt)| attempt.get()?.as_deref().ok());
         let doubtful = runs().all(|run| !is_whole(run));
         let from = runs()
-            .filter_map(|solved| solved.run.doubt())
+            .filter_map(|run| run.doubt())
             .fold(None, |least: Option<f64>, t| Some(least.map_or(t, |l| l.min(t))));
         from.filter(|_| doubtful).map(|from| Warning::Coincidence { from })
     }
 
-    fn reached(&self) -> Option<&Solved> {
-        self.attempts.iter().find_map(|(_, attempt)| attempt.get()?.as_ref().ok())
+    fn reached(&self) -> Option<&dyn Answers> {
+        self.attempts.iter().find_map(|(_, attempt)| attempt.get()?.as_deref().ok())
     }
 
     /// Returns an attempt, which runs when it is needed first.
-    fn attempt(&self, k: usize) -> Result<&Solved, Error> {
+    fn attempt(&self, k: usize) -> Result<&dyn Answers, Error> {
         let (rung, attempt) = &self.attempts[k];
         let make = || {
             let doubles = matches!(self.numbers, Numbers::Double(_));
             let limited = *rung == Rung::Fractions && doubles && self.chain.max_pieces > EXACT_PIECES;
             let chain = Chain { max_pieces: EXACT_PIECES, ..self.chain.clone() };
-            let run = run(*rung, if limited { &chain } else { &self.chain }, &self.observe)?;
-            Ok(Solved { run, listing: OnceLock::new() })
+            run(*rung, if limited { &chain } else { &self.chain }, &self.observe)
         };
-        attempt.get_or_init(make).as_ref().map_err(Clone::clone)
+        attempt.get_or_init(make).as_deref().map_err(Clone::clone)
     }
 
     /// Returns the answer to `query` of the first attempt that leaves no event open and whose bounds are small enough;
     /// if there is none, that with the smallest bounds.
     fn settled<T>(
         &self,
-        query: impl Fn(&Solved) -> Result<T, Error>,
+        query: impl Fn(&dyn Answers) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<Judged<'_>>,
     ) -> Result<T, Error> {
         let mut best: Option<(bool, f64, T)> = None;
@@ -521,7 +539,7 @@ impl ChainHistory {
             };
             // The natural scale decides only for a number that is not distinguished from zero, or almost zero.
             let excess = |(value, measure): Judged<'_>| {
-                let (size, scale) = (value.to_f64().abs(), self.chain.scale(measure));
+                let (size, scale) = (value.to_f64().abs(), self.scales.of(measure));
                 let is_faint = size.log2() <= value.log2_error();
                 value.log2_error() - size.max(if is_faint { scale } else { FAINT * scale }).log2() - tolerance
             };
@@ -553,6 +571,6 @@ impl ChainHistory {
 }
 
 /// Returns whether a run reaches its end with every event decided.
-fn is_whole(Solved { run, .. }: &Solved) -> bool {
+fn is_whole(run: &dyn Answers) -> bool {
     *run.ending() == Ending::Time && run.doubt().is_none()
 }

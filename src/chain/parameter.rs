@@ -174,7 +174,8 @@ impl ChainParameter {
 
     /// Returns the scale of a step from zero in `chain`.
     pub(crate) fn scale_of_zero(self, chain: &Chain) -> f64 {
-        let scale = |measure| chain.scale(measure);
+        let scales = chain.scales();
+        let scale = |measure| scales.of(measure);
         let natural = match self.value {
             ChainValue::Velocity => scale(Measure::Velocity),
             ChainValue::Gap => scale(Measure::Length),

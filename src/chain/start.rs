@@ -309,7 +309,7 @@ impl<N: Bounded> Start<N> {
             let (interfaces, own) = std::mem::take(&mut parts);
             masses = 0;
             let first = at + 1 - interfaces.len();
-            let speed = chain.scale(Measure::Velocity);
+            let speed = chain.scales().of(Measure::Velocity);
             // A run that ends at once takes a short step, so that it has a state.
             let shortest = bars.iter().map(|bar| bar.travel.to_f64()).filter(|t| *t > 0.0).fold(1.0, f64::min);
             let until = if chain.until.is_zero() { gravity.double(shortest / 1024.0) } else { until.clone() };

@@ -108,7 +108,8 @@ fn doubles_are_within_their_bounds() {
     let chains = if cfg!(feature = "mp") { 15 } else { 5 };
     for _ in 0..chains {
         let chain = random.chain();
-        let events = chain.solve(Numbers::Exact).unwrap().listing().unwrap().events;
+        let listing = chain.solve(Numbers::Exact).unwrap().listing().unwrap();
+        let events = &listing.events;
         let beside = |text: &str, by: &str| {
             let shifted = number(text).to_rational() + number(by).to_rational();
             shifted.to_string().parse::<Number>().ok()

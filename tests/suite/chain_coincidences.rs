@@ -78,7 +78,7 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
         for _ in 0..12 {
             let chain = chain(&mut random, e);
             let exact = chain.solve(Numbers::Exact).unwrap();
-            let truths = by_joint(exact.listing().unwrap());
+            let truths = by_joint(exact.listing().unwrap().as_ref().clone());
             let truth = |value: &Value| value.as_rational().unwrap().clone();
             // Times beside events, on both sides of those that nearly coincide with them.
             let mut times = vec![number("37/29"), number("151/43")];
@@ -92,7 +92,7 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
             }
             for asked in [Numbers::default(), Numbers::Digits(40), Numbers::Certified(40)] {
                 let history = chain.solve(asked).unwrap();
-                let found = by_joint(history.listing().unwrap());
+                let found = by_joint(history.listing().unwrap().as_ref().clone());
                 assert!(history.warning().is_none(), "{asked}, 1e-{e}: {chain:?}");
                 let order = |listing: &ChainListing| -> Vec<String> {
                     let events = listing.events.iter();

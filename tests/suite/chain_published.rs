@@ -2,11 +2,13 @@
 
 use dalembert::Numbers;
 use dalembert::Side;
+use std::sync::Arc;
+
 use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainListing, End};
 use dalembert::number::{Number, Rational, Scalar};
 use dalembert::{ChainScene, builtin};
 
-fn solved(name: &str, numbers: Numbers) -> (ChainHistory, ChainListing) {
+fn solved(name: &str, numbers: Numbers) -> (ChainHistory, Arc<ChainListing>) {
     let scene = ChainScene::parse(builtin::get(name).unwrap().source).unwrap();
     let history = scene.chain.solve(numbers).unwrap();
     let listing = history.listing().unwrap();
@@ -22,7 +24,7 @@ fn value(history: &ChainHistory, column: &str, time: &str) -> f64 {
     history.value(column, &time.parse().unwrap(), Side::Right).unwrap().to_f64()
 }
 
-fn doubles(name: &str) -> (ChainHistory, ChainListing) {
+fn doubles(name: &str) -> (ChainHistory, Arc<ChainListing>) {
     solved(name, Numbers::default())
 }
 

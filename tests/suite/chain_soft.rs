@@ -1,6 +1,7 @@
 //! Chains with springs, dashpots and rigid masses against an independent program, closed forms and limits.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use dalembert::chain::{Body, Chain, ChainColumn, ChainListing, ChainQuantity, ChainRun, End, Points, Spring};
 use dalembert::number::{Bounded, IntervalPrecision, Number, Scalar, Value, Wide};
@@ -208,7 +209,7 @@ pub(crate) fn striker(mass: &str, until: &str) -> Chain {
     chain.until(number(until)).build().unwrap()
 }
 
-fn listing(chain: &Chain, numbers: Numbers) -> ChainListing {
+fn listing(chain: &Chain, numbers: Numbers) -> Arc<ChainListing> {
     chain.solve(numbers).unwrap().listing().unwrap()
 }
 

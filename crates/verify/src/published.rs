@@ -186,7 +186,7 @@ fn chain_value(history: &ChainHistory, target: &ChainTarget) -> Result<Value, Er
         (ChainTargetQuantity::Column(column), Some(time)) => history.value(column, time, target.side),
         (ChainTargetQuantity::Column(column), None) => history.value(column, &Number::from(0), target.side),
         (ChainTargetQuantity::Contact(node, quantity), _) => {
-            let contacts = history.listing()?.contacts;
+            let contacts = &history.listing()?.contacts;
             let of_node: Vec<_> = contacts.iter().filter(|contact| contact.node == node).collect();
             let contact = target.contact - 1;
             let value = of_node.get(contact).and_then(|contact| quantity.of(contact));

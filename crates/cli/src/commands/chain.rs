@@ -225,7 +225,7 @@ impl ChainRows<'_> {
         }
         let mut rows = vec![spelled(&0.into())?];
         let last = spelled(history.chain().until())?;
-        for (k, event) in history.listing()?.events.into_iter().enumerate() {
+        for (k, event) in history.listing()?.events.iter().cloned().enumerate() {
             let is_new =
                 rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
             if is_new {
