@@ -1,7 +1,6 @@
 //! The motion of one body of a chain, for the queries of a rod.
 
 use std::any::Any;
-use std::collections::VecDeque;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -70,12 +69,7 @@ pub(crate) struct BodyMotion<N> {
     /// The natural speed of the chain.
     speed: f64,
     course: OnceLock<Course<N>>,
-    /// Latest sums over the body, each with its time: its centre and its energies are read from the same ones.
-    sums: Mutex<VecDeque<(N, BodySums<N>)>>,
 }
-
-/// Number of sums that are kept: several, as threads ask at times of their own.
-const KEPT_SUMS: usize = 8;
 
 /// Limit of the distance, in travel times, at which the centre of mass is read beside an event.
 const MAX_ASIDE: f64 = 1e-6;
@@ -83,25 +77,12 @@ const MAX_ASIDE: f64 = 1e-6;
 impl<N: Bounded> BodyMotion<N> {
     pub(crate) fn new(chain: &Chain, body: usize, run: Arc<ChainRun<N>>) -> Self {
         let speed = chain.scales().of(Measure::Velocity);
-        BodyMotion { run, body, speed, course: OnceLock::new(), sums: Mutex::default() }
+        BodyMotion { run, body, speed, course: OnceLock::new() }
     }
 
     /// Returns the first time at which events that agree within their bounds count as one.
     pub(crate) fn undetermined_from(&self) -> Option<f64> {
         self.run.undetermined_from()
-    }
-
-    /// Returns the sums over the body at a time.
-    fn sums(&self, time: &N) -> Result<BodySums<N>, Error> {
-        let is_same = |at: &N| at.alike(time) && at.log2_error() == time.log2_error();
-        if let Some((_, sums)) = locked(&self.sums).iter().find(|(at, _)| is_same(at)) {
-            return Ok(sums.clone());
-        }
-        let sums = self.run.sums(self.body, time)?;
-        let mut kept = locked(&self.sums);
-        kept.truncate(KEPT_SUMS - 1);
-        kept.push_front((time.clone(), sums.clone()));
-        Ok(sums)
     }
 
     fn bar(&self) -> &Bar<N> {
@@ -231,7 +212,7 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     }
 
     fn pair(&self, pair: Pair, time: &N, side: Side) -> Result<[N; 2], Error> {
-        let sums = || self.sums(time);
+        let sums = || self.run.sums(self.body, time);
         Ok(match pair {
             Pair::GroundEnd => {
                 let Field { displacement, velocity, .. } = self.run.end_field(self.body, false, time, side)?;

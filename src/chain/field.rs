@@ -1,6 +1,8 @@
 //! The field along a body of a chain, and the sums over it.
 
+use std::collections::VecDeque;
 use std::ops::RangeInclusive;
+use std::sync::Mutex;
 
 use super::curve::{Signal, bound, greater, primitive, product, turned, value};
 use super::run::ChainRun;
@@ -9,6 +11,7 @@ use super::wave::{Piece, Wave, is_exact_zero, order};
 use crate::error::Error;
 use crate::motion::{Field, Side, Stretch};
 use crate::number::{Bounded, Open};
+use crate::threads::locked;
 
 /// Energies, centre and momentum of a body.
 #[derive(Clone, Debug)]
@@ -35,6 +38,47 @@ impl<N> BodySums<N> {
             strain: f(self.strain),
             potential: f(self.potential),
         }
+    }
+}
+
+/// The latest sums, each with its body and time: several quantities are made of the same ones. A clone has none.
+#[derive(Debug)]
+pub(super) struct KeptSums<N>(Mutex<VecDeque<(usize, N, BodySums<N>)>>);
+
+/// Number of sums that are kept: several for each body, as threads ask at times of their own.
+const KEPT_SUMS: usize = 32;
+
+impl<N> Default for KeptSums<N> {
+    fn default() -> Self {
+        KeptSums(Mutex::default())
+    }
+}
+
+impl<N> Clone for KeptSums<N> {
+    fn clone(&self) -> Self {
+        KeptSums::default()
+    }
+}
+
+impl<N: Bounded> KeptSums<N> {
+    /// Returns the sums over a body at a time, which `make` computes if they are not kept.
+    fn get(
+        &self,
+        body: usize,
+        time: &N,
+        make: impl FnOnce() -> Result<BodySums<N>, Error>,
+    ) -> Result<BodySums<N>, Error> {
+        let is_same =
+            |at: &N| at.alike(time) && at.log2_error() == time.log2_error() && at.spelled_as() == time.spelled_as();
+        let known = |(own, at, _): &&(usize, N, BodySums<N>)| *own == body && is_same(at);
+        if let Some((.., sums)) = locked(&self.0).iter().find(known) {
+            return Ok(sums.clone());
+        }
+        let sums = make()?;
+        let mut kept = locked(&self.0);
+        kept.truncate(KEPT_SUMS - 1);
+        kept.push_front((body, time.clone(), sums.clone()));
+        Ok(sums)
     }
 }
 
@@ -143,6 +187,10 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if it is not decided whether the velocity of a rigid body
     /// has jumped.
     pub fn sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
+        self.kept.get(body, time, || self.make_sums(body, time))
+    }
+
+    fn make_sums(&self, body: usize, time: &N) -> Result<BodySums<N>, Error> {
         let Bar { length, wave_speed, impedance, mass, .. } = &self.bars[body];
         let zero = length.zero();
         if let Some(mass) = mass {

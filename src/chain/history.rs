@@ -1,7 +1,7 @@
 //! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, OnceLock};
 
 use super::body::Body;
 use super::column::{ChainColumn, ChainQuantity};
@@ -18,7 +18,6 @@ use crate::quantity::Measure;
 use crate::reason::Warning;
 use crate::solve::chain::{EXACT_PIECES, rungs};
 use crate::solve::{DEFAULT_ACCURACY, LONG, Numbers, Observer, Rung};
-use crate::threads::locked;
 
 /// Events, contacts and forces of a chain.
 #[derive(Clone, Debug)]
@@ -109,43 +108,6 @@ enum Instant<'a> {
     Event(usize),
 }
 
-/// A run with the sums over its bodies at the latest time that they were asked at: several columns are made of them,
-/// and a golden file asks for both sides.
-#[derive(Debug)]
-struct Answering<N> {
-    run: ChainRun<N>,
-    /// For each body the time, and the event that it is if it is one, with the sums.
-    sums: Mutex<Vec<LatestSums<N>>>,
-}
-
-/// The latest time of sums over a body, with the sums.
-type LatestSums<N> = Option<((Option<usize>, Option<Number>), BodySums<N>)>;
-
-impl<N: ToValue> Answering<N> {
-    fn new(run: ChainRun<N>) -> Self {
-        let sums = Mutex::new(vec![None; run.bars.len()]);
-        Answering { run, sums }
-    }
-
-    /// Returns the sums over a body.
-    fn sums(&self, body: usize, instant: Instant<'_>) -> Result<BodySums<N>, Error> {
-        let key = match instant {
-            Instant::Spelled(time) => (None, Some(time.clone())),
-            Instant::Event(event) => (Some(event), None),
-        };
-        if let Some((latest, sums)) = locked(&self.sums).get(body).and_then(Option::as_ref)
-            && *latest == key
-        {
-            return Ok(sums.clone());
-        }
-        let sums = self.run.sums(body, &instant.in_run(&self.run)?)?;
-        if let Some(latest) = locked(&self.sums).get_mut(body) {
-            *latest = Some((key, sums.clone()));
-        }
-        Ok(sums)
-    }
-}
-
 /// A run in any number system.
 trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
@@ -166,27 +128,26 @@ impl Instant<'_> {
     }
 }
 
-impl<N: ToValue> Answers for Answering<N> {
+impl<N: ToValue> Answers for ChainRun<N> {
     fn listing(&self) -> ChainListing {
         let value = N::to_value;
-        let events = self.run.events().iter().cloned().map(|event| event.map(value)).collect();
-        let touches = self.run.touches().iter().cloned().map(|touch| touch.map(value)).collect();
-        let contacts = self.run.contacts().into_iter().map(|contact| contact.map(value)).collect();
-        let forces = |node| self.run.force_pieces(node).into_iter().map(|piece| piece.map(value)).collect();
-        let forces = (0..self.run.nodes.len()).map(forces).collect();
-        ChainListing { events, touches, contacts, forces, end: value(self.run.end().clone()) }
+        let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
+        let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
+        let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
+        let forces = |node| self.force_pieces(node).into_iter().map(|piece| piece.map(value)).collect();
+        let forces = (0..self.nodes.len()).map(forces).collect();
+        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
     }
 
     fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
-        time.in_run(&self.run).map(N::to_value)
+        time.in_run(self).map(N::to_value)
     }
 
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
         let ChainColumn { quantity, place } = column;
-        let (run, instant) = (&self.run, time);
-        let time = instant.in_run(run)?;
-        let end = |is_top: bool| run.end_field(place, is_top, &time, side);
-        let sums = || self.sums(place, instant);
+        let time = time.in_run(self)?;
+        let end = |is_top: bool| self.end_field(place, is_top, &time, side);
+        let sums = || self.sums(place, &time);
         let found = match quantity {
             ChainQuantity::EndDisplacement => end(false)?.displacement,
             ChainQuantity::EndVelocity => end(false)?.velocity,
@@ -200,29 +161,29 @@ impl<N: ToValue> Answers for Answering<N> {
                 let BodySums { kinetic, strain, potential, .. } = sums()?;
                 kinetic + strain + potential
             }
-            ChainQuantity::Force => run.force(place, &time, side)?,
-            ChainQuantity::Gap => run.gap(place, &time)?,
-            ChainQuantity::SpringEnergy => run.spring_energies(place, &time)?[0].clone(),
-            ChainQuantity::Dissipated => run.spring_energies(place, &time)?[1].clone(),
+            ChainQuantity::Force => self.force(place, &time, side)?,
+            ChainQuantity::Gap => self.gap(place, &time)?,
+            ChainQuantity::SpringEnergy => self.spring_energies(place, &time)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies(place, &time)?[1].clone(),
         };
         Ok(found.to_value())
     }
 
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
-        let [point, time] = [point, time].map(|x| N::spelling(x, &self.run.end.precision()));
-        Ok(self.run.field(body, &point, &time, side)?.map(N::to_value))
+        let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
+        Ok(ChainRun::field(self, body, &point, &time, side)?.map(N::to_value))
     }
 
     fn ending(&self) -> &Ending {
-        self.run.ending()
+        &self.ending
     }
 
     fn doubt(&self) -> Option<f64> {
-        self.run.undetermined_from()
+        self.undetermined_from()
     }
 
     fn pieces(&self) -> usize {
-        self.run.pieces()
+        ChainRun::pieces(self)
     }
 }
 
@@ -230,20 +191,14 @@ impl<N: ToValue> Answers for Answering<N> {
 fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>, Error> {
     let observe = &|events: usize, pieces: usize| observe(events, pieces);
     Ok(match rung {
-        Rung::Double => Box::new(Answering::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?)),
-        Rung::Fractions => Box::new(Answering::new(ChainRun::<Rational>::new(chain, &(), observe)?)),
-        Rung::Bits(..=128) if LONG => {
-            Box::new(Answering::new(ChainRun::<Estimate<Wide<2>>>::confirmed(chain, &(), 128, observe)?))
-        }
-        Rung::Bits(129..=256) if LONG => {
-            Box::new(Answering::new(ChainRun::<Estimate<Wide<4>>>::confirmed(chain, &(), 256, observe)?))
-        }
-        Rung::Bits(bits) if LONG => {
-            Box::new(Answering::new(ChainRun::<Estimate<Float>>::confirmed(chain, &bits, bits, observe)?))
-        }
+        Rung::Double => Box::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
+        Rung::Fractions => Box::new(ChainRun::<Rational>::new(chain, &(), observe)?),
+        Rung::Bits(..=128) if LONG => Box::new(ChainRun::<Estimate<Wide<2>>>::confirmed(chain, &(), 128, observe)?),
+        Rung::Bits(129..=256) if LONG => Box::new(ChainRun::<Estimate<Wide<4>>>::confirmed(chain, &(), 256, observe)?),
+        Rung::Bits(bits) if LONG => Box::new(ChainRun::<Estimate<Float>>::confirmed(chain, &bits, bits, observe)?),
         Rung::Enclosures(bits) if LONG => {
             let precision = IntervalPrecision { bits, exact: true };
-            Box::new(Answering::new(ChainRun::<Interval>::new(chain, &precision, observe)?))
+            Box::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
         }
         Rung::Bits(bits) | Rung::Enclosures(bits) | Rung::Confirmed(bits) => {
             return Err(Error::NotDecided { what: "what the answer is", bits });
@@ -413,10 +368,8 @@ impl ChainHistory {
         let peaks = !self.chain.is_soft();
         let printed = |value: Value| self.printed(value);
         let list = || {
-            let found = self.settled(
-                |run| Ok((run.listing(), run.ending().clone())),
-                |(listing, _)| listing.numbers(peaks),
-            );
+            let found =
+                self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks));
             found.map(|(listing, ending)| (Arc::new(listing.map(printed)), ending))
         };
         self.listed.get_or_init(list).as_ref().map_err(Clone::clone)
@@ -453,16 +406,13 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn time(&self, time: &Number) -> Result<Value, Error> {
-        let value =
-            self.settled(|run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
+        let value = self.settled(|run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
         Ok(self.printed(value))
     }
 
     fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
-        let value = self.settled(
-            |run| run.column(column, time, side),
-            |value| vec![(value, column.quantity.measure())],
-        )?;
+        let value =
+            self.settled(|run| run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
         Ok(self.printed(value))
     }
 

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::cluster::Cluster;
 use super::definition::Chain;
+use super::field::KeptSums;
 use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
 use super::start::{Moving, Nodes, Start};
@@ -76,6 +77,7 @@ impl<N: Bounded> ChainRun<N> {
                     events,
                     touches: Vec::new(),
                     doubt,
+                    kept: KeptSums::default(),
                 });
             }
         };
@@ -140,7 +142,8 @@ impl<N: Bounded> ChainRun<N> {
         sort(&mut touches, |touch| (&touch.t, touch.node));
         let doubt = nodes.iter().filter_map(|node| node.doubt).min_by(f64::total_cmp);
         let nodes = nodes.into_iter().map(Node::into_stages).collect();
-        Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches, doubt })
+        let kept = KeptSums::default();
+        Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches, doubt, kept })
     }
 }
 

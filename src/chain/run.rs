@@ -1,6 +1,7 @@
 //! A finished run of a chain: events, contacts, forces and gaps.
 
 use super::curve::Signal;
+use super::field::KeptSums;
 use super::interface::Soft;
 use super::march::SOFT;
 use super::node::{Gap, Stage};
@@ -123,6 +124,7 @@ pub struct ChainRun<N> {
     pub(super) events: Vec<ChainEvent<N>>,
     pub(super) touches: Vec<Touch<N>>,
     pub(super) doubt: Option<f64>,
+    pub(super) kept: KeptSums<N>,
 }
 
 impl<N: Bounded> ChainRun<N> {

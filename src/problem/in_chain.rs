@@ -36,13 +36,6 @@ impl InChain {
     }
 }
 
-impl Problem {
-    /// Returns the chain that the body is part of, and its index in it.
-    pub(crate) fn place(&self) -> Option<(&Chain, usize)> {
-        self.in_chain.as_ref().map(|place| (&*place.chain, place.body))
-    }
-}
-
 impl Chain {
     /// Returns a problem for each bar, in the order of the bodies, from the bottom up; `None` for a rigid body. Its
     /// history is the motion of the bar in the chain: events and contacts are those with the body or the stop below,

@@ -117,13 +117,13 @@ impl Scene {
             let is_constant = points.iter().all(|(_, v)| v == first);
             Some(if is_constant { shown(name, first) } else { format!("the {name} has {} points", points.len()) })
         };
-        let place = problem.place();
+        let place = problem.chain();
         // The key that decides so; why the effect is called for, if it is; what is not computed where it is not.
         let (key, called, otherwise) = match effect {
-            Effect::UnilateralContact => match place {
+            Effect::UnilateralContact => match &place {
                 None => ("", Some("the ground is in every scene".into()), ""),
                 Some((chain, body)) => {
-                    let pushes = [body, body + 1].map(|node| chain.is_contact(node));
+                    let pushes = [*body, body + 1].map(|node| chain.is_contact(node));
                     let because = match pushes {
                         [true, true] => Some("both ends of the body push and never pull"),
                         [true, false] => Some("the lower end of the body pushes and never pulls"),
