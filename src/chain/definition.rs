@@ -368,6 +368,9 @@ impl ChainBuilder {
                 node if node == chain.bodies.len() => "ends.top".to_string(),
                 node => format!("body[{node}].gap"),
             };
+            if let Some(gap) = &gap {
+                within_limits(&path, "gap", gap)?;
+            }
             if let Some(gap) = gap
                 && gap < Rational::default()
             {
@@ -387,6 +390,7 @@ impl ChainBuilder {
             }
         }
         chain.check_springs()?;
+        within_limits("gravity.acceleration", "acceleration", &chain.gravity.to_rational())?;
         if chain.gravity.to_f64() < 0.0 {
             let found = format!("acceleration = {}", chain.gravity);
             return Err(ProblemError::new(Kind::OutOfRange, "gravity.acceleration", found, "zero or more"));
@@ -487,7 +491,7 @@ impl Chain {
     }
 }
 
-/// Limits of every number that must be above zero.
+/// Limits of the size of every number but zero.
 const LIMITS: (f64, f64) = (1e-40, 1e40);
 
 fn positive(path: &str, name: &str, number: &Number) -> Result<(), ProblemError> {
@@ -497,6 +501,17 @@ fn positive(path: &str, name: &str, number: &Number) -> Result<(), ProblemError>
     }
     let expected = if value > 0.0 { "a number between 1e-40 and 1e40" } else { "a number above zero" };
     let found = format!("{name} = {}", short(&number.to_string()));
+    Err(ProblemError::new(Kind::OutOfRange, path, found, expected))
+}
+
+/// Checks a number that may be zero or negative.
+fn within_limits(path: &str, name: &str, number: &Rational) -> Result<(), ProblemError> {
+    let size = Scalar::to_f64(number).abs();
+    if *number == Rational::default() || (LIMITS.0..=LIMITS.1).contains(&size) {
+        return Ok(());
+    }
+    let found = format!("{name} = {}", short(&number.to_string()));
+    let expected = "zero, or a number between 1e-40 and 1e40 in size";
     Err(ProblemError::new(Kind::OutOfRange, path, found, expected))
 }
 
@@ -514,6 +529,9 @@ fn check_points(
         Err(ProblemError::new(Kind::Profile, &path, found, expected.to_string()))
     };
     let Some((first, _)) = points.first() else { return Ok(()) };
+    for (k, (_, value)) in points.iter().enumerate() {
+        within_limits(&format!("{path}[{k}]"), name, &value.to_rational())?;
+    }
     if !first.is_zero() {
         return refuse(0, &format!("the first point at {place} = 0"));
     }

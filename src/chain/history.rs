@@ -460,13 +460,13 @@ impl ChainHistory {
     }
 
     /// Returns the answer to `query` of the first attempt that leaves no event open and whose bounds are small enough;
-    /// if there is none, that with the smallest bounds.
+    /// if there is none, that with the smallest bounds among those that reach the end of the run.
     fn settled<T>(
         &self,
         query: impl Fn(&dyn Answers) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<Judged<'_>>,
     ) -> Result<T, Error> {
-        let mut best: Option<(bool, f64, T)> = None;
+        let mut best: Option<((bool, bool, f64), T)> = None;
         let mut failed = None;
         let tolerance = match self.numbers {
             Numbers::Double(accuracy) => accuracy.unwrap_or(DEFAULT_ACCURACY).log2(),
@@ -474,14 +474,14 @@ impl ChainHistory {
             Numbers::Digits(n) | Numbers::ExactThenDigits(n) | Numbers::Certified(n) => -f64::from(bits_for_digits(n)),
         };
         for k in 0..self.attempts.len() {
-            let answer = self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run))));
-            let (answer, whole) = match answer {
+            let answer = self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run), *run.ending() != Ending::Time)));
+            let (answer, whole, ends_early) = match answer {
                 Ok(answer) => answer,
                 // The first attempt says what is wrong with the question.
                 Err(error) => {
                     let open = matches!(error, Error::Open(_) | Error::NotDecided { .. } | Error::Irrational { .. });
                     if !open && !matches!(self.attempts[k].0, Rung::Fractions) || self.attempts.len() == 1 {
-                        return best.map(|(_, _, answer)| answer).ok_or(error);
+                        return best.map(|(_, answer)| answer).ok_or(error);
                     }
                     failed = Some(error);
                     continue;
@@ -497,13 +497,12 @@ impl ChainHistory {
             if whole && worst <= 0.0 || self.attempts.len() == 1 {
                 return Ok(answer);
             }
-            let better =
-                best.as_ref().is_none_or(|(whole_before, before, _)| (!whole, worst) < (!whole_before, *before));
-            if better {
-                best = Some((whole, worst, answer));
+            let rank = (ends_early, !whole, worst);
+            if best.as_ref().is_none_or(|(before, _)| rank < *before) {
+                best = Some((rank, answer));
             }
         }
-        best.map(|(_, _, answer)| answer).ok_or_else(|| failed.unwrap_or(Error::Open(Open)))
+        best.map(|(_, answer)| answer).ok_or_else(|| failed.unwrap_or(Error::Open(Open)))
     }
 
     /// Returns a number of the requested system, with its digits.

@@ -107,8 +107,16 @@ impl<'a> Part<'a, Number> {
 
 impl<'a> Part<'a, Points> {
     fn given(self) -> Vec<(Given, Given)> {
-        let pairs = self.now.iter().zip(self.further);
         let number = |now: &'a Number, further: &'a Number| self.with(now, further).given();
+        if self.now.is_empty() {
+            // Without points the value is zero everywhere.
+            let from_zero = |value: &Number| {
+                let rate = value.to_rational();
+                Dual::new(Rational::default(), if self.falls { -rate } else { rate })
+            };
+            return self.further.iter().map(|(x, value)| (number(x, x), from_zero(value))).collect();
+        }
+        let pairs = self.now.iter().zip(self.further);
         pairs.map(|(now, further)| (number(&now.0, &further.0), number(&now.1, &further.1))).collect()
     }
 }

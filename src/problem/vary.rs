@@ -16,7 +16,7 @@ impl Parameter {
     fn step_to(self, problem: &Problem, value: f64) -> Option<Rational> {
         let value = format!("{value:e}").parse::<Number>().ok()?.to_rational();
         let now = self.value_in::<Rational>(problem, &()).ok()?;
-        let unit = if now == Rational::default() { self.scale_of_zero(problem).to_rational() } else { now.clone() };
+        let unit = if now == Rational::default() { self.scale_of_zero(problem).to_rational() } else { now.magnitude() };
         Some((value - now) / unit)
     }
 
@@ -105,7 +105,7 @@ impl Parameter {
         }
     }
 
-    /// `problem` with this value greater by the part `step` of itself, or by `step` times a scale of its own where it
+    /// `problem` with this value greater by the part `step` of its size, or by `step` times a scale of its own where it
     /// is zero; its square by the part `step` where that is what the problem has. `None` where no problem has such a
     /// value.
     pub(crate) fn moved(self, problem: &Problem, step: &Rational) -> Option<Problem> {
@@ -113,6 +113,7 @@ impl Parameter {
         let by = |number: &Number, factor: &Rational| Number::of_rational(&(number.to_rational() * factor));
         let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
         let next = |number: &Number| match number.is_zero() {
+            false if number.to_f64() < 0.0 => by(number, &(Rational::from(1) - step)),
             false => by(number, &factor),
             true if *step > Rational::default() || !self.only_grows(problem) => by(&self.scale_of_zero(problem), step),
             // Zero has values on one side only.

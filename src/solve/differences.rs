@@ -91,7 +91,7 @@ impl Level {
         let moved = [next(), next()].map(|run| run.map(|(rows, _)| rows));
         let value = match zero {
             true => Long::from_number(&asked.by.scale_of_zero(asked.problem), &bits),
-            false => asked.by.value_in(asked.problem, &bits)?,
+            false => asked.by.value_in::<Long>(asked.problem, &bits)?.magnitude(),
         };
         let step = value.clone() * Long::from_number(&by, &bits) / value.int(asked.by.power(asked.problem));
         Ok(Level { base, scales, moved, step, part: part(exponent), one_sided: asked.is_stretched() })

@@ -73,7 +73,7 @@ fn with_step(
         Engine::Lattice => (0..3).map(run).collect::<Result<Vec<_>, _>>()?,
         _ => Threads::default().all(3, run)?,
     };
-    let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value };
+    let scale = if value == 0.0 { asked.by.scale_of_zero(asked.problem).to_f64() } else { value.abs() };
     let cubic = Cubic { part: step.to_f64(), value: scale / asked.by.power(asked.problem) as f64, one_sided };
     let mut settled = true;
     let found = of_each(base, |place, number| {

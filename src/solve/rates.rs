@@ -110,7 +110,7 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     let mut settled = settled && base.len() == rows.len();
     let found = of_each(&base, |place, number| {
         let rate = at(&rows, place).filter(|there| there.value().same(number)).and_then(Dual::rate);
-        let natural = number.value().abs().max(scales[place.1]) / value.value();
+        let natural = number.value().abs().max(scales[place.1]) / value.value().abs();
         let rate = rate.filter(|rate| is_settled(rate, natural));
         settled &= rate.is_some();
         Derivative::One(rate.unwrap_or(number).clone())
@@ -155,7 +155,7 @@ fn with_rates<S: Bounded>(
     // The problem has a power of the value, and `further` has twice that, or a scale of its own in place of zero.
     let scale = match value.vanishes() {
         Ok(true) => S::from_number(&asked.by.scale_of_zero(problem), &value.precision()),
-        _ => value.clone(),
+        _ => value.magnitude(),
     };
     let per_value = value.int(asked.by.power(problem)) / scale;
     let rows = |asked: &Asked<'_>| {

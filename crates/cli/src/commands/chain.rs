@@ -58,16 +58,13 @@ fn place(scene: &ChainScene, node: usize) -> Cell {
 
 fn events(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |event: &dalembert::chain::ChainEvent<Value>| {
-        let number = |value: &Value| Cell::Number(value.clone());
-        vec![
-            (Column::new("node").text(), place(scene, event.node)),
-            (Column::new("event").text(), event.kind.name().into()),
-            (column("t"), number(&event.t)),
-            (column("gap_rate_before"), number(&event.before)),
-            (column("gap_rate_after"), number(&event.after)),
-        ]
+        let numbers = [&event.t, &event.before, &event.after].map(|value| Cell::Number(value.clone()));
+        [place(scene, event.node), event.kind.name().into()].into_iter().chain(numbers).collect()
     };
-    Dataset::from_rows(listing.events.iter().map(row))
+    // A file without events has its header.
+    let columns = ["node", "event"].map(|name| Column::new(name).text());
+    let columns = columns.into_iter().chain(["t", "gap_rate_before", "gap_rate_after"].map(column));
+    Dataset { columns: columns.collect(), rows: listing.events.iter().map(row).collect(), ..Dataset::default() }
 }
 
 fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
@@ -120,9 +117,7 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
     drop(progress);
     note(&history)?;
     let digits = digits(numbers);
-    let in_digits = |data: Dataset| Dataset { digits, ..data };
-    let parts = [events(scene, &listing), touches(scene, &listing), contacts(scene, &listing), forces(scene, &listing)];
-    let [events, touches, contacts, forces] = parts.map(in_digits);
+    let part = |make: fn(&ChainScene, &ChainListing) -> Dataset| Dataset { digits, ..make(scene, &listing) };
     let ending = history.ending()?.at(&listing.end.to_string());
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
@@ -131,20 +126,21 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
             "bodies": bodies(scene),
             "number": numbers.to_string(),
             "units": units_json(scene),
-            "events": events.json(),
-            "touches": touches.json(),
-            "contacts": contacts.json(),
-            "forces": forces.json(),
+            "events": part(events).json(),
+            "touches": part(touches).json(),
+            "contacts": part(contacts).json(),
+            "forces": part(forces).json(),
             "end": listing.end,
             "ending": ending,
             "warnings": warnings(&history),
         }))),
-        Format::Csv => rows_bytes(&events, Format::Csv),
+        Format::Csv => rows_bytes(&part(events), Format::Csv),
         _ => {
             let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-            for (name, data) in
-                [("events", &events), ("touches", &touches), ("contacts", &contacts), ("forces", &forces)]
-            {
+            let parts: [(&str, fn(&ChainScene, &ChainListing) -> Dataset); 4] =
+                [("events", events), ("touches", touches), ("contacts", contacts), ("forces", forces)];
+            for (name, make) in parts {
+                let data = part(make);
                 if !data.rows.is_empty() {
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
