@@ -17,6 +17,8 @@ pub struct Body {
     pub(super) displacement: Points,
     /// Points `(x, v_x)`, in place of the displacement.
     pub(super) strain: Points,
+    /// Modulus of its waves over Young's modulus, where its sides are held; `None` for one.
+    pub(super) constraint: Option<Rational>,
 }
 
 /// The material of a [`Body`], which sets its wave speed `c` and its impedance `Z = ρcA`.
@@ -79,7 +81,8 @@ impl Body {
     }
 
     pub(super) fn with_material(length: Number, material: BodyMaterial) -> Self {
-        Body { name: None, length, material, velocity: Vec::new(), displacement: Vec::new(), strain: Vec::new() }
+        let (velocity, displacement, strain) = Default::default();
+        Body { name: None, length, material, velocity, displacement, strain, constraint: None }
     }
 
     /// Returns the body with one velocity everywhere, upward where it is positive.
@@ -110,6 +113,16 @@ impl Body {
     /// Returns the body with a name.
     pub fn named(self, name: impl Into<String>) -> Self {
         Body { name: Some(name.into()), ..self }
+    }
+
+    /// Returns the body with another ratio of the modulus of its waves to Young's modulus, which parameters are.
+    pub(crate) fn with_constraint(self, constraint: Option<Rational>) -> Self {
+        Body { constraint, ..self }
+    }
+
+    /// Returns the modulus of the waves over Young's modulus, which the scene gives, where the sides are held.
+    pub(crate) fn constraint(&self) -> Option<&Rational> {
+        self.constraint.as_ref()
     }
 
     /// Returns the name, if the body has one.

@@ -474,7 +474,8 @@ impl ChainHistory {
             Numbers::Digits(n) | Numbers::ExactThenDigits(n) | Numbers::Certified(n) => -f64::from(bits_for_digits(n)),
         };
         for k in 0..self.attempts.len() {
-            let answer = self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run), *run.ending() != Ending::Time)));
+            let answer =
+                self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run), *run.ending() != Ending::Time)));
             let (answer, whole, ends_early) = match answer {
                 Ok(answer) => answer,
                 // The first attempt says what is wrong with the question.

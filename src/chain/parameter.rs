@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::body::{Body, BodyMaterial, Points};
 use super::definition::{Chain, End, Joint};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
-use crate::number::Number;
+use crate::number::{Number, Rational};
 use crate::quantity::Measure;
 
 /// A kind of value that bodies, joints and ends of a chain have.
@@ -32,7 +32,7 @@ pub enum ChainValue {
     WaveSpeed,
     /// Impedance of a bar that is given by it.
     Impedance,
-    /// Modulus of a bar that has a material.
+    /// Modulus of a bar that has a material: Young's, also where the sides are held.
     Modulus,
     /// Density of a bar that has a material.
     Density,
@@ -202,8 +202,21 @@ impl Chain {
                     }
                 }
             }
-            _ => chain.number_mut(parameter).map(|number| number.clone()),
+            _ => {
+                let number = chain.number_mut(parameter)?.clone();
+                match self.constraint(parameter) {
+                    Some(constraint) => Number::of_rational(&(number.to_rational() / constraint)),
+                    None => Some(number),
+                }
+            }
         }
+    }
+
+    /// Returns the modulus of waves over the one that the parameter is, if it is the modulus of a body whose sides are
+    /// held.
+    fn constraint(&self, parameter: ChainParameter) -> Option<&Rational> {
+        let body = parameter.body().filter(|_| parameter.value == ChainValue::Modulus)?;
+        self.bodies.get(body)?.constraint()
     }
 
     /// Returns the chain with `number` in place of one of its values.
@@ -251,7 +264,13 @@ impl Chain {
                 let body = chain.bodies.get_mut(parameter.body()?).filter(|body| body.rigid_mass().is_none())?;
                 *body = body.stretched(number)?;
             }
-            _ => *chain.number_mut(parameter)? = number,
+            _ => {
+                let number = match self.constraint(parameter) {
+                    Some(constraint) => Number::of_rational(&(number.to_rational() * constraint))?,
+                    None => number,
+                };
+                *chain.number_mut(parameter)? = number;
+            }
         }
         Some(chain)
     }

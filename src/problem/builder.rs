@@ -1,5 +1,6 @@
 //! A problem put together value by value.
 
+use super::in_chain::InChain;
 use super::profile::Points;
 use super::validate::{Draft, IMPACT};
 use super::{Parameter, Problem, ProblemError, Profile, Run, Speed, Start, Top, Written};
@@ -169,6 +170,11 @@ impl Builder {
     /// ```
     pub fn build(self) -> Result<Problem, ProblemError> {
         let Builder { mut draft, mut base } = self;
+        if let Some(young) = base.in_chain.as_ref().and_then(InChain::young)
+            && let Some(value) = draft.numbers.remove(&Parameter::Modulus)
+        {
+            draft.numbers.insert(young, value);
+        }
         let is_of_chain = |parameter: &Parameter| matches!(parameter, Parameter::OfChain(_));
         let of_chain: Vec<(Parameter, Written)> = draft.numbers.extract_if(.., |key, _| is_of_chain(key)).collect();
         for (set, other) in EXCLUSIVE.iter().flat_map(|[a, b]| [(a, b), (b, a)]) {

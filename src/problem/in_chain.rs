@@ -30,6 +30,13 @@ impl PartialEq for InChain {
 }
 
 impl InChain {
+    /// Returns Young's modulus as a value of the chain, for a body whose sides are held: the problem has the modulus of
+    /// its waves.
+    pub(super) fn young(&self) -> Option<Parameter> {
+        self.chain.bodies()[self.body].constraint()?;
+        format!("body.{}.modulus", self.body + 1).parse().ok()
+    }
+
     /// Returns the same place with another stiffness of the spring below it; `None` where there is no spring.
     pub(super) fn with_stiffness(&self, stiffness: &Number) -> Option<Self> {
         self.stiffness.as_ref().map(|_| InChain { stiffness: Some(stiffness.clone()), ..self.clone() })
@@ -117,6 +124,7 @@ fn body_of(material: &Material, body: &Body) -> Body {
         Material::WaveSpeed(speed) => Body::new(length, speed.clone(), speed.clone()),
     };
     let new = new.with_start(velocity, displacement).with_strain(body.strain().to_vec());
+    let new = new.with_constraint(body.constraint().cloned());
     match body.name() {
         Some(name) => new.named(name),
         None => new,

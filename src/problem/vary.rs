@@ -60,9 +60,15 @@ impl Parameter {
         self.find(problem, &()).ok().flatten()
     }
 
+    /// Returns the value of the chain that it is, if it is one.
+    fn in_scene(self, problem: &Problem) -> Self {
+        let young = || problem.in_chain.as_ref()?.young();
+        if self == Parameter::Modulus { young().unwrap_or(self) } else { self }
+    }
+
     fn find<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<Option<S>, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
-        Ok(match (self, &problem.start) {
+        Ok(match (self.in_scene(problem), &problem.start) {
             (Parameter::WaveSpeed, _) => Some(rod.wave_speed),
             (Parameter::ImpactSpeed, Start::Uniform(_) | Start::Above { .. }) => Some(rod.speed),
             (Parameter::Displacement(None) | Parameter::Strain(None) | Parameter::Velocity(None), _) => {
@@ -188,8 +194,8 @@ impl Parameter {
         {
             return problem.to_builder().build();
         }
-        if let Parameter::OfChain(_) = self {
-            return problem.with_chain_value(self, &value.into());
+        if let of_chain @ Parameter::OfChain(_) = self.in_scene(problem) {
+            return problem.with_chain_value(of_chain, &value.into());
         }
         let written = |value: f64| Given::new("", self.name(), &value.into()).map(|given| given.number.clone());
         let given = |parameter: Parameter| parameter.value(problem).unwrap_or_default();

@@ -208,7 +208,7 @@ impl ChainScene {
                 Some(name) => format!("{title}: {name}"),
                 None => format!("{title}: body {}", body + 1),
             }),
-            units: self.units,
+            units: if self.has_material() { self.units } else { UnitSystem::Other },
             problem,
             accuracy: self.accuracy,
             publication: self.publication.clone(),
@@ -227,8 +227,11 @@ impl ChainScene {
 
     /// Returns the name of the unit of `measure`: `N`; empty if no body has a material or the unit is not known.
     pub fn unit(&self, measure: Measure) -> &'static str {
-        let is_elastic = |body: &Body| matches!(body.material(), BodyMaterial::Elastic { .. });
-        if self.chain.bodies().iter().any(is_elastic) { self.units.name(measure, false) } else { "" }
+        if self.has_material() { self.units.name(measure, false) } else { "" }
+    }
+
+    fn has_material(&self) -> bool {
+        self.chain.bodies().iter().any(|body| matches!(body.material(), BodyMaterial::Elastic { .. }))
     }
 
     /// Returns the text that the scene was read from.
@@ -455,7 +458,10 @@ impl<'a> Reader<'a> {
                 }
                 let density = self.plain_number(density)?.ok_or_else(|| missing(density, "a density"))?;
                 let area = self.plain_number(area)?.unwrap_or_else(|| 1.into());
-                Body::elastic(length, self.constrained(modulus)?, density, area)
+                let young = modulus.to_rational();
+                let modulus = self.constrained(modulus)?;
+                let constraint = Some(modulus.to_rational() / young).filter(|ratio| *ratio != Rational::from(1));
+                Body::elastic(length, modulus, density, area).with_constraint(constraint)
             }
             (Some(_), Some(_)) => return Err(contradiction(speed, "wave_speed or modulus, not both")),
             (None, None) => return Err(missing("wave_speed", "wave_speed and impedance, or modulus and density")),

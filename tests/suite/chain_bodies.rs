@@ -331,6 +331,94 @@ fn values_of_other_bodies_have_derivatives_in_closed_form() {
     assert_eq!(times("body.2.area"), ["0", "0"]);
 }
 
+/// Returns the derivatives of a quantity of a body at a time from the left and from the right, in fractions and digits.
+fn sides(chain: &Chain, body: usize, by: &str, quantity: &str, time: &str) -> [[String; 2]; 2] {
+    [Numbers::Exact, Numbers::Digits(12)].map(|numbers| {
+        let history = chain.problem(body).unwrap().solve_in(numbers).unwrap();
+        let (by, quantity) = (by.parse().unwrap(), [quantity.parse().unwrap()]);
+        let found = history.derivatives_at(by, &quantity, &[number(time)], &[], Side::Right).unwrap();
+        found[0][0]
+            .as_ref()
+            .unwrap()
+            .sides()
+            .map(|side| format!("{:.9}", side.unwrap().to_f64() + 0.0).replace("-0.000000000", "0.000000000"))
+    })
+}
+
+#[test]
+fn a_velocity_that_is_not_given_is_zero_and_has_derivatives() {
+    // Two bars in contact from t = 1/2 on have the velocity (Z₁v₁ + Z₂v₂)/(Z₁ + Z₂).
+    let bar = |impedance: i64| dalembert::chain::Body::new(1.into(), 1.into(), impedance.into());
+    let chain = Chain::builder(bar(1).with_velocity(1.into())).contact(number("1/2"), bar(3)).until(2.into());
+    let found = sides(&chain.build().unwrap(), 1, "body.2.velocity", "v_end", "1");
+    assert!(found.iter().flatten().all(|side| side == "0.750000000"), "{found:?}");
+}
+
+#[test]
+fn the_right_side_of_a_negative_value_is_the_greater_one() {
+    // Both bars fall at 1 and touch; the lower one lands at 1/2. A lower bar that falls slower is struck by the upper
+    // one before that, and both have the mean velocity.
+    let bar = || dalembert::chain::Body::new(1.into(), 1.into(), 1.into()).with_velocity((-1).into());
+    let ground = dalembert::chain::End::Ground { gap: number("1/2"), velocity: Vec::new() };
+    let chain = Chain::builder(bar()).contact(0.into(), bar()).bottom(ground).until(5.into()).build().unwrap();
+    let found = sides(&chain, 1, "body.1.velocity", "v_end", "1/2");
+    assert!(found.iter().all(|[left, right]| left == "0.000000000" && right == "0.500000000"), "{found:?}");
+}
+
+#[test]
+fn moduli_of_bars_whose_sides_are_held_are_those_of_the_scene() {
+    let scene = |modulus: &str| {
+        let own = format!("length = 1\nmodulus = {modulus}\npoisson = \"1/4\"\nstate = \"uniaxial strain\"");
+        let text = format!(
+            "[[body]]\n{own}\ndensity = \"6/5\"\nvelocity = 1\n[[body]]\nlength = 1\nmodulus = 4\ndensity = 1\n\
+             velocity = -1\ngap = \"1/2\"\n[run]\ntime = 3\n"
+        );
+        dalembert::ChainScene::parse(&text).unwrap().chain
+    };
+    let chain = scene("1");
+    let parameter: ChainParameter = "body.1.modulus".parse().unwrap();
+    assert_eq!(chain.value(parameter), Some(1.into()));
+    assert_eq!(chain.with_value(parameter, 2.into()).unwrap(), scene("2"));
+    let rod = chain.problem(0).unwrap();
+    let doubled = rod.to_builder().set(Parameter::Modulus, 2).build().unwrap();
+    assert_eq!(doubled.chain().unwrap().0, scene("2"));
+    assert_eq!(Parameter::Modulus.value(&rod), Some(1.0));
+    // Z₁ = √(Mρ) with M = 6E/5, and the force is Z₁Z₂ Δv/(Z₁ + Z₂): ∂f/∂E = Z₂² Δv/(Z₁ + Z₂)² Z₁/2E.
+    for by in ["body.1.modulus", "modulus"] {
+        let found = sides(&chain, 0, by, "force_top", "1");
+        assert!(found.iter().flatten().all(|side| side == "0.468750000"), "{by}: {found:?}");
+    }
+}
+
+#[test]
+fn a_listing_in_doubles_reaches_the_end_where_no_other_numbers_do() {
+    // Fractions end at the first event, and enclosures do not decide an event and a ray that coincide later.
+    let bar = |length: &str, impedance: i64| dalembert::chain::Body::new(number(length), 1.into(), impedance.into());
+    let ground = dalembert::chain::End::Ground { gap: number("1/4"), velocity: Vec::new() };
+    let chain = Chain::builder(bar("1", 1).with_velocity((-2).into())).contact(0.into(), bar("1/2", 4)).bottom(ground);
+    let history = chain.gravity(1.into()).until(8.into()).build().unwrap().solve(Numbers::default()).unwrap();
+    let listing = history.listing().unwrap();
+    assert_eq!((listing.events.len(), listing.end.to_f64()), (14, 8.0));
+    assert_eq!(history.ending().unwrap(), dalembert::Ending::Time);
+    assert!(history.warning().is_some());
+}
+
+#[test]
+fn numbers_of_chains_have_limits() {
+    let bar = || dalembert::chain::Body::new(1.into(), 1.into(), 1.into());
+    let end = dalembert::chain::End::Force(vec![(0.into(), number("1e41"))]);
+    let of = |chain: dalembert::chain::ChainBuilder| chain.until(1.into()).build().unwrap_err();
+    for (error, path) in [
+        (of(Chain::builder(bar().with_velocity(number("1e300")))), "body[0].velocity[0]"),
+        (of(Chain::builder(bar().with_velocity(number("-1e-41")))), "body[0].velocity[0]"),
+        (of(Chain::builder(bar()).contact(number("1e41"), bar())), "body[1].gap"),
+        (of(Chain::builder(bar()).top(end)), "ends.top[0]"),
+    ] {
+        assert_eq!(error.path, path);
+        assert_eq!(error.expected, "zero, or a number between 1e-40 and 1e40 in size");
+    }
+}
+
 #[test]
 fn values_that_a_chain_does_not_have_are_refused_by_name() {
     let chain = builtin("openfoam-7-1-2");

@@ -75,6 +75,8 @@ impl Solve {
         }
         let mut scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
+            // A chain of one body is a rod to what a whole chain does not have.
+            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.of_a_rod().is_some() => scene.body(0)?,
             AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
         };
         let numbers = self.scene.numbers.numbers(&scene);
@@ -121,8 +123,8 @@ impl Solve {
 }
 
 impl Solve {
-    /// Solves a scene with several bodies.
-    fn chain(&self, mut scene: ChainScene, destinations: &[Destination]) -> Result<(), Failure> {
+    /// Returns the first option that whole chains do not have.
+    fn of_a_rod(&self) -> Option<&'static str> {
         let refused = [
             (self.impacts.is_some(), "--impacts"),
             (self.part.is_some_and(|part| part != HistoryPart::Events), "--part"),
@@ -130,7 +132,12 @@ impl Solve {
             (self.coefficients, "--coefficients"),
             (self.legend, "--legend"),
         ];
-        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
+        refused.iter().find(|(given, _)| *given).map(|(_, option)| *option)
+    }
+
+    /// Solves a scene with several bodies.
+    fn chain(&self, mut scene: ChainScene, destinations: &[Destination]) -> Result<(), Failure> {
+        if let Some(option) = self.of_a_rod() {
             return Err(failure!("found {option} with a chain, expected it with one of its bodies, --body N"));
         }
         if let Some(to) = &self.to {

@@ -35,6 +35,10 @@ fn a_body_is_a_rod() {
         text.lines().skip(1).filter_map(|line| line.split(',').nth(2)?.parse().ok()).collect()
     };
     assert_eq!(column(&force), column(&whole));
+    // It is also a rod to what whole chains do not have, and a file without events has its header.
+    let by_stiffness = run("solve getfem-penalty --derivatives stiffness --format csv --part contacts");
+    assert!(by_stiffness.contains("impulse_by_stiffness"), "{by_stiffness}");
+    assert!(run("solve mpm-py-pile --format csv").starts_with("node,event,t,gap_rate_before,"));
     assert_eq!(column(&force).len(), 3);
 }
 
