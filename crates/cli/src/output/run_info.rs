@@ -88,11 +88,11 @@ impl RunInfo {
                 Measure::Stress | Measure::Force if self.units.has_material() => measure.name(),
                 _ => return None,
             };
-            Some(match self.units.name(*measure) {
-                "" => format!("{word} in the units of the scene"),
-                unit if unit.starts_with("per") => format!("{word} {unit}"),
-                unit => format!("{word} in {unit}"),
-            })
+            match self.units.name(*measure) {
+                "" => None,
+                unit if unit.starts_with("per") => Some(format!("{word} {unit}")),
+                unit => Some(format!("{word} in {unit}")),
+            }
         };
         let mut texts: Vec<String> = measures.iter().filter_map(text).collect();
         texts.dedup();

@@ -41,7 +41,7 @@ fn the_contact_explains_what_a_penalty_does() {
         }
         assert!(audit["complementarity"].is_null() && !audit["energy_change"].is_null(), "{audit}");
     }
-    assert!(table.contains("; ours: 0.025 m at t = 2"), "{table}");
+    assert!(table.contains("; ours: 0.025 at t = 2"), "{table}");
     // A stiffer spring is not that of the data.
     let stiff = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "200", "--to", "3"];
     let stiff = json(&[&stiff[..], &["--format", "json"]].concat());
