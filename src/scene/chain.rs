@@ -460,7 +460,8 @@ impl<'a> Reader<'a> {
                 let area = self.plain_number(area)?.unwrap_or_else(|| 1.into());
                 let young = modulus.to_rational();
                 let modulus = self.constrained(modulus)?;
-                let constraint = Some(modulus.to_rational() / young).filter(|ratio| *ratio != Rational::from(1));
+                let of_waves = modulus.to_rational();
+                let constraint = (of_waves != young).then(|| of_waves / young);
                 Body::elastic(length, modulus, density, area).with_constraint(constraint)
             }
             (Some(_), Some(_)) => return Err(contradiction(speed, "wave_speed or modulus, not both")),

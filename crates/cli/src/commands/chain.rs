@@ -137,10 +137,13 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
         Format::Csv => rows_bytes(&part(events), Format::Csv),
         _ => {
             let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-            let parts: [(&str, fn(&ChainScene, &ChainListing) -> Dataset); 4] =
-                [("events", events), ("touches", touches), ("contacts", contacts), ("forces", forces)];
-            for (name, make) in parts {
-                let data = part(make);
+            for name in ["events", "touches", "contacts", "forces"] {
+                let data = part(match name {
+                    "events" => events,
+                    "touches" => touches,
+                    "contacts" => contacts,
+                    _ => forces,
+                });
                 if !data.rows.is_empty() {
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
