@@ -30,6 +30,9 @@ impl Reader<'_> {
                     let expected = "a stiffness: a rigid mass has no EA/L";
                     return Err(self.error(key, Kind::Contradiction, "penalty of a rigid mass", expected));
                 };
+                if penalty.to_f64() < 0.0 {
+                    return Err(self.error(value, Kind::OutOfRange, format!("penalty = {penalty}"), "zero or more"));
+                }
                 let found = || format!("penalty = {penalty}, whose product with EA/L has too many digits");
                 let product = Number::of_rational(&(own * penalty.to_rational()));
                 product.ok_or_else(|| self.error(value, Kind::OutOfRange, found(), "a stiffness"))?
@@ -147,10 +150,9 @@ impl Reader<'_> {
             _ => {
                 let expected = "one of a force, a velocity, a gap of a stop (which may have a velocity and a stiffness), a \
                      stiffness, or infinite = Z with a gap or without";
-                let found = format!(
-                    "{name} of [{place}] with {}",
-                    table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(" and ")
-                );
+                let keys: Vec<&str> = table.keys().map(|key| key.get_ref().as_ref()).collect();
+                let keys = if keys.is_empty() { "no key".into() } else { keys.join(" and ") };
+                let found = format!("{name} of [{place}] with {keys}");
                 return Err(self.error(key.span(), Kind::Contradiction, found, expected));
             }
         };

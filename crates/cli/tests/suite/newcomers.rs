@@ -81,6 +81,9 @@ fn misspelt_springs_and_forgotten_states_are_named() {
     let rod = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 1\n[run]\ntime = 3\n";
     let known = "expected one of velocity, stiffness, damping, penalty (did you mean stiffness?)";
     refused_with(&["solve", "-"], &format!("{rod}[ground]\nstiffnes = 5\n"), &["`stiffnes`", known]);
+    refused_with(&["solve", "-"], &format!("{rod}[ground]\npenalty = -5\n"), &["penalty = -5, expected zero or more"]);
+    let empty = "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n[ends]\ntop = {}\n[run]\ntime = 1\n";
+    refused_with(&["solve", "-"], empty, &["top of [ends] with no key"]);
     let bar = "[[body]]\nlength = 1\nmodulus = 1\ndensity = 1\npoisson = 0.3\n[run]\ntime = 1\n";
     let state = "found poisson without a state, expected state = \"uniaxial strain\", or \"uniaxial stress\"";
     refused_with(&["solve", "-"], bar, &[state]);
