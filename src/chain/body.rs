@@ -17,7 +17,7 @@ pub struct Body {
     pub(super) displacement: Points,
     /// Points `(x, v_x)`, in place of the displacement.
     pub(super) strain: Points,
-    /// Modulus of its waves over Young's modulus, where its sides are held; `None` for one.
+    /// Ratio of the modulus of its waves to Young's modulus, if its sides are held; absent if both are equal.
     pub(super) constraint: Option<Rational>,
 }
 
@@ -115,12 +115,12 @@ impl Body {
         Body { name: Some(name.into()), ..self }
     }
 
-    /// Returns the body with another ratio of the modulus of its waves to Young's modulus, which parameters are.
+    /// Returns the body with this ratio of the modulus of its waves to Young's modulus; a parameter is Young's.
     pub(crate) fn with_constraint(self, constraint: Option<Rational>) -> Self {
         Body { constraint, ..self }
     }
 
-    /// Returns the modulus of the waves over Young's modulus, which the scene gives, where the sides are held.
+    /// Returns the ratio of the modulus of the waves to Young's modulus, if the sides are held.
     pub(crate) fn constraint(&self) -> Option<&Rational> {
         self.constraint.as_ref()
     }
@@ -172,17 +172,13 @@ impl Body {
 
     /// Returns `EA/L`; `None` for a rigid body.
     pub(crate) fn stiffness(&self) -> Option<Rational> {
-        let force = match &self.material {
-            BodyMaterial::Elastic { modulus, area, .. } => modulus.to_rational() * area.to_rational(),
-            BodyMaterial::Impedance { wave_speed, impedance } => wave_speed.to_rational() * impedance.to_rational(),
-            BodyMaterial::Rigid { .. } => return None,
-        };
-        Some(force / self.length.to_rational())
+        let [modulus, _, area] = self.elastic_numbers();
+        self.rigid_mass().is_none().then(|| modulus * area / self.length.to_rational())
     }
 
     /// Returns modulus, density and cross-section, which are `Zc`, `Z/c` and one for a bar that is given by its
     /// impedance; zeros for a rigid body.
-    pub(super) fn elastic_numbers(&self) -> [Rational; 3] {
+    pub(crate) fn elastic_numbers(&self) -> [Rational; 3] {
         match &self.material {
             BodyMaterial::Impedance { wave_speed, impedance } => {
                 let [speed, impedance] = [wave_speed, impedance].map(Number::to_rational);
@@ -195,15 +191,10 @@ impl Body {
 
     /// Returns `Z²` and `c²`, which are fractions; zero and one for a rigid body.
     pub(super) fn squares(&self) -> [Rational; 2] {
-        match &self.material {
-            BodyMaterial::Impedance { wave_speed, impedance } => {
-                [impedance, wave_speed].map(|number| Scalar::square(&number.to_rational()))
-            }
-            BodyMaterial::Elastic { modulus, density, area } => {
-                let [modulus, density, area] = [modulus, density, area].map(Number::to_rational);
-                [Scalar::square(&area) * &modulus * &density, modulus / density]
-            }
-            BodyMaterial::Rigid { .. } => [Rational::from(0), Rational::from(1)],
+        if self.rigid_mass().is_some() {
+            return [Rational::from(0), Rational::from(1)];
         }
+        let [modulus, density, area] = self.elastic_numbers();
+        [Scalar::square(&area) * &modulus * &density, modulus / density]
     }
 }

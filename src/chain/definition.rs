@@ -368,12 +368,9 @@ impl ChainBuilder {
                 node if node == chain.bodies.len() => "ends.top".to_string(),
                 node => format!("body[{node}].gap"),
             };
-            if let Some(gap) = &gap {
-                within_limits(&path, "gap", gap)?;
-            }
-            if let Some(gap) = gap
-                && gap < Rational::default()
-            {
+            let Some(gap) = gap else { continue };
+            within_limits(&path, "gap", &gap)?;
+            if gap < Rational::default() {
                 let found = format!("a gap of {} at the {}", short(&gap.to_string()), chain.node_name(node));
                 let expected = "zero or more: bodies do not overlap at the start";
                 return Err(ProblemError::new(Kind::OutOfRange, &path, found, expected));

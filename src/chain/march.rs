@@ -7,7 +7,8 @@ use super::definition::Chain;
 use super::field::KeptSums;
 use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
-use super::start::{Moving, Nodes, Start};
+use super::start::{Nodes, Start};
+use super::varied::Varied;
 use super::wave::Wave;
 use crate::error::Error;
 use crate::motion::Ending;
@@ -40,25 +41,25 @@ impl<N: Bounded> ChainRun<N> {
         precision: &N::Precision,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        Self::moving(Moving { chain, further: chain, falls: false }, precision, observe)
+        Self::varied(Varied { now: chain, further: chain, falls: false }, precision, observe)
     }
 
     /// Runs a chain in numbers that may carry the rates of its values.
     ///
     /// **Errors**: those of [`ChainRun::new`].
-    pub(crate) fn moving(
-        moving: Moving<'_>,
+    pub(crate) fn varied(
+        varied: Varied<'_, Chain>,
         precision: &N::Precision,
         observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
     ) -> Result<Self, Error> {
-        let chain = moving.chain;
+        let chain = varied.now;
         if chain.is_soft() && !SOFT {
             return Err(Error::NoChains);
         }
         if chain.is_soft() && N::from_number(&chain.until, precision).bits().is_none() {
             return Err(Error::SoftExact);
         }
-        let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(moving, precision)?;
+        let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(varied, precision)?;
         let mut nodes = match nodes {
             Nodes::Rigid(nodes) => nodes,
             Nodes::Soft(clusters) => {

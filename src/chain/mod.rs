@@ -43,6 +43,7 @@ mod peak;
 mod run;
 mod start;
 mod step;
+mod varied;
 mod wave;
 
 pub(crate) use body::steepest;
@@ -55,7 +56,7 @@ pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing};
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
-pub(crate) use start::Moving;
+pub(crate) use varied::Varied;
 
 #[cfg(test)]
 #[path = "tests"]

@@ -1,6 +1,6 @@
 //! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
 
-use super::body::{Body, BodyMaterial, Points};
+use super::body::{Body, Points};
 use super::cluster::{Cluster, Mass};
 use super::curve::Signal;
 use super::definition::{Chain, End, Joint, Spring};
@@ -8,10 +8,11 @@ use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
 use super::march::SOFT;
 use super::node::{Node, Source};
+use super::varied::{Given, Varied, lift, root};
 use super::wave::{Piece, Wave};
-use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
+use crate::error::Error;
 use crate::lattice::Line;
-use crate::number::{Bounded, Dual, Number, Rational, Scalar};
+use crate::number::{Bounded, Number, Rational, Scalar};
 use crate::quantity::Measure;
 
 /// A body in the numbers of a run.
@@ -48,156 +49,18 @@ pub(super) enum Nodes<N> {
     Soft(Vec<Cluster<N>>),
 }
 
-/// A chain with the rates of its numbers, which numbers that carry a rate take over.
-#[derive(Clone, Copy)]
-pub(crate) struct Moving<'a> {
-    pub(crate) chain: &'a Chain,
-    /// The same chain with one value greater: each number is greater by its rate.
-    pub(crate) further: &'a Chain,
-    /// Whether the value falls, so that the rates are negative.
-    pub(crate) falls: bool,
-}
-
-/// An exact number of a chain with its rate.
-type Given = Dual<Rational>;
-
-/// A part of a chain, and the same part of the chain with one value greater.
-#[derive(Debug)]
-struct Part<'a, T: ?Sized> {
-    now: &'a T,
-    further: &'a T,
-    falls: bool,
-}
-
-impl<T: ?Sized> Clone for Part<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T: ?Sized> Copy for Part<'_, T> {}
-
-impl<'a, T: ?Sized> Part<'a, T> {
-    fn part<U: ?Sized>(self, pick: impl Fn(&'a T) -> &'a U) -> Part<'a, U> {
-        self.with(pick(self.now), pick(self.further))
-    }
-
-    fn with<U: ?Sized>(self, now: &'a U, further: &'a U) -> Part<'a, U> {
-        Part { now, further, falls: self.falls }
-    }
-
-    /// Returns a part that both chains have.
-    fn some<U: ?Sized>(self, pick: impl Fn(&'a T) -> Option<&'a U>) -> Option<Part<'a, U>> {
-        Some(self.with(pick(self.now)?, pick(self.further)?))
-    }
-
-    /// Returns an exact number that is computed from the part, with its rate.
-    fn number(self, value: impl Fn(&'a T) -> Rational) -> Given {
-        let [now, further] = [self.now, self.further].map(value);
-        let rate = if self.falls { now.clone() - further } else { further - &now };
-        Dual::new(now, rate)
-    }
-}
-
-impl<'a> Part<'a, Number> {
-    fn given(self) -> Given {
-        if self.now == self.further { Dual::constant(self.now.to_rational()) } else { self.number(Number::to_rational) }
-    }
-}
-
-impl<'a> Part<'a, Points> {
-    fn given(self) -> Vec<(Given, Given)> {
-        let number = |now: &'a Number, further: &'a Number| self.with(now, further).given();
-        if self.now.is_empty() {
-            // Without points the value is zero everywhere.
-            let from_zero = |value: &Number| {
-                let rate = value.to_rational();
-                Dual::new(Rational::default(), if self.falls { -rate } else { rate })
-            };
-            return self.further.iter().map(|(x, value)| (number(x, x), from_zero(value))).collect();
-        }
-        let pairs = self.now.iter().zip(self.further);
-        pairs.map(|(now, further)| (number(&now.0, &further.0), number(&now.1, &further.1))).collect()
-    }
-}
-
-impl<'a> Part<'a, Body> {
-    /// Returns the mass of a rigid body; `None` for a bar.
-    fn mass(self) -> Option<Part<'a, Number>> {
-        self.some(Body::rigid_mass)
-    }
-
-    /// Returns `Z²` and `c²`; zero and one for a rigid body.
-    fn squares(self) -> [Given; 2] {
-        use BodyMaterial::{Elastic, Impedance};
-        let number = |now: &'a Number, further: &'a Number| self.with(now, further).given();
-        match (&self.now.material, &self.further.material) {
-            (Impedance { wave_speed: c, impedance: z }, Impedance { wave_speed: further_c, impedance: further_z }) => {
-                [number(z, further_z), number(c, further_c)].map(|number| number.square())
-            }
-            (Impedance { .. } | Elastic { .. }, Impedance { .. } | Elastic { .. }) => {
-                let [modulus, density, area] = [0, 1, 2].map(|k| self.number(|body| body.elastic_numbers()[k].clone()));
-                [area.square() * &modulus * &density, modulus / density]
-            }
-            _ => self.now.squares().map(Dual::constant),
-        }
-    }
-}
-
-/// Converts an exact number with its rate.
-///
-/// **Errors**: [`Kind::OutOfRange`] if one of both is below 1e-300 or above 1e300.
-fn lift<N: Bounded>(x: &Given, precision: &N::Precision) -> Result<N, Error> {
-    let value = lifted::<N>(x.value(), precision)?;
-    match x.rate() {
-        Some(rate) if *rate != Rational::default() => Ok(value.with_rate(&lifted(rate, precision)?)),
-        _ => Ok(value),
-    }
-}
-
-/// Converts a fraction; rounded once if it is short enough for a [`Number`].
-fn lifted<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> {
-    if let Some(number) = Number::of_rational(x) {
-        return Ok(N::from_number(&number, precision));
-    }
-    // p/q = (P/Q) 10ᵏ, where P and Q have the digits of p and q with a point after the first.
-    let text = x.to_string();
-    let (p, q) = text.split_once('/').unwrap_or((&text, "1"));
-    let (sign, p) = p.strip_prefix('-').map_or(("", p), |p| ("-", p));
-    let spelled = |text: String| text.parse::<Number>().map(|number| N::from_number(&number, precision));
-    let mantissa = |sign: &str, digits: &str| spelled(format!("{sign}{}.{}", &digits[..1], &digits[1..]));
-    let power = spelled(format!("1e{}", p.len() as i64 - q.len() as i64));
-    match (mantissa(sign, p), mantissa("", q), power) {
-        (Ok(p), Ok(q), Ok(power)) => Ok(p / &q * power),
-        _ => {
-            let found = format!("a ratio of numbers of {} and {} digits", p.len(), q.len());
-            Err(ProblemError::new(Kind::OutOfRange, "body", found, "ratios between 1e-300 and 1e300").into())
-        }
-    }
-}
-
-/// Returns the square root of an exact number.
-fn root<N: Bounded>(quantity: &'static str, square: &Given, precision: &N::Precision) -> Result<N, Error> {
-    if let Some(root) = square.try_sqrt() {
-        return lift(&root, precision);
-    }
-    let irrational = || Error::Irrational { quantity, square: square.value().to_string() };
-    lift::<N>(square, precision)?.try_sqrt().ok_or_else(irrational)
-}
-
 impl<N: Bounded> Start<N> {
     /// Converts a chain.
     ///
     /// **Errors**: [`Error::Irrational`] where a fraction cannot hold a wave speed or an impedance.
-    pub(super) fn new(moving: Moving<'_>, precision: &N::Precision) -> Result<Self, Error> {
-        let Moving { chain, further, falls } = moving;
-        let moving = Part { now: chain, further, falls };
-        let number = |x: Part<'_, Number>| lift::<N>(&x.given(), precision);
-        let gravity = number(moving.part(|chain| &chain.gravity))?;
+    pub(super) fn new(varied: Varied<'_, Chain>, precision: &N::Precision) -> Result<Self, Error> {
+        let chain = varied.now;
+        let number = |x: Varied<'_, Number>| lift::<N>(&x.given(), precision);
+        let gravity = number(varied.part(|chain| &chain.gravity))?;
         let mut squares = Vec::new();
         let mut bars = Vec::new();
-        let bodies: Vec<Part<'_, Body>> =
-            (0..chain.bodies.len()).map(|k| moving.part(|chain| &chain.bodies[k])).collect();
+        let bodies: Vec<Varied<'_, Body>> =
+            (0..chain.bodies.len()).map(|k| varied.part(|chain| &chain.bodies[k])).collect();
         for body in &bodies {
             let [impedance, wave_speed] = body.squares();
             if let Some(mass) = body.mass() {
@@ -221,11 +84,11 @@ impl<N: Bounded> Start<N> {
         let waves = bodies.iter().zip(&bars).map(|(body, bar)| waves(*body, bar, precision));
         let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
-        let spring = |node: usize| moving.some(|chain| chain.spring(node));
+        let spring = |node: usize| varied.some(|chain| chain.spring(node));
         let springs = (0..=top).map(|node| spring(node).map(|spring| soft(spring, precision)).transpose());
         let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
         let is_soft = SOFT && chain.is_soft();
-        let until = number(moving.part(|chain| &chain.until))?;
+        let until = number(varied.part(|chain| &chain.until))?;
         let mut masses = 0;
         let mut nodes = Vec::with_capacity(top + 1);
         let mut clusters = Vec::new();
@@ -248,9 +111,9 @@ impl<N: Bounded> Start<N> {
                 _ => {
                     let side = usize::from(at == top);
                     // An end without points has no signal.
-                    let points = || moving.some(|chain| chain.ends[side].points());
+                    let points = || varied.some(|chain| chain.ends[side].points());
                     let signal = |fall: &N| {
-                        let points = points().map_or_else(Vec::new, Part::<Points>::given);
+                        let points = points().map_or_else(Vec::new, Varied::<Points>::given);
                         Ok::<_, Error>(Source::Data(signal(&points, fall, precision)?))
                     };
                     let zero = gravity.zero();
@@ -262,7 +125,7 @@ impl<N: Bounded> Start<N> {
                         End::Ground { .. } => ((signal(&gravity)?, None), Law::Contact),
                         End::Infinite { gap, .. } => {
                             let law = if gap.is_some() { Law::Contact } else { Law::Held };
-                            let impedance = moving.some(|chain| chain.ends[side].impedance());
+                            let impedance = varied.some(|chain| chain.ends[side].impedance());
                             ((signal(&gravity)?, Some(impedance.map_or(own, |z| z.given().square()))), law)
                         }
                     }
@@ -296,7 +159,7 @@ impl<N: Bounded> Start<N> {
             };
             let is_bar = |body: Option<usize>| body.filter(|body| !is_mass(Some(*body)));
             let gap = match chain.is_contact(at) {
-                true => lift(&moving.number(|chain| chain.start_gap(at).unwrap_or_default()), precision)?,
+                true => lift(&varied.number(|chain| chain.start_gap(at).unwrap_or_default()), precision)?,
                 false => gravity.zero(),
             };
             let delays = [below, above].map(|body| is_bar(body).map(|body| bars[body].travel.clone()));
@@ -329,7 +192,7 @@ impl<N: Bounded> Start<N> {
 }
 
 /// Converts a spring.
-fn soft<N: Bounded>(spring: Part<'_, Spring>, precision: &N::Precision) -> Result<Soft<N>, Error> {
+fn soft<N: Bounded>(spring: Varied<'_, Spring>, precision: &N::Precision) -> Result<Soft<N>, Error> {
     let [stiffness, damping] = [spring.part(|spring| &spring.stiffness), spring.part(|spring| &spring.damping)]
         .map(|number| lift::<N>(&number.given(), precision));
     let stiffness = stiffness?;
@@ -339,7 +202,7 @@ fn soft<N: Bounded>(spring: Part<'_, Spring>, precision: &N::Precision) -> Resul
 }
 
 /// Converts the rigid body with this index.
-fn mass<N: Bounded>(index: usize, body: Part<'_, Body>, precision: &N::Precision) -> Result<Mass<N>, Error> {
+fn mass<N: Bounded>(index: usize, body: Varied<'_, Body>, precision: &N::Precision) -> Result<Mass<N>, Error> {
     let mass = body.mass().unwrap_or_else(|| body.part(|body| &body.length));
     let mass = lift::<N>(&mass.given(), precision)?;
     let velocity = velocity(body, &mass.zero(), precision)?;
@@ -348,7 +211,7 @@ fn mass<N: Bounded>(index: usize, body: Part<'_, Body>, precision: &N::Precision
 }
 
 /// Returns the velocity of a rigid body at the start.
-fn velocity<N: Bounded>(body: Part<'_, Body>, zero: &N, precision: &N::Precision) -> Result<N, Error> {
+fn velocity<N: Bounded>(body: Varied<'_, Body>, zero: &N, precision: &N::Precision) -> Result<N, Error> {
     let points = body.part(|body| &body.velocity).given();
     points.first().map_or_else(|| Ok(zero.clone()), |(_, velocity)| lift(velocity, precision))
 }
@@ -383,7 +246,7 @@ fn signal<N: Bounded>(
 /// **Source**: the upward wave leaves the bottom at `s` with `p(−cs, 0)`, the downward one the top with `q(L + cs, 0)`,
 /// for `−L/c ≤ s < 0`. Their integrals are 0 and `2v(0,0)` where the bottom is at the start, so that
 /// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
-fn waves<N: Bounded>(body: Part<'_, Body>, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
+fn waves<N: Bounded>(body: Varied<'_, Body>, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
     if bar.mass.is_some() {
         let zero = length.zero();

@@ -38,7 +38,7 @@ impl<S: Bounded> Dual<S> {
     }
 
     /// Returns the number with its rate multiplied by `factor`.
-    pub(crate) fn at_rate(self, factor: &S) -> Self {
+    pub(crate) fn scaled_rate(self, factor: &S) -> Self {
         Dual { rate: self.rate * factor, ..self }
     }
 

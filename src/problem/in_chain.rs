@@ -138,16 +138,15 @@ fn material(k: usize, body: &Body) -> Result<Option<Material>, ProblemError> {
             let area = Some(area.clone());
             Some(Material::Elastic { modulus: modulus.clone(), density: density.clone(), area })
         }
-        BodyMaterial::Impedance { wave_speed, impedance } => {
-            let [speed, impedance]: [Rational; 2] = [wave_speed, impedance].map(Number::to_rational);
+        BodyMaterial::Impedance { .. } => {
+            let [modulus, density, _] = body.elastic_numbers();
             let number = |value: Rational| {
                 Number::of_rational(&value).ok_or_else(|| {
                     let found = "an impedance whose product with the wave speed, or ratio to it, has too many digits";
                     ProblemError::new(Kind::OutOfRange, &format!("body[{k}].impedance"), found, "fewer digits")
                 })
             };
-            let modulus = number(impedance.clone() * &speed)?;
-            Some(Material::Elastic { modulus, density: number(impedance / speed)?, area: Some(1.into()) })
+            Some(Material::Elastic { modulus: number(modulus)?, density: number(density)?, area: Some(1.into()) })
         }
         BodyMaterial::Rigid { .. } => None,
     })

@@ -60,7 +60,7 @@ impl Parameter {
         self.find(problem, &()).ok().flatten()
     }
 
-    /// Returns the value of the chain that it is, if it is one.
+    /// Young's modulus of the scene in place of the modulus of waves that the problem has: see `InChain::young`.
     fn in_scene(self, problem: &Problem) -> Self {
         let young = || problem.in_chain.as_ref()?.young();
         if self == Parameter::Modulus { young().unwrap_or(self) } else { self }

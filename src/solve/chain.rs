@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::plan::{LONG, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer};
-use crate::chain::{BodyMotion, Chain, ChainRun, Moving};
+use crate::chain::{BodyMotion, Chain, ChainRun, Varied};
 use crate::error::Error;
 use crate::motion::{Ending, Motion};
 use crate::number::{Bounded, bits_for_digits};
@@ -86,7 +86,8 @@ pub(super) fn motion<N: Bounded>(
 /// problem changes to `further`, or away from it where the value `falls`.
 ///
 /// **Errors**: those of the run.
-pub(super) fn moving<N: Bounded>(
+pub(super) fn varied<N: Bounded>(
+    plan: &Plan,
     [problem, further]: [&Problem; 2],
     falls: bool,
     precision: &N::Precision,
@@ -95,9 +96,11 @@ pub(super) fn moving<N: Bounded>(
     let (Some((chain, body)), Some((further, _))) = (problem.chain(), further.chain()) else {
         return Err(Error::NotDecided { what: "a chain without neighbours", bits: 0 });
     };
-    let chain = chain.with_max_pieces(chain.max_pieces().min(EXACT_PIECES));
-    let moving = Moving { chain: &chain, further: &further, falls };
-    let run = ChainRun::moving(moving, precision, &|events, pieces| observe(events, pieces))?;
+    // Doubles have another way where the numbers of fractions grow.
+    let limit = if matches!(plan.numbers, Numbers::Double(_)) { EXACT_PIECES } else { usize::MAX };
+    let chain = chain.with_max_pieces(chain.max_pieces().min(limit));
+    let varied = Varied { now: &chain, further: &further, falls };
+    let run = ChainRun::varied(varied, precision, &|events, pieces| observe(events, pieces))?;
     Ok(BodyMotion::new(&chain, body, Arc::new(run)))
 }
 

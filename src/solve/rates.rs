@@ -135,8 +135,8 @@ pub(super) fn by_fractions(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Opti
 /// Returns the numbers of the problem with a growing or a shrinking value, with their rates, as far as comparisons are
 /// settled; and whether first order settles them.
 ///
-/// Not so where two events were taken as one, or where a queried time may be that of a ray in first order only: then
-/// the limits from both sides, or their rates, differ.
+/// First order does not settle two events that were taken as one, nor a queried time that may be that of a ray in first
+/// order only: then the limits from both sides, or their rates, differ.
 fn with_rates<S: Bounded>(
     asked: &Asked<'_>,
     problem: &Problem,
@@ -148,11 +148,11 @@ fn with_rates<S: Bounded>(
     let further = &further.ok_or(Error::Derivative { parameter: asked.by, expected })?;
     let is_chain = asked.plan.engine == Engine::Chain;
     let motion: Box<dyn Motion<Dual<S>>> = match is_chain {
-        true => Box::new(chain::moving([problem, further], sign < 0, &value.precision(), asked.observe)?),
+        true => Box::new(chain::varied(asked.plan, [problem, further], sign < 0, &value.precision(), asked.observe)?),
         false => Box::new(lattice(asked, problem, value, &value.int(sign))?),
     };
     let powers = unit_powers(asked, [problem, further]);
-    // The problem has a power of the value, and `further` has twice that, or a scale of its own in place of zero.
+    // The problem has a power of the value, which `further` exceeds by its size, or by a scale of its own at zero.
     let scale = match value.vanishes() {
         Ok(true) => S::from_number(&asked.by.scale_of_zero(problem), &value.precision()),
         _ => value.magnitude(),
@@ -163,7 +163,7 @@ fn with_rates<S: Bounded>(
         for row in &mut rows {
             for (number, power) in row.iter_mut().zip(&powers) {
                 if is_chain {
-                    *number = number.take().map(|number| number.at_rate(&per_value));
+                    *number = number.take().map(|number| number.scaled_rate(&per_value));
                 }
                 if *power != 0 {
                     let unit = Dual::new(value.one(), per_value.clone() * value.int(sign * power));
@@ -178,8 +178,8 @@ fn with_rates<S: Bounded>(
     if let Some(at) = asked.at.filter(|_| value.bits().is_none()) {
         let side = if at.side == Side::Left { Side::Right } else { Side::Left };
         let other = rows(&Asked { at: Some(At { side, ..at }), want: asked.want.clone(), ..*asked })?;
-        let pairs = found.iter().flatten().zip(other.iter().flatten());
-        settled = pairs.into_iter().all(|pair| matches!(pair, (Some(a), Some(b)) if a.alike(b)));
+        let mut pairs = found.iter().flatten().zip(other.iter().flatten());
+        settled = pairs.all(|pair| matches!(pair, (Some(a), Some(b)) if a.alike(b)));
     }
     // All that is listed or queried precedes the coincidence, which is in the trip that begins at `from`.
     let before = |from: f64| match asked.at {

@@ -23,9 +23,8 @@ impl<S: Target> TypedHistory<S> {
     /// rod is carried through the run beside each number, *within a bound* of its own, in fractions if these decide an
     /// order of events; so it is for a body of a chain whose run fractions hold. The error of any other derivative is
     /// an *estimate*, as [`TypedHistory::warnings`] then says. The derivative for a damped rod takes three more runs
-    /// and is that of a cubic through all four; the difference
-    /// from a quadratic serves as its error, within 1e-5 of its natural size, mostly 1e-8. If these do not settle it,
-    /// if more accuracy is requested, and in digits, it is a difference quotient of runs in long numbers, with a step
+    /// and is that of a cubic through all four; the difference from a quadratic serves as its error, within 1e-5 of its
+    /// natural size, mostly 1e-8. If these do not settle it, if more accuracy is requested, and in digits, it is a difference quotient of runs in long numbers, with a step
     /// as small as the last of the digits, and the error contains the difference of the quotients on both sides, or of
     /// two steps. A threshold that is nearer than the step counts as met.
     ///

@@ -109,6 +109,9 @@ fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     }))
 }
 
+/// Builds a table of a listing.
+type MakeTable = fn(&ChainScene, &ChainListing) -> Dataset;
+
 /// Runs `solve`: events, touches, contacts and forces.
 pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
     let progress = Progress::of_chain();
@@ -117,7 +120,7 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
     drop(progress);
     note(&history)?;
     let digits = digits(numbers);
-    let part = |make: fn(&ChainScene, &ChainListing) -> Dataset| Dataset { digits, ..make(scene, &listing) };
+    let part = |make: MakeTable| Dataset { digits, ..make(scene, &listing) };
     let ending = history.ending()?.at(&listing.end.to_string());
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
@@ -137,13 +140,10 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
         Format::Csv => rows_bytes(&part(events), Format::Csv),
         _ => {
             let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-            for name in ["events", "touches", "contacts", "forces"] {
-                let data = part(match name {
-                    "events" => events,
-                    "touches" => touches,
-                    "contacts" => contacts,
-                    _ => forces,
-                });
+            let parts: [(&str, MakeTable); 4] =
+                [("events", events), ("touches", touches), ("contacts", contacts), ("forces", forces)];
+            for (name, make) in parts {
+                let data = part(make);
                 if !data.rows.is_empty() {
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
