@@ -177,6 +177,11 @@ impl<N: Bounded> Cluster<N> {
         }
     }
 
+    /// Returns whether the cluster has gone on to its last time.
+    pub(super) fn is_finished(&self) -> bool {
+        self.reached.at.below(&self.until.at) != Ok(true)
+    }
+
     /// Goes on to the next break, event, or end of a step. Signals are known up to `horizon`.
     pub(super) fn advance(
         &mut self,

@@ -9,7 +9,7 @@ use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
 use super::start::{Nodes, Start};
 use super::varied::Varied;
-use super::wave::Wave;
+use super::wave::{Wave, is_exact_zero};
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Bounded, Open};
@@ -186,8 +186,7 @@ fn march<N: Bounded>(
     while ending == Ending::Time {
         let time = |k: &usize| clusters[*k].reached.at.to_f64();
         let Some(at) = (0..clusters.len()).min_by(|a, b| time(a).total_cmp(&time(b))) else { break };
-        let is_begun = !clusters[at].interfaces[0].stages.is_empty();
-        if is_begun && clusters[at].reached.at.below(&until.clone().centred().0) != Ok(true) {
+        if clusters[at].is_finished() {
             break;
         }
         // A signal is known up to the time that its origin has reached, and the travel time after it.
@@ -203,6 +202,7 @@ fn march<N: Bounded>(
         let horizon = known.reduce(|a, b| if b.below(&a) == Ok(true) { b } else { a });
         match clusters[at].advance(horizon, waves) {
             Ok(found) => found.into_iter().for_each(|occurrence| record(occurrence, &mut events)),
+            Err(_) if until.below(&clusters[at].reached.time) == Ok(true) => break,
             Err(_) => (ending, end) = (open(), clusters[at].reached.time.clone()),
         }
         steps += 1;
@@ -216,12 +216,25 @@ fn march<N: Bounded>(
             }
         }
     }
-    // A run that ends at once takes one step beyond its end.
-    events.retain(|event| end.below(&event.t) != Ok(true));
+    // The clusters went on beyond the end.
+    let is_over = |t: &N| end.below(t) == Ok(true);
+    events.retain(|event: &ChainEvent<N>| !is_over(&event.t));
     sort(&mut events, |event| (&event.t, event.node));
-    let doubt = clusters.iter().filter_map(|cluster| cluster.doubt).min_by(f64::total_cmp);
-    let nodes = clusters.into_iter().flat_map(|cluster| cluster.interfaces).map(|interface| interface.stages).collect();
-    Ok(Marched { nodes, events, end, ending, doubt })
+    let last = end.to_f64();
+    let mut doubts: Vec<f64> = clusters.iter().filter_map(|cluster| cluster.doubt).collect();
+    doubts.retain(|at| *at <= last * (1.0 + 1e-12));
+    // An event that agrees with the end within its bounds may be after it.
+    let is_at_end = |t: &N| t.below(&end) != Ok(true) && !is_exact_zero(&(t.clone() - &end));
+    doubts.extend(events.iter().filter(|event| is_at_end(&event.t)).map(|_| last));
+    let stages = clusters.into_iter().flat_map(|cluster| cluster.interfaces).map(|interface| interface.stages);
+    let mut nodes: Vec<Vec<Stage<N>>> = stages.collect();
+    for stages in &mut nodes {
+        while stages.len() > 1 && stages.pop_if(|stage| is_over(&stage.from)).is_some() {}
+    }
+    for Wave { pieces, given } in waves.iter_mut().flatten() {
+        while pieces.len() > *given && pieces.pop_if(|piece| is_over(&piece.from)).is_some() {}
+    }
+    Ok(Marched { nodes, events, end, ending, doubt: doubts.into_iter().min_by(f64::total_cmp) })
 }
 
 /// Sorts a nearly sorted list by time, then by node; an undecided order stays as it is.

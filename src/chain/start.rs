@@ -89,6 +89,11 @@ impl<N: Bounded> Start<N> {
         let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
         let is_soft = SOFT && chain.is_soft();
         let until = number(varied.part(|chain| &chain.until))?;
+        // Clusters go on for a short time, so that events at the end are found whatever the roundings.
+        let last = until.to_f64();
+        let travels = bars.iter().map(|bar| bar.travel.to_f64()).filter(|t| *t > 0.0);
+        let shortest = travels.fold(if last > 0.0 { last } else { 1.0 }, f64::min);
+        let beyond = gravity.double(last + (shortest / 1024.0).max(last * f64::EPSILON.sqrt()));
         let mut masses = 0;
         let mut nodes = Vec::with_capacity(top + 1);
         let mut clusters = Vec::new();
@@ -181,10 +186,7 @@ impl<N: Bounded> Start<N> {
             masses = 0;
             let first = at + 1 - interfaces.len();
             let speed = chain.scales().of(Measure::Velocity);
-            // A run that ends at once takes a short step, so that it has a state.
-            let shortest = bars.iter().map(|bar| bar.travel.to_f64()).filter(|t| *t > 0.0).fold(1.0, f64::min);
-            let until = if chain.until.is_zero() { gravity.double(shortest / 1024.0) } else { until.clone() };
-            clusters.push(Cluster::new(first, interfaces, own, speed, &until));
+            clusters.push(Cluster::new(first, interfaces, own, speed, &beyond));
         }
         let nodes = if is_soft { Nodes::Soft(clusters) } else { Nodes::Rigid(nodes) };
         Ok(Start { bars, nodes, springs, waves, gravity, until })
