@@ -191,14 +191,14 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
     fn stress_pieces(&self) -> Vec<StressPiece<N>> {
         let stiffness = self.stiffness();
         let strain = |force: N| -(force / &stiffness);
-        let pieces = self.run.force_series(self.body).into_iter();
+        let pieces = self.run.force_pieces(self.body).into_iter();
         pieces
-            .map(|(piece, series)| StressPiece {
+            .map(|piece| StressPiece {
                 start: piece.start,
                 end: piece.end,
                 strain_start: strain(piece.first),
                 strain_end: strain(piece.last),
-                chebyshev: series.into_iter().map(strain).collect(),
+                chebyshev: piece.series.into_iter().map(strain).collect(),
             })
             .collect()
     }

@@ -28,7 +28,8 @@ pub struct ChainListing {
     pub touches: Vec<Touch<Value>>,
     /// Contacts, in the order of their impacts.
     pub contacts: Vec<ChainContact<Value>>,
-    /// Pieces of the compressive force of each node.
+    /// Pieces of the compressive force of each node; none where the force is a curve, whose pieces are those of
+    /// [`ChainHistory::force_pieces`].
     pub forces: Vec<Vec<ForcePiece<Value>>>,
     /// The last time.
     pub end: Value,
@@ -70,12 +71,16 @@ impl ChainListing {
             all.extend(contact.release.iter().map(|t| (t, Measure::Time)));
             all.extend([(&contact.impulse, Measure::Impulse), (&contact.peak, Measure::Force)]);
         }
-        for piece in self.forces.iter().flatten() {
-            all.extend([&piece.start, &piece.end].map(|t| (t, Measure::Time)));
-            all.extend([&piece.first, &piece.last].map(|force| (force, Measure::Force)));
-        }
+        all.extend(self.forces.iter().flat_map(|pieces| piece_numbers(pieces)));
         all
     }
+}
+
+fn piece_numbers(pieces: &[ForcePiece<Value>]) -> impl Iterator<Item = Judged<'_>> {
+    pieces.iter().flat_map(|piece| {
+        let ForcePiece { start, end, first, last, .. } = piece;
+        [(start, Measure::Time), (end, Measure::Time), (first, Measure::Force), (last, Measure::Force)]
+    })
 }
 
 /// A number that can be handed out as a [`Value`].
@@ -111,6 +116,7 @@ enum Instant<'a> {
 /// A run in any number system.
 trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
+    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
     fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
@@ -134,9 +140,13 @@ impl<N: ToValue> Answers for ChainRun<N> {
         let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
         let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
         let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
-        let forces = |node| self.force_pieces(node).into_iter().map(|piece| piece.map(value)).collect();
+        let forces = |node| if self.is_curved(node) { Vec::new() } else { Answers::forces(self, node) };
         let forces = (0..self.nodes.len()).map(forces).collect();
         ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
+    }
+
+    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>> {
+        self.force_pieces(node).into_iter().map(|piece| piece.map(N::to_value)).collect()
     }
 
     fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
@@ -400,6 +410,28 @@ impl ChainHistory {
     /// ```
     pub fn value_at_event(&self, column: ChainColumn, event: usize, side: Side) -> Result<Value, Error> {
         self.value_at(column, Instant::Event(event), side)
+    }
+
+    /// Returns the pieces of the compressive force of a node, in order and without a gap: lines, and where springs,
+    /// dashpots or masses bend them, Chebyshev series.
+    ///
+    /// **Errors**: the errors of the runs.
+    ///
+    /// ```
+    /// use dalembert::Numbers;
+    /// use dalembert::chain::{Body, Chain, End};
+    /// // A mass of 1 that strikes a rod with Z = 1 pushes with e^(−t).
+    /// let mass = Body::rigid(1.into()).with_velocity((-1).into());
+    /// let rod = Body::new(1.into(), 1.into(), 1.into());
+    /// let chain = Chain::builder(rod).contact(0.into(), mass).bottom(End::Velocity(Vec::new())).until(1.into());
+    /// let piece = chain.build()?.solve(Numbers::default())?.force_pieces(1)?.swap_remove(0);
+    /// let middle: f64 = piece.series.iter().zip([1.0, 0.0, -1.0, 0.0].iter().cycle()).map(|(c, t)| c.to_f64() * t).sum();
+    /// assert!((middle - (-piece.end.to_f64() / 2.0).exp()).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn force_pieces(&self, node: usize) -> Result<Vec<ForcePiece<Value>>, Error> {
+        let pieces = self.settled(|run| Ok(run.forces(node)), |pieces| piece_numbers(pieces).collect())?;
+        Ok(pieces.into_iter().map(|piece| piece.map(|value| self.printed(value))).collect())
     }
 
     /// Returns a time as a number of the answers.

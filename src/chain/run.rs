@@ -9,7 +9,6 @@ use super::peak::highest;
 use super::start::Bar;
 use super::wave::{Wave, either, indices_at, is_exact_zero, may_jump, smooth_value};
 use crate::error::Error;
-use crate::lattice::Line;
 use crate::motion::{Ending, EventKind, Side};
 use crate::number::{Bounded, Open};
 
@@ -59,7 +58,7 @@ pub struct ChainContact<N> {
     pub peak_time: N,
 }
 
-/// A stretch of time on which the force of a node is linear.
+/// A stretch of time on which the force of a node is linear, or has one Chebyshev series.
 #[derive(Clone, Debug)]
 pub struct ForcePiece<N> {
     /// Its beginning.
@@ -70,6 +69,9 @@ pub struct ForcePiece<N> {
     pub first: N,
     /// Compressive force just before the end.
     pub last: N,
+    /// Chebyshev coefficients of the force from the start to the end, the first one whole and with the bound of the
+    /// whole; empty where the force is linear.
+    pub series: Vec<N>,
 }
 
 impl<N> ChainEvent<N> {
@@ -104,7 +106,9 @@ impl<N> ChainContact<N> {
 impl<N> ForcePiece<N> {
     /// Converts the piece to other numbers.
     pub fn map<T>(self, f: impl Fn(N) -> T) -> ForcePiece<T> {
-        ForcePiece { start: f(self.start), end: f(self.end), first: f(self.first), last: f(self.last) }
+        let ForcePiece { start, end, first, last, series } = self;
+        let series = series.into_iter().map(&f).collect();
+        ForcePiece { start: f(start), end: f(end), first: f(first), last: f(last), series }
     }
 }
 
@@ -224,20 +228,41 @@ impl<N: Bounded> ChainRun<N> {
         greatest.filter(|_| SOFT && stages.len() > 1)
     }
 
-    /// Returns the pieces of the compressive force of a node, in order and without a gap. In a chain with springs,
-    /// dashpots or masses the force is a curve, and the list is empty.
-    pub fn force_pieces(&self, node: usize) -> Vec<ForcePiece<N>> {
+    /// Returns the stages of a node, each with its end.
+    fn ended_stages(&self, node: usize) -> impl Iterator<Item = (&Stage<N>, &N)> {
         let stages = &self.nodes[node];
-        let mut pieces: Vec<(&Line<N>, ForcePiece<N>)> = Vec::new();
-        for (k, stage) in stages.iter().enumerate() {
-            let end = stages.get(k + 1).map_or(&self.end, |next| &next.from);
-            let Signal::Line(line) = &stage.force else { return Vec::new() };
-            if let Some((before, piece)) = pieces.last_mut().filter(|(before, _)| before.same(line)) {
-                (piece.end, piece.last) = (end.clone(), before.value_at(end));
-                continue;
+        let ends = stages.iter().skip(1).map(|next| &next.from).chain([&self.end]);
+        stages.iter().zip(ends)
+    }
+
+    /// Returns whether the force of a node has pieces that are no lines.
+    pub(super) fn is_curved(&self, node: usize) -> bool {
+        self.nodes[node].iter().any(|stage| matches!(stage.force, Signal::Curve(_)))
+    }
+
+    /// Returns the pieces of the compressive force of a node, in order and without a gap.
+    pub fn force_pieces(&self, node: usize) -> Vec<ForcePiece<N>> {
+        let mut pieces: Vec<(&Signal<N>, ForcePiece<N>)> = Vec::new();
+        for (stage, end) in self.ended_stages(node) {
+            let [first, last] = [&stage.from, end].map(|t| stage.force.value_at(t));
+            let series = match &stage.force {
+                Signal::Curve(curve) if SOFT => curve.chebyshev(&stage.from, end),
+                _ => Vec::new(),
+            };
+            let is_flight =
+                |first: &N, last: &N, series: &[N]| series.is_empty() && is_exact_zero(first) && is_exact_zero(last);
+            if let Some((before, piece)) = pieces.last_mut() {
+                let continues = match (before, &stage.force) {
+                    (Signal::Line(before), Signal::Line(line)) => before.same(line),
+                    _ => is_flight(&first, &last, &series) && is_flight(&piece.first, &piece.last, &piece.series),
+                };
+                if continues {
+                    (piece.end, piece.last) = (end.clone(), last);
+                    continue;
+                }
             }
-            let [first, last] = [&stage.from, end].map(|t| line.value_at(t));
-            pieces.push((line, ForcePiece { start: stage.from.clone(), end: end.clone(), first, last }));
+            pieces
+                .push((&stage.force, ForcePiece { start: stage.from.clone(), end: end.clone(), first, last, series }));
         }
         // A break at the end of the run begins no piece.
         if pieces.len() > 1 {
@@ -246,45 +271,13 @@ impl<N: Bounded> ChainRun<N> {
         pieces.into_iter().map(|(_, piece)| piece).collect()
     }
 
-    /// Returns the pieces of [`ChainRun::force_pieces`], or those of a force that is a curve with its Chebyshev
-    /// coefficients; none for a line.
-    pub(super) fn force_series(&self, node: usize) -> Vec<(ForcePiece<N>, Vec<N>)> {
-        let stages = &self.nodes[node];
-        if !SOFT || !stages.iter().any(|stage| matches!(stage.force, Signal::Curve(_))) {
-            return self.force_pieces(node).into_iter().map(|piece| (piece, Vec::new())).collect();
-        }
-        let mut pieces: Vec<(ForcePiece<N>, Vec<N>)> = Vec::new();
-        for (k, stage) in stages.iter().enumerate() {
-            let end = stages.get(k + 1).map_or(&self.end, |next| &next.from);
-            let [first, last] = [&stage.from, end].map(|t| stage.force.value_at(t));
-            let series = match &stage.force {
-                Signal::Curve(curve) => curve.chebyshev(&stage.from, end),
-                Signal::Line(_) => Vec::new(),
-            };
-            let is_flight = series.is_empty() && is_exact_zero(&first) && is_exact_zero(&last);
-            match pieces.last_mut() {
-                Some((before, own)) if is_flight && own.is_empty() && is_exact_zero(&before.last) => {
-                    before.end = end.clone();
-                }
-                _ => pieces.push((ForcePiece { start: stage.from.clone(), end: end.clone(), first, last }, series)),
-            }
-        }
-        // A break at the end of the run begins no piece.
-        if pieces.len() > 1 {
-            pieces.pop_if(|(piece, _)| piece.start.same(&piece.end));
-        }
-        pieces
-    }
-
     /// Returns a bound of the magnitude of the force of a node.
     pub(super) fn greatest_force(&self, node: usize) -> N {
-        let zero = self.end.zero();
-        let stages = self.nodes[node].iter();
-        let ends = self.force_pieces(node).into_iter().flat_map(|piece| [piece.first, piece.last]);
-        let lines = ends.fold(zero, |most, force| most.larger(force.magnitude()));
-        stages.fold(lines, |most, stage| match &stage.force {
+        self.ended_stages(node).fold(self.end.zero(), |most, (stage, end)| match &stage.force {
             Signal::Curve(curve) => most.larger(curve.most()),
-            Signal::Line(_) => most,
+            Signal::Line(line) => {
+                [&stage.from, end].into_iter().fold(most, |most, t| most.larger(line.value_at(t).magnitude()))
+            }
         })
     }
 

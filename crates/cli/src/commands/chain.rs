@@ -4,10 +4,10 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, Header, Layout, RowWriter, Worth, json_bytes, rows_bytes};
+use crate::output::{Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, Worth, json_bytes, rows_bytes};
 use crate::progress::Progress;
 use crate::terminal;
-use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForeseenPieces};
+use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
 use dalembert::number::{List, Value};
 use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::solve::Numbers;
@@ -94,10 +94,11 @@ fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     Dataset::from_rows(listing.contacts.iter().map(row))
 }
 
-fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
-    let rows =
-        listing.forces.iter().enumerate().flat_map(|(node, pieces)| pieces.iter().map(move |piece| (node, piece)));
-    Dataset::from_rows(rows.map(|(node, piece)| {
+/// Returns the pieces of the forces of all nodes.
+fn forces(scene: &ChainScene, pieces: &[Vec<ForcePiece<Value>>]) -> Dataset {
+    let is_curved = pieces.iter().flatten().any(|piece| !piece.series.is_empty());
+    let rows = pieces.iter().enumerate().flat_map(|(node, pieces)| pieces.iter().map(move |piece| (node, piece)));
+    let mut data = Dataset::from_rows(rows.map(|(node, piece)| {
         let number = |value: &Value| Cell::Number(value.clone());
         vec![
             (Column::new("node").text(), place(scene, node)),
@@ -105,22 +106,44 @@ fn forces(scene: &ChainScene, listing: &ChainListing) -> Dataset {
             (column("end"), number(&piece.end)),
             (column("force_start"), number(&piece.first)),
             (column("force_end"), number(&piece.last)),
+            (Column::data("chebyshev").bounded().optional(), Cell::Numbers(piece.series.clone())),
         ]
-    }))
+    }));
+    if is_curved {
+        let series = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
+        data.notes.push(format!("a force is linear from force_start to force_end, or {series}"));
+    } else {
+        data.columns.pop();
+        data.rows.iter_mut().for_each(|row| row.truncate(data.columns.len()));
+    }
+    data
 }
 
 /// Builds a table of a listing.
 type MakeTable = fn(&ChainScene, &ChainListing) -> Dataset;
 
-/// Runs `solve`: events, touches, contacts and forces.
-pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
+/// Runs `solve`: events, touches, contacts and forces; `csv` is the part in a CSV.
+pub(crate) fn solve(
+    scene: &ChainScene,
+    numbers: Numbers,
+    csv: HistoryPart,
+    destinations: &[Destination],
+) -> Result<(), Failure> {
     let progress = Progress::of_chain();
     let history = scene.chain.solve_observed(numbers, progress.observer())?;
     let listing = history.listing()?;
+    let is_asked = |format: Format| destinations.iter().any(|destination| destination.format == format);
+    let all_forces = is_asked(Format::Json) || csv == HistoryPart::Forces;
+    // A table has the forces that are lines.
+    let pieces: Vec<_> = match all_forces {
+        true => (0..=scene.chain.bodies().len()).map(|node| history.force_pieces(node)).collect::<Result<_, _>>()?,
+        false => listing.forces.clone(),
+    };
     drop(progress);
     note(&history)?;
     let digits = digits(numbers);
-    let part = |make: MakeTable| Dataset { digits, ..make(scene, &listing) };
+    let whole = |data: Dataset| Dataset { digits, ..data };
+    let part = |make: MakeTable| whole(make(scene, &listing));
     let ending = history.ending()?.at(&listing.end.to_string());
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
@@ -132,18 +155,24 @@ pub(crate) fn solve(scene: &ChainScene, numbers: Numbers, destinations: &[Destin
             "events": part(events).json(),
             "touches": part(touches).json(),
             "contacts": part(contacts).json(),
-            "forces": part(forces).json(),
+            "forces": whole(forces(scene, &pieces)).json(),
             "end": listing.end,
             "ending": ending,
             "warnings": warnings(&history),
         }))),
-        Format::Csv => rows_bytes(&part(events), Format::Csv),
+        Format::Csv => {
+            let data = match csv {
+                HistoryPart::Events => part(events),
+                HistoryPart::Contacts => part(contacts),
+                HistoryPart::Stress | HistoryPart::Forces => whole(forces(scene, &pieces)),
+            };
+            rows_bytes(&data, Format::Csv)
+        }
         _ => {
             let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-            let parts: [(&str, MakeTable); 4] =
-                [("events", events), ("touches", touches), ("contacts", contacts), ("forces", forces)];
-            for (name, make) in parts {
-                let data = part(make);
+            let parts = [("events", part(events)), ("touches", part(touches)), ("contacts", part(contacts))];
+            let lines = ("forces", whole(forces(scene, &listing.forces)));
+            for (name, data) in parts.into_iter().chain([lines]) {
                 if !data.rows.is_empty() {
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }

@@ -79,6 +79,9 @@ impl Solve {
             AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.of_a_rod().is_some() => scene.body(0)?,
             AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
         };
+        if self.part == Some(HistoryPart::Forces) {
+            return Err(failure!("found --part forces with a rod, expected events, contacts or stress"));
+        }
         let numbers = self.scene.numbers.numbers(&scene);
         if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
             scene.problem = scene.problem.with_run(run)?;
@@ -127,7 +130,7 @@ impl Solve {
     fn of_a_rod(&self) -> Option<&'static str> {
         let refused = [
             (self.impacts.is_some(), "--impacts"),
-            (self.part.is_some_and(|part| part != HistoryPart::Events), "--part"),
+            (self.part == Some(HistoryPart::Stress), "--part stress"),
             (!self.derivatives.is_empty(), "--derivatives"),
             (self.coefficients, "--coefficients"),
             (self.legend, "--legend"),
@@ -144,7 +147,7 @@ impl Solve {
             scene.chain = scene.chain.with_until(to.clone())?;
         }
         let numbers = self.scene.numbers.numbers_to(scene.accuracy);
-        chain::solve(&scene, numbers, destinations)
+        chain::solve(&scene, numbers, self.part.unwrap_or_default(), destinations)
     }
 }
 

@@ -93,7 +93,7 @@ struct ContactSchema {
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }
 
-/// A stretch of time on which the compressive force of a node is linear
+/// A stretch of time on which the compressive force of a node is linear, or has one Chebyshev series
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_force")]
 #[expect(dead_code, reason = "describes an output")]
@@ -103,5 +103,8 @@ struct ForceSchema {
     end: NumberSchema,
     force_start: NumberSchema,
     force_end: NumberSchema,
+    /// Chebyshev coefficients of a force that is a curve, the first one whole.
+    #[schemars(skip_serializing_if = "Vec::is_empty")]
+    chebyshev: Vec<NumberSchema>,
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }

@@ -63,6 +63,8 @@ pub(crate) enum HistoryPart {
     Contacts,
     /// The stress at the ground in straight pieces
     Stress,
+    /// The forces at the nodes of a chain, in pieces
+    Forces,
 }
 
 /// Largest error of the straight pieces of a curved stress history, as a share of its peak.
@@ -191,7 +193,7 @@ impl HistoryTables {
         let mut data = match part {
             HistoryPart::Events => self.events.clone(),
             HistoryPart::Contacts => self.contacts.clone(),
-            HistoryPart::Stress => self.stress.clone(),
+            HistoryPart::Stress | HistoryPart::Forces => self.stress.clone(),
         };
         data.notes = info.notes();
         if !matches!(self.ending, Ending::Time | Ending::NextImpact) {

@@ -244,3 +244,31 @@ fn chains_have_golden_files() {
     let compared = json(&[&["compare", "openfoam-7-1-2", &path, "--format", "json"][..], &bounds].concat());
     assert_eq!(compared["bodies"].as_array().unwrap().len(), 2, "{compared}");
 }
+
+/// **Source**: a mass of 6 at speed 1 on a rod with Z = 1 pushes with e^(−t/6) until the wave is back at t = 2.
+#[test]
+fn forces_of_a_whole_chain_are_written_in_pieces() {
+    let at = |coefficients: &[f64], start: f64, end: f64, t: f64| -> f64 {
+        let angle = (2.0 * (t - start) / (end - start) - 1.0).acos();
+        coefficients.iter().enumerate().map(|(k, c)| c * (k as f64 * angle).cos()).sum()
+    };
+    let history = json(&["solve", "saint-venant-mass", "--format", "json"]);
+    let pieces = history["forces"].as_array().unwrap();
+    let piece = pieces.iter().find(|piece| piece["node"] == "joint 1").unwrap();
+    let [start, end] = ["start", "end"].map(|key| piece[key].as_f64().unwrap());
+    let coefficients: Vec<f64> = piece["chebyshev"].as_array().unwrap().iter().map(|c| c.as_f64().unwrap()).collect();
+    for share in [0.0, 0.3, 1.0] {
+        let t = start + share * (end - start);
+        let found = at(&coefficients, start, end, t);
+        assert!((found - (-t / 6.0).exp()).abs() < 1e-14, "{found} at {t}");
+    }
+    let csv = run("solve saint-venant-mass --part forces");
+    let row = csv.lines().find(|line| line.starts_with("joint 1,")).unwrap();
+    let cells: Vec<&str> = row.split(',').collect();
+    assert_eq!(cells[5].split(' ').count(), coefficients.len());
+    let lines = run("solve openfoam-7-1-2 --exact --part forces");
+    assert!(lines.contains("\njoint 1,1/10,3/10,7/170,7/170,"), "{lines}");
+    assert!(run("solve openfoam-7-1-2 --exact --part contacts").contains("\njoint 1,1/10,27/70,"));
+    refused(&["solve", "doyen-ern-piperno", "--part", "forces"], &["found --part forces with a rod"]);
+    refused(&["solve", "openfoam-7-1-2", "--part", "stress"], &["found --part stress with a chain", "--body N"]);
+}
