@@ -218,7 +218,11 @@ pub enum Warning {
         from: f64,
     },
     /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
-    #[error("from t = {} on, an event and a ray that coincide within their error bounds are taken for one", short(.from))]
+    #[error(
+        "from t = {} on, events and rays that coincide within their error bounds are taken for one; later bounds hold if \
+         they do",
+        short(.from)
+    )]
     Coincidence {
         /// The first time at which it holds.
         from: f64,

@@ -134,8 +134,8 @@ impl<N: Bounded> Cluster<N> {
             }
         }
         for j in 0..self.interfaces.len() {
-            let lines = [0, 1].map(|side| self.first_line(j, side));
-            let [y, slope] = [0, 1].map(|k| lines[1][k].clone() - &lines[0][k]);
+            let lines = self.first_lines();
+            let [y, slope] = [0, 1].map(|k| lines[j][1][k].clone() - &lines[j][0][k]);
             let interface = &mut self.interfaces[j];
             interface.drive = y.clone();
             if interface.law != Law::Contact || interface.soft.is_none() && interface.mode == Mode::Closed {
@@ -157,15 +157,31 @@ impl<N: Bounded> Cluster<N> {
         Ok(impacts.into_iter().map(occurrence).collect())
     }
 
-    /// Returns value and slope of the signal that arrives at a side at the start.
-    fn first_line(&self, j: usize, side: usize) -> [N; 2] {
+    /// Returns value and slope of the signals that arrive at each side at the start; the slope of a mass is its
+    /// acceleration.
+    fn first_lines(&self) -> Vec<[[N; 2]; 2]> {
         let zero = self.norm.zero();
-        let input = &self.interfaces[j].sides[side];
-        match (&input.source, &input.signal) {
-            (Source::Mass(mass), _) => [self.masses[*mass].velocity.clone(), zero],
-            (_, Signal::Line(line)) => [line.intercept.clone(), line.slope.clone()],
-            (_, Signal::Curve(_)) => [zero.clone(), zero],
+        let mut lines: Vec<[[N; 2]; 2]> = Vec::with_capacity(self.interfaces.len());
+        for interface in &self.interfaces {
+            lines.push(interface.sides.each_ref().map(|input| match (&input.source, &input.signal) {
+                (Source::Mass(mass), _) => [self.masses[*mass].velocity.clone(), zero.clone()],
+                (_, Signal::Line(line)) => [line.intercept.clone(), line.slope.clone()],
+                (_, Signal::Curve(_)) => [zero.clone(), zero.clone()],
+            }));
         }
+        let values = lines
+            .iter()
+            .zip(&self.interfaces)
+            .map(|([below, above], interface)| [below[0].clone(), above[0].clone(), interface.gap.clone()]);
+        let rates = self.rates(&values.collect::<Vec<_>>(), false);
+        for (line, interface) in lines.iter_mut().zip(&self.interfaces) {
+            for (side, input) in line.iter_mut().zip(&interface.sides) {
+                if let Source::Mass(mass) = &input.source {
+                    side[1] = rates[*mass].clone();
+                }
+            }
+        }
+        lines
     }
 
     /// Looks up the breaks that have left the neighbours since.

@@ -406,6 +406,8 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
     let after = |at: N| Fall::After(if is_exact_zero(&at) { at } else { at * &curve.unit });
     let mut stretches = vec![(curve.width.zero(), curve.reach().centred().0, halvings)];
     let mut doubt = false;
+    // The beginning of the stretches before the present one on which the curve is zero within its bound.
+    let mut unknown: Option<N> = None;
     while let Some((from, width, halvings)) = stretches.pop() {
         let (terms, error) = match is_exact_zero(&from) {
             true => (curve.terms.to_vec(), curve.error.clone()),
@@ -416,26 +418,40 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
         };
         let (first, rest) = (&terms[0], rough_bound(&terms[1..], &width) * &width);
         if (first.clone() + &error).negative() == Ok(true) {
-            return Ok((after(from), doubt));
+            let fall = match unknown {
+                Some(begun) => between(begun, from),
+                None => from,
+            };
+            return Ok((after(fall), doubt));
         }
         if (first.clone() - &rest - &error).positive() == Ok(true) {
+            unknown = None;
             continue;
         }
         let size = rest + first.magnitude();
         if halvings == 0 || error.clone().doubled().below(&size) != Ok(true) {
             // The curve is zero within its bound; a curve that is exactly zero stays there.
-            doubt |= !(is_exact_zero(&size) && is_exact_zero(&error));
+            if !(is_exact_zero(&size) && is_exact_zero(&error)) {
+                doubt = true;
+                unknown = unknown.or(Some(from));
+            }
             continue;
         }
         let slope = terms.get(1).map_or_else(|| width.zero(), N::clone);
         let bend = rough_slope(&terms, &width, 2) * &width;
         if (slope.clone() - &bend).positive() == Ok(true) {
+            unknown = None;
             continue;
         }
         if (slope.clone() + &bend).negative() == Ok(true) {
             if (first.clone() - &error).positive() != Ok(true) {
                 let late = (error / (-slope - &bend)).doubled();
-                return Ok((after(if is_exact_zero(&late) { from } else { from.widened(&late) }), doubt));
+                let fall = match unknown {
+                    Some(begun) => between(begun, upper(from + late)),
+                    None if is_exact_zero(&late) => from,
+                    None => from.widened(&late),
+                };
+                return Ok((after(fall), doubt));
             }
             let last = value(&terms, &width);
             if (last.clone() - &error).positive() == Ok(true) {
@@ -444,8 +460,10 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
             if (last + &error).negative() != Ok(true) && stretches.is_empty() {
                 return Ok((Fall::AtEnd, doubt));
             }
-            let root = simple_root(&terms, &width, &error).ok_or(Open)?;
-            return Ok((after(from + root), doubt));
+            // Without a root of its own the curve flattens where it meets zero.
+            if let Some(root) = simple_root(&terms, &width, &error) {
+                return Ok((after(from + root), doubt));
+            }
         }
         let half = width.clone().halved().centred().0;
         let middle = (from.clone() + &half).centred().0;
@@ -453,6 +471,15 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
         stretches.push((from, half, halvings - 1));
     }
     Ok((Fall::None, doubt))
+}
+
+/// Returns the number between two others that is within its bound of both.
+fn between<N: Bounded>(least: N, most: N) -> N {
+    let half = (most - &least).halved();
+    let middle = (least + &half).centred().0;
+    // The rounding of the middle is far below a sixteenth of the half.
+    let sixteenth = half.clone().halved().halved().halved().halved();
+    middle.widened(&(half + sixteenth))
 }
 
 /// Returns the root of a falling polynomial in `0 ≤ s ≤ w` within its bound; an end if the root is within the error of

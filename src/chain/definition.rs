@@ -459,11 +459,14 @@ impl Chain {
                 if !(value.is_zero() || (LIMITS.0..=LIMITS.1).contains(&size)) {
                     let found = format!("{name} = {}", short(&value.to_string()));
                     let expected = "zero, or a number between 1e-40 and 1e40";
-                    return Err(ProblemError::new(Kind::OutOfRange, &path(*node), found, expected));
+                    let path = format!("{}.{name}", path(*node));
+                    return Err(ProblemError::new(Kind::OutOfRange, &path, found, expected));
                 }
             }
             if spring.stiffness.is_zero() && spring.damping.is_zero() {
-                return refuse(format!("no stiffness and no damping at {place}"), "one of them above zero");
+                let found = format!("no stiffness and no damping at {place}");
+                let path = format!("{}.stiffness", path(*node));
+                return Err(ProblemError::new(Kind::Contradiction, &path, found, "one of them above zero"));
             }
             let end = (*node == 0).then_some(&self.ends[0]).or_else(|| (*node == top).then_some(&self.ends[1]));
             if matches!(end, Some(End::Free | End::Force(_))) {

@@ -512,7 +512,13 @@ impl ChainHistory {
                 Ok(answer) => answer,
                 // The first attempt says what is wrong with the question.
                 Err(error) => {
-                    let open = matches!(error, Error::Open(_) | Error::NotDecided { .. } | Error::Irrational { .. });
+                    // A later attempt may go on where this one ends.
+                    let ends_early = || self.attempt(k).is_ok_and(|run| *run.ending() != Ending::Time);
+                    let open = match error {
+                        Error::Open(_) | Error::NotDecided { .. } | Error::Irrational { .. } => true,
+                        Error::TimeOutside { .. } => ends_early(),
+                        _ => false,
+                    };
                     if !open && !matches!(self.attempts[k].0, Rung::Fractions) || self.attempts.len() == 1 {
                         return best.map(|(_, answer)| answer).ok_or(error);
                     }

@@ -117,7 +117,8 @@ impl FromStr for ChainParameter {
         let place = match words.next() {
             Some("body") => words.next().and_then(number).map(|n| Place::Body(n - 1)),
             Some("joint") => words.next().and_then(number).map(Place::Joint),
-            Some("bottom") => Some(Place::Bottom),
+            // The spring below the lowest body may stand in the table of the ground.
+            Some("bottom" | "ground") => Some(Place::Bottom),
             Some("top") => Some(Place::Top),
             _ => None,
         };

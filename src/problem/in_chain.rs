@@ -37,6 +37,11 @@ impl InChain {
         format!("body.{}.modulus", self.body + 1).parse().ok()
     }
 
+    /// Returns whether there is a dashpot below the body.
+    pub(super) fn is_damped(&self) -> bool {
+        self.chain.spring(self.body).is_some_and(|spring| !spring.damping.is_zero())
+    }
+
     /// Returns the same place with another stiffness of the spring below it; `None` where there is no spring.
     pub(super) fn with_stiffness(&self, stiffness: &Number) -> Option<Self> {
         self.stiffness.as_ref().map(|_| InChain { stiffness: Some(stiffness.clone()), ..self.clone() })

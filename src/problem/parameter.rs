@@ -322,7 +322,8 @@ impl FromStr for Parameter {
             Some((name, point)) => (name, Some(point.parse::<usize>().ok())),
             None => (text, None),
         };
-        if let Ok(parameter) = text.parse::<ChainParameter>() {
+        // The stiffness below a rod is a value of its own.
+        if let (None, Ok(parameter)) = (Parameter::named(text), text.parse::<ChainParameter>()) {
             return Ok(Parameter::OfChain(parameter));
         }
         let found = match (Parameter::named(name), point) {

@@ -77,8 +77,22 @@ impl Draft {
 
     /// Returns the chain that the body is part of, with the stiffness of the spring below it.
     pub(super) fn place_in_chain(&self) -> Result<Option<InChain>, ProblemError> {
-        let Some(stiffness) = self.non_negative(Parameter::Stiffness)? else { return Ok(self.in_chain.clone()) };
-        let place = self.in_chain.as_ref().and_then(|place| place.with_stiffness(stiffness.number));
+        if !self.has(Parameter::Stiffness) {
+            return Ok(self.in_chain.clone());
+        }
+        let none = Number::from(0);
+        let positive = self.non_negative(Parameter::Stiffness)?;
+        if positive.is_none() && self.in_chain.as_ref().is_some_and(|place| !place.is_damped()) {
+            let found = "stiffness = 0 and no damping below the rod";
+            return Err(ProblemError::new(
+                Kind::Contradiction,
+                Parameter::Stiffness.path(),
+                found,
+                "one of them above zero",
+            ));
+        }
+        let stiffness = positive.as_ref().map_or(&none, |given| given.number);
+        let place = self.in_chain.as_ref().and_then(|place| place.with_stiffness(stiffness));
         place.map(Some).ok_or_else(|| {
             let found = "a stiffness of rigid ground";
             let expected = "a rod on a spring: a scene with [ground] stiffness, or Problem::on_spring";

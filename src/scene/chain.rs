@@ -563,7 +563,7 @@ impl<'a> Reader<'a> {
         Ok(points)
     }
 
-    /// Returns the error of a chain, at its place: `body[1].velocity[2].x`, `ends.top`.
+    /// Returns the error of a chain, at its place: `body[1].velocity[2].x`, `ends.top`, `ends.bottom.stiffness`.
     fn placed(&self, error: ProblemError) -> SceneError {
         let ProblemError { kind, path, found, expected } = error;
         let body = path.strip_prefix("body[").and_then(|rest| rest.split_once("]."));
@@ -572,16 +572,25 @@ impl<'a> Reader<'a> {
                 let tables = self.bodies().unwrap_or_default();
                 index.parse().ok().and_then(|index: usize| tables.get(index).cloned()).map(|(table, span)| {
                     let key = key.split('[').next().unwrap_or(key);
-                    Reader { document: table, ..*self }.get(key).map_or(span, |(_, value)| value.span())
+                    Reader { document: table, ..*self }.span_of(key).unwrap_or(span)
                 })
             }
             None => {
                 let path = path.split('[').next().unwrap_or(&path);
-                let found = self.get(path).or_else(|| self.get(&path.replace("ends.", "rod.")));
-                found.map(|(_, value)| value.span())
+                // A spring below the lowest body may stand in the table of the ground.
+                let ground = path.strip_prefix("ends.bottom.").and_then(|key| self.table("ground").span_of(key));
+                ground.or_else(|| self.span_of(path)).or_else(|| self.span_of(&path.replace("ends.", "rod.")))
             }
         };
         self.error(span.unwrap_or(0..0), kind, found, expected)
+    }
+
+    /// Returns the place of a value, of a penalty in place of a stiffness, or of the table that lacks the value.
+    fn span_of(&self, path: &str) -> Option<Range<usize>> {
+        let penalty = path.replace("stiffness", "penalty");
+        let table = path.rsplit_once('.').map(|(table, _)| table);
+        let found = [Some(path), Some(&penalty), table].into_iter().flatten().find_map(|path| self.get(path));
+        found.map(|(_, value)| value.span())
     }
 }
 

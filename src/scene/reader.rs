@@ -85,7 +85,9 @@ impl<'a> Reader<'a> {
     pub(super) fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
         match path.split_once('.') {
             None => self.document.get_key_value(path),
-            Some((table, key)) => self.document.get(table)?.get_ref().as_table()?.get_key_value(key),
+            Some((table, key)) => {
+                Reader { document: self.document.get(table)?.get_ref().as_table()?, ..*self }.get(key)
+            }
         }
     }
 

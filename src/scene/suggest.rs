@@ -20,6 +20,11 @@ const MATERIAL_DAMPING: &[&str] =
 
 /// Returns what a message expects in place of a key that is refused by name.
 pub(super) fn refused(key: &str) -> Option<&'static str> {
+    if key == "impedance" {
+        return Some(
+            "modulus, density and area; a rod with a bottom or a [ground], and [[body]], may have an impedance",
+        );
+    }
     MATERIAL_DAMPING.contains(&&*key.to_lowercase().replace('-', "_")).then_some(
         "damping, the drag 2r v_t on the whole rod (Rayleigh α = 2r); damping of the material (Kelvin–Voigt, Rayleigh \
          β) has no characteristics and is not solved",

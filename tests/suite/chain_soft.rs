@@ -578,6 +578,42 @@ fn doubles_of_many_random_chains_are_within_their_bounds() {
     assert!(told > 800 && events > 1_500 && compared > 50_000, "{told} chains, {events} events, {compared} numbers");
 }
 
+/// Signals that rise from zero: a front behind a spring, and a load on a mass that touches its spring. The exact numbers
+/// are within the bounds, and fall through zero at the front.
+#[test]
+fn a_contact_that_closes_without_speed_is_within_its_bounds() {
+    fn run<N: Bounded>(chain: &Chain, precision: &N::Precision) -> ChainRun<N> {
+        ChainRun::<N>::new(chain, precision, &|_, _| ControlFlow::Continue(())).unwrap()
+    }
+    fn holds<N: Bounded>(found: &N, exact: i64) -> bool {
+        let off = found.clone() - found.int(exact);
+        off.positive() != Ok(true) && off.negative() != Ok(true)
+    }
+    fn check<N: Bounded>(precision: &N::Precision, most: f64) {
+        let bar = || Body::new(1.into(), 1.into(), 1.into());
+        let ground = || End::Ground { gap: 0.into(), velocity: Vec::new() };
+        let spring = |stiffness: i64| Spring { stiffness: stiffness.into(), damping: 0.into() };
+        let chain = Chain::builder(bar()).contact(0.into(), bar().with_velocity((-1).into())).spring(1, spring(20));
+        let front = run::<N>(&chain.bottom(ground()).until(3.into()).build().unwrap(), precision);
+        let impact = &front.events()[1];
+        assert_eq!((impact.node, impact.kind.name()), (0, "impact"));
+        assert!(holds(&impact.t, 1) && holds(&impact.before, 0) && holds(&impact.after, 0), "{impact:?}");
+        assert!(impact.t.log2_error() < most, "{impact:?}");
+        // The force is 1 − cos t: it touches zero at 2π and is there again.
+        let load = End::Force(vec![(0.into(), (-1).into())]);
+        let chain = Chain::builder(Body::rigid(1.into())).spring(0, spring(1)).bottom(ground()).top(load);
+        let swing = run::<N>(&chain.until(8.into()).build().unwrap(), precision);
+        assert_eq!(*swing.ending(), Ending::Time);
+        assert!(swing.undetermined_from().is_some() && swing.events().len() == 1);
+        assert_eq!(swing.events()[0].t.vanishes(), Ok(true));
+        let force = swing.force(0, &N::spelling(&7.into(), precision), Side::Right).unwrap();
+        assert!((force.to_f64() - (1.0 - f64::cos(7.0))).abs() < 1e-6, "{force:?}");
+    }
+    check::<Estimate<f64>>(&(), -24.0);
+    check::<Estimate<Wide<2>>>(&(), -55.0);
+    check::<Interval>(&IntervalPrecision::with_exact(128), -55.0);
+}
+
 /// A rod on rigid ground leaves at `2L/c`, whatever hangs far above it.
 #[test]
 fn an_event_at_the_last_time_is_listed() {

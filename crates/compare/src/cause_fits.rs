@@ -20,6 +20,8 @@
 //!   is estimated by ‖e‖₂/‖s‖₂ from the misfit that is left, where the value changes the signals by s; where the start
 //!   determines the value, it is the difference between both values.
 //!
+//! A value of the scene that leaves at most a fiftieth of ‖e‖₂ passes without these conditions.
+//!
 //! The cause that leaves the least over all columns is asserted, unless another one leaves about as little: then all of
 //! these are listed, and none is asserted.
 //!
@@ -78,6 +80,11 @@ const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 const SOFT_MESH: f64 = 0.05;
 /// Number of steps in time within which samples show no front: schemes spread a jump over as many.
 const BLURRED: f64 = 2.0;
+/// Share of ‖e‖₂² that is left where a value of the scene explains the data by itself, but for the integrals of columns
+/// by the trapezoidal rule: no scheme is so close to another scene, and the step in time does not matter.
+const EXPLAINED: f64 = 4e-4;
+/// Share of ‖e‖₂² that such a cause removes to first order.
+const NEARLY_EXPLAINED: f64 = 0.8;
 /// Share of the whole ‖e‖₂² below which a difference between two causes does not count.
 const NO_DIFFERENCE: f64 = 1e-6;
 
@@ -350,7 +357,11 @@ impl CauseFits<'_> {
             return None;
         }
         let slope = self.slopes(cause, p, &found)?;
-        let error = self.accepted(cause, p, &concerned, &slope, &found)?;
+        let (before, after) = (self.squares(&self.base), self.squares(&found));
+        let error = match matches!(cause, Cause::Value(_)) && after <= EXPLAINED * before {
+            true => Some((after / product(&slope, &slope)).sqrt()).filter(|error| p.abs() > 2.0 * error)?,
+            false => self.accepted(cause, p, &concerned, &slope, &found)?,
+        };
         Some(Fitted { kind, cause, value: p, error, left: self.squares(&found), share_left: left / base })
     }
 
@@ -416,9 +427,32 @@ impl CauseFits<'_> {
         (holds && early && count > 0.0 && p.abs() > 2.0 * error).then_some(error)
     }
 
+    /// Returns the fits of causes that explain by themselves what the step in time does not resolve. They are fitted
+    /// where they do so to first order.
+    pub(super) fn best_unresolved(&self) -> Vec<Fitted> {
+        let base = self.squares(&self.base);
+        let least = LEAST_CHANGE * self.trip;
+        if base <= least * least * self.model.weights.iter().sum::<f64>() {
+            return Vec::new();
+        }
+        let all = vec![true; self.base.len()];
+        let is_near = |Candidate { slope, cause, .. }: &&Candidate| {
+            let own = self.product_over(&all, slope, slope);
+            matches!(cause, Cause::Value(_))
+                && self.product_over(&all, slope, &self.base).powi(2) >= NEARLY_EXPLAINED * own * base
+        };
+        let mut fits = self.best_of(self.candidates.iter().filter(is_near));
+        fits.retain(|fit| fit.left <= EXPLAINED * base);
+        fits
+    }
+
     /// Returns the fits that explain the data about as well as the best one, which is the first.
     pub(super) fn best(&self) -> Vec<Fitted> {
-        let mut fits: Vec<Fitted> = self.candidates.iter().filter_map(|candidate| self.fit(candidate)).collect();
+        self.best_of(self.candidates.iter())
+    }
+
+    fn best_of<'c>(&self, candidates: impl Iterator<Item = &'c Candidate>) -> Vec<Fitted> {
+        let mut fits: Vec<Fitted> = candidates.filter_map(|candidate| self.fit(candidate)).collect();
         fits.sort_by(|a, b| a.left.total_cmp(&b.left));
         let Some(best) = fits.first() else { return fits };
         let most = ABOUT_EQUAL * best.left + NO_DIFFERENCE * self.squares(&self.base);

@@ -73,6 +73,9 @@ impl Diagnosis {
         let candidate = |(kind, cause)| Some(Candidate { kind, cause, slope: fits.slopes(cause, 0.0, &fits.base)? });
         fits.candidates = causes.into_iter().filter_map(candidate).collect();
         if !fits.is_resolved(&fits.base) {
+            let best = fits.best_unresolved();
+            let asserted = best.len() == 1;
+            self.hints.extend(best.iter().map(|fit| Hint { asserted, ..fits.hint(fit.kind, fit, reference) }));
             if self.hints.is_empty() {
                 self.detectable = fits.detectable();
             }

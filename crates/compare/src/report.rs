@@ -123,7 +123,7 @@ fn file_table(compared: &ComparedFile, title: Option<&str>, units: &Units) -> St
         let theirs = agreement.contacts.iter().filter_map(|pair| pair.theirs.as_ref());
         let merged = theirs.map(|contact| contact.merged);
         let chatter: Vec<usize> = merged.filter(|merged| *merged > 0).collect();
-        out += "no hint: no single wrong number explains what differs";
+        out += "no hint: no single wrong number that was tried explains what differs";
         if !chatter.is_empty() {
             let (gaps, contacts) = (counted(chatter.iter().sum(), "gap"), counted(chatter.len(), "contact"));
             out += &format!("; the contact chatters: {gaps} closed in {contacts}");

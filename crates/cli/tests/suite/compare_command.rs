@@ -387,7 +387,7 @@ fn words_of_hints() {
         let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
         table.lines().filter(|line| line.contains("hint")).map(String::from).collect::<Vec<_>>()
     };
-    let none = "no hint: no single wrong number explains what differs";
+    let none = "no hint: no single wrong number that was tried explains what differs";
     assert_eq!(said(EXACT), [none]);
     assert_eq!(said(&chattering(2.0, 1.0)), [format!("{none}; the contact chatters: 7 gaps closed in 1 contact")]);
     let [factor] = said(&chattering(4.0, 1.0)).try_into().unwrap();

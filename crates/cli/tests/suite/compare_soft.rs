@@ -90,6 +90,33 @@ fn a_rod_and_a_chain_of_one_body_are_compared_alike() {
     }
 }
 
+/// A stiffness that differs by less than a step in time shows is named where it explains the data by itself.
+#[test]
+fn another_stiffness_is_named() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let scene = |stiffness: f64| {
+        let rod =
+            "rod = { length = 1, wave_speed = 1, impedance = 1 }\nimpact.speed = 0.1\ngravity.acceleration = 0.1\n";
+        std::fs::write(path("rod.toml"), format!("{rod}ground.stiffness = {stiffness}\nrun.time = 4\n")).unwrap();
+    };
+    for (stiffness, share) in [(49.0, -0.02), (60.0, 0.2), (50.0, 0.0)] {
+        scene(stiffness);
+        let args =
+            ["--times", "0..4:801", "--quantity", "u_end,v_end,force", "--format", "csv", "-o", &path("run.csv")];
+        quiet(&[&["sample", &path("rod.toml")][..], &args].concat());
+        scene(50.0);
+        let report = json(&["compare", &path("rod.toml"), &path("run.csv"), "--format", "json"]);
+        let hints = report["hints"].as_array().unwrap();
+        if share == 0.0 {
+            assert!(hints.is_empty(), "{hints:?}");
+            continue;
+        }
+        assert_eq!((hints.len(), hints[0]["kind"].as_str()), (1, Some("contact_stiffness")), "{hints:?}");
+        assert!((hints[0]["value"].as_f64().unwrap() - share).abs() < 0.02 * share.abs(), "{hints:?}");
+    }
+}
+
 /// A free rod on a penalty, by central differences with lumped masses: `t,u_end,force`.
 fn penalty_run(elements: usize, stiffness: f64) -> String {
     let h = 1.0 / elements as f64;

@@ -490,6 +490,27 @@ fn points_of_equal_value_are_kept_equal() {
     assert_eq!(scene.line_of("start.velocity"), Some(2));
 }
 
+/// Springs stand in several tables, and each error is at the number.
+#[test]
+fn errors_of_springs_are_at_their_numbers() {
+    let rod = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\nrun.time = 1\n";
+    let bars = "run.time = 1\n[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n\
+                [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n";
+    for (scene, wrong) in [
+        (format!("{rod}ground.penalty = 1e60\n"), "4:18"),
+        (format!("{rod}ground.stiffness = 0\n"), "4:20"),
+        (format!("{rod}[ground]\nstiffness = 1\ndamping = 1e50\n"), "6:11"),
+        (format!("{bars}joint = {{ stiffness = 0 }}\n"), "10:23"),
+        (format!("{bars}joint = {{ penalty = 1e60 }}\n"), "10:21"),
+        (format!("{bars}[ends]\nbottom = {{ stiffness = 1e60 }}\n"), "11:24"),
+    ] {
+        let report = crate::command::run_with(&["solve", "-"], &scene).err;
+        assert!(report.contains(&format!("standard input:{wrong}\n")), "{wrong}: {report}");
+    }
+    let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = 1\nwave_speed = 1\nimpedance = 1\n").err;
+    assert!(report.contains("expected modulus, density and area; a rod with a bottom"), "{report}");
+}
+
 #[test]
 fn a_report_shows_the_line() {
     let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = -1 # L\nwave_speed = 1\n").err;

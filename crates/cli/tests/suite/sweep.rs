@@ -216,6 +216,16 @@ fn stiffer_springs_come_to_rigid_ground() {
         assert!((late * stiffness - 1.678346990016661).abs() < 1e-15 * stiffness + 1e-9, "{point}");
         assert!((1.0 - value("e_P")) * stiffness < 0.06 && (value("peak_force") - 1.0).abs() < 1e-12, "{point}");
     }
+    // Without a stiffness there is no ground, and a dashpot there is a value too.
+    let none = run(&[&[path], &asked[..], &["--vary", "ground.stiffness=0,20"]].concat()).unwrap();
+    let none: Value = serde_json::from_str(&none).unwrap();
+    assert!(none["points"][0]["values"]["peak_force"].is_null() && none["points"][1]["values"]["peak_force"].is_f64());
+    assert!(none.to_string().contains("found stiffness = 0 and no damping below the rod"), "{none}");
+    std::fs::write(file.path(), scene.replace("ground.penalty = 20", "ground = { penalty = 20, damping = 1 }"))
+        .unwrap();
+    let damped = run(&[&[path], &asked[2..], &["--quantity", "peak_force", "--vary", "ground.damping=1,3"]].concat());
+    assert!(damped.unwrap().contains("bottom.damping"));
+    std::fs::write(file.path(), scene).unwrap();
     let said = run(&[&[path], &asked[..2], &["--vary", "ground.penalty=1,2"]].concat()).unwrap_err();
     assert!(
         said.contains("found the parameter `ground.penalty`") && said.contains("did you mean stiffness?"),
