@@ -10,7 +10,7 @@ from typing import Any, Literal, Mapping, Sequence
 import numpy as np
 
 from . import _core
-from ._numbers import Array, Maybe, Names, Number, Numbers
+from ._numbers import Array, Maybe, Names, Number, Numbers, unmasked
 from ._problem import Problem, Scene
 
 Limits = Mapping[str, "float | Mapping[str, float]"]
@@ -278,8 +278,12 @@ def compare(
                 raise TypeError("found values without a quantity, expected quantity='u_end' or another column's name")
             values = {quantity: values}
         data = {"t": data} if x is None else {"t": data, "x": x}
-        values = {name: np.asarray(values[name]) for name in values.keys()}
+        values = {name: np.asarray(unmasked(values[name])) for name in values.keys()}
         if x is not None and any(column.ndim == 2 for column in values.values()):
+            shape = tuple(np.size(places) for places in data.values())
+            for name, column in values.items():
+                if column.shape != shape:
+                    raise ValueError(f"found {name} of shape {column.shape}, expected {shape}, times by points")
             data = dict(zip("tx", np.meshgrid(*data.values(), indexing="ij")))
             data, values = ({name: np.ravel(array) for name, array in part.items()} for part in (data, values))
         data = data | values
@@ -315,7 +319,7 @@ def _is_numpy(path: str) -> bool:
 
 def _doubles(column: Any) -> Array:
     """Return the column as aligned doubles, or as it is if it has none."""
-    array, sides = np.asarray(column), {"left": -1, "both": 0, "right": 1}
+    array, sides = np.asarray(unmasked(column)), {"left": -1, "both": 0, "right": 1}
     try:
         if array.dtype.kind in "OU":
             return np.array([sides.get(value, value) for value in array.tolist()], dtype=float)

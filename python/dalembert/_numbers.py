@@ -19,7 +19,8 @@ Side = Literal["left", "right"]
 
 
 def objects(values: Any) -> Array:
-    """Return the numbers as an array of objects; a float32 is the text of its shortest decimal."""
+    """Return the numbers as an array of objects; a float32 is the text of its shortest decimal, and a masked value NaN."""
+    values = unmasked(values)
     array = np.asarray(values) if isinstance(values, (np.ndarray, np.generic)) else np.asarray(values, dtype=object)
     return (array.astype(str) if is_short(array) else array).astype(object)
 
@@ -27,6 +28,11 @@ def objects(values: Any) -> Array:
 def doubles(array: Array) -> Array:
     """Return an array of ints or floats as contiguous and aligned doubles; a float32 is the double of its shortest decimal."""
     return np.require(array.astype(str) if is_short(array) else array, np.float64, ["C", "A"])
+
+
+def unmasked(values: Any) -> Any:
+    """Return the values with NaN in place of those that are masked."""
+    return np.ma.filled(values.astype(float), np.nan) if np.ma.is_masked(values) else values
 
 
 def is_short(array: Array) -> bool:

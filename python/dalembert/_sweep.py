@@ -35,7 +35,7 @@ class Sweep:
         return self.values[quantity]
 
     def __repr__(self) -> str:
-        shape = next(iter(self.values.values())).shape
+        shape = next((values.shape for values in self.values.values()), ())
         return f"<dalembert.Sweep: {', '.join(self.values)} of shape {shape}, notes on {len(self.notes)}>"
 
 

@@ -42,6 +42,7 @@ pub(crate) fn sweep(
     };
     let quantities = names("quantities", quantities)?.iter().map(single).collect::<PyResult<Vec<_>>>()?;
     let time = time.map(|time| number("time", time)).transpose()?;
+    dalembert_cli::sweep::check_time(&quantities, time.as_ref()).map_err(refuse)?;
     let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
     let mut columns: Vec<Vec<Setting>> = Vec::new();
     for (name, values) in varied {

@@ -256,9 +256,16 @@ impl<N: Bounded> Motion<N> for BodyMotion<N> {
         Ok(self.run.waves[self.body].each_ref().map(rays))
     }
 
-    /// Returns nothing: other bodies or loads may act on the body in flight.
-    fn highest(&self, _: usize) -> Option<(N, N)> {
-        None
+    /// Computes the highest point of a body that falls freely; nothing where another body or a load acts on it before.
+    fn highest(&self, release: usize) -> Option<(N, N)> {
+        let (release, gravity) = (self.course().events.get(release)?, &self.run.gravity);
+        let rate = &release.h_rate;
+        if gravity.positive() != Ok(true) || rate.negative() == Ok(true) {
+            return None;
+        }
+        let time = release.t.clone() + rate.clone() / gravity;
+        let top = || release.h.clone() + (rate.square() / gravity).halved();
+        self.run.is_unloaded(self.body + 1, &release.t, &time).then(|| (time, top()))
     }
 
     fn stretches(&self, time: &N) -> Result<Vec<Stretch<N>>, Error> {

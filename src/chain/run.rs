@@ -235,6 +235,16 @@ impl<N: Bounded> ChainRun<N> {
         stages.iter().zip(ends)
     }
 
+    /// Returns whether the force of a node is zero from one time to another.
+    pub(super) fn is_unloaded(&self, node: usize, from: &N, to: &N) -> bool {
+        let is_within =
+            |(stage, end): &(&Stage<N>, &N)| stage.from.below(to) != Ok(false) && from.below(end) != Ok(false);
+        self.ended_stages(node).filter(is_within).all(|(stage, _)| match &stage.force {
+            Signal::Line(line) => is_exact_zero(&line.intercept) && is_exact_zero(&line.slope),
+            Signal::Curve(curve) => curve.terms.iter().chain([&curve.error]).all(is_exact_zero),
+        })
+    }
+
     /// Returns whether the force of a node has pieces that are no lines.
     pub(super) fn is_curved(&self, node: usize) -> bool {
         self.nodes[node].iter().any(|stage| matches!(stage.force, Signal::Curve(_)))

@@ -115,7 +115,8 @@ impl Source {
             Source::Flight => flights(motion)?
                 .into_iter()
                 .map(|flight| {
-                    let turns = |x: Option<S>| x.ok_or(Undefined::NoTurn);
+                    let reason = if flight.landing.is_some() { Undefined::NoTurn } else { Undefined::NotYet };
+                    let turns = |x: Option<S>| x.ok_or(reason);
                     vec![
                         Ok(flight.takeoff),
                         flight.landing.ok_or(Undefined::Lasts),

@@ -24,9 +24,12 @@ pub enum Undefined {
     /// The flight has no end.
     #[error("the flight does not end within this history")]
     Lasts,
-    /// The centre of mass does not turn in the flight.
-    #[error("the centre of mass does not turn in the flight")]
+    /// The centre of mass does not turn in free fall.
+    #[error("the centre of mass does not turn in free fall in this flight")]
     NoTurn,
+    /// The history ends before the centre of mass turns in free fall, if it does.
+    #[error("the centre of mass does not turn in free fall within this history")]
+    NotYet,
     /// A share of nothing.
     #[error("no energy to have a share of")]
     NoEnergy,
@@ -106,7 +109,7 @@ pub struct Flight<S> {
     pub takeoff: S,
     /// Time at which it ends; `None` where the history ends before.
     pub landing: Option<S>,
-    /// `t*`, at which the centre of mass turns; `None` where it does not turn in the flight.
+    /// `t*`, at which the centre of mass turns in free fall; `None` where it does not turn so in the flight.
     pub top_time: Option<S>,
     /// `h_max = h(t*)`, the height at which it turns.
     pub top: Option<S>,

@@ -17,7 +17,6 @@ use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
 use crate::terminal;
 use dalembert::number::Number;
 use dalembert::problem::Parameter;
-use dalembert::quantity::Needs;
 use dalembert_verify::regimes::GridError;
 
 #[derive(Args, Debug)]
@@ -85,15 +84,8 @@ impl Sweep {
         if let Some((axis, value)) = axes.iter().find(absent).and_then(|axis| Some((axis, axis.values.first()?))) {
             scene.problem.to_builder().set(axis.parameter, value).build()?;
         }
-        if let Some(time) = self.time.as_ref().filter(|time| time.to_f64() < 0.0) {
-            return Err(failure!("found time {time}, expected one from 0 on"));
-        }
         let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(&scene))?;
-        if let Some(time) = &self.time
-            && let Some(quantity) = quantities.iter().find(|quantity| quantity.needs() != Needs::Time)
-        {
-            return Err(failure!("found time {time}, expected none: {quantity} is not asked at a time"));
-        }
+        sweep::check_time(&quantities, self.time.as_ref()).map_err(|text| failure!("{text}"))?;
         let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, request };
         let [part, parts] = self.shard.unwrap_or([1, 1]);

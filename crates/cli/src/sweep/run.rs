@@ -152,6 +152,28 @@ pub fn sweep(
         .collect::<Result<Vec<_>, _>>()
 }
 
+/// Refuses a time before the start, and one for quantities that are not asked at a time.
+///
+/// **Errors**: the message.
+///
+/// ```
+/// use dalembert::Quantity;
+/// use dalembert_cli::sweep::check_time;
+/// assert!(check_time(&[Quantity::Centre], Some(&1.into())).is_ok());
+/// assert_eq!(check_time(&[Quantity::Centre], Some(&(-1).into())), Err("found time -1, expected one from 0 on".into()));
+/// assert!(check_time(&[Quantity::BounceTime], Some(&1.into())).is_err());
+/// ```
+pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), String> {
+    let Some(time) = time else { return Ok(()) };
+    if time.to_f64() < 0.0 {
+        return Err(format!("found time {time}, expected one from 0 on"));
+    }
+    match quantities.iter().find(|quantity| quantity.needs() != Needs::Time) {
+        Some(quantity) => Err(format!("found time {time}, expected none: {quantity} is not asked at a time")),
+        None => Ok(()),
+    }
+}
+
 /// A grid of problems, and the numbers that each is asked for.
 #[derive(Debug)]
 pub(crate) struct Sweep {
