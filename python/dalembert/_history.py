@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
-from ._numbers import Array, Frozen, MaskedArray, Names, Numbers, Side, doubles, objects
+from ._numbers import Array, Frozen, MaskedArray, Names, Numbers, Side, doubles, objects, unmasked
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -434,6 +434,7 @@ class History(Frozen):
 
     def _places(self, values: Numbers) -> Any:
         """Return times or points in one row: doubles for a history in doubles, otherwise a list of numbers."""
+        values = unmasked(values)
         array = np.asarray(values)
         if self.numbers == "double" and array.dtype.kind in "fiu":
             return doubles(array.ravel())
