@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use dalembert::Units;
+use dalembert::{Parameter, Units};
 use dalembert_compare::data::{DataErrorKind, Source};
 use dalembert_compare::{Axis, Comparison as Compared, Compression, Limit, Options, Origin, Prepared};
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
@@ -62,7 +62,11 @@ fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
             "to" => options.to = Some(number(&value)?),
             "fit" => {
                 let names = names(&name, &value)?;
-                options.fit = names.iter().map(|name| name.parse()).collect::<Result<_, _>>().map_err(refuse)?;
+                options.fit = names
+                    .iter()
+                    .map(|name| Parameter::differentiable(name))
+                    .collect::<Result<_, _>>()
+                    .map_err(refuse)?;
             }
             "dt" => options.dt = Some(number(&value)?),
             "t0" => options.t0 = Some(number(&value)?),

@@ -455,6 +455,7 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
             }
             let last = value(&terms, &width);
             if (last.clone() - &error).positive() == Ok(true) {
+                unknown = None;
                 continue;
             }
             if (last + &error).negative() != Ok(true) && stretches.is_empty() {

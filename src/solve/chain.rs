@@ -14,6 +14,8 @@ use crate::problem::Problem;
 const CHAINS: bool = cfg!(feature = "chain");
 /// Bits of the enclosures that decide whether events coincide.
 const DECIDING_BITS: u32 = 256;
+/// Accuracy, as that of pictures, from which on numbers on the stack answer what stays in doubt.
+const COARSE: f64 = 1e-6;
 /// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
 pub(crate) const EXACT_PIECES: usize = 20_000;
 /// Bits that a run in digits has beyond those of its digits.
@@ -25,8 +27,10 @@ pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
     let bits = |digits: u32| bits_for_digits(digits) + SPARE_BITS;
     match numbers {
         Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
-        Numbers::Double(_) => {
-            vec![Rung::Double, Rung::Fractions, Rung::Bits(128), Rung::Enclosures(DECIDING_BITS), Rung::Bits(512)]
+        Numbers::Double(accuracy) => {
+            let is_coarse = accuracy.is_some_and(|accuracy| accuracy >= COARSE);
+            let last = Rung::Bits(if is_coarse { DECIDING_BITS } else { 2 * DECIDING_BITS });
+            vec![Rung::Double, Rung::Fractions, Rung::Bits(128), Rung::Enclosures(DECIDING_BITS), last]
         }
         Numbers::Exact => vec![Rung::Fractions],
         Numbers::Digits(digits) => long(bits(digits)).into(),

@@ -73,7 +73,7 @@ pub struct Options {
     pub widths: Vec<Number>,
     /// Values of the scene to fit to the data: length, wave_speed, modulus, density, damping, gravity, impact_speed,
     /// gap, and the stiffness of a contact that yields
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Parameter::differentiable)]
     pub fit: Vec<Parameter>,
     /// Stiffness of the contact of the data, of the whole cross-section: ours then yields alike, and the report says
     /// what the stiffness explains
