@@ -134,6 +134,7 @@ impl<N: Bounded> Cluster<N> {
             }
         }
         for j in 0..self.interfaces.len() {
+            // A contact that has closed pushes the masses beside it.
             let lines = self.first_lines();
             let [y, slope] = [0, 1].map(|k| lines[j][1][k].clone() - &lines[j][0][k]);
             let interface = &mut self.interfaces[j];

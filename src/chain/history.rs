@@ -425,7 +425,9 @@ impl ChainHistory {
     /// let rod = Body::new(1.into(), 1.into(), 1.into());
     /// let chain = Chain::builder(rod).contact(0.into(), mass).bottom(End::Velocity(Vec::new())).until(1.into());
     /// let piece = chain.build()?.solve(Numbers::default())?.force_pieces(1)?.swap_remove(0);
-    /// let middle: f64 = piece.series.iter().zip([1.0, 0.0, -1.0, 0.0].iter().cycle()).map(|(c, t)| c.to_f64() * t).sum();
+    /// // T_k(0) is 1, 0, −1, 0, …
+    /// let terms = piece.series.iter().zip([1.0, 0.0, -1.0, 0.0].iter().cycle());
+    /// let middle: f64 = terms.map(|(c, t)| c.to_f64() * t).sum();
     /// assert!((middle - (-piece.end.to_f64() / 2.0).exp()).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -110,7 +110,7 @@ fn names(of_node: bool) -> String {
 impl FromStr for ChainParameter {
     type Err = UnknownChainParameter;
 
-    /// Reads `body.2.length`, with bodies and joints counted from 1, the lowest.
+    /// Reads `body.2.length`, with bodies and joints counted from 1, the lowest; `ground.damping` is `bottom.damping`.
     fn from_str(text: &str) -> Result<Self, UnknownChainParameter> {
         let number = |text: &str| text.parse::<usize>().ok().filter(|n| *n > 0);
         let mut words = text.trim().split('.');

@@ -3,10 +3,10 @@
 use crate::random_chain::Random;
 use dalembert::Numbers;
 use dalembert::Side;
-use dalembert::chain::{Chain, ChainColumn, ChainParameter, ChainQuantity};
+use dalembert::chain::{Body, Chain, ChainColumn, ChainParameter, ChainQuantity, End};
 use dalembert::number::{Bounded, Number, Rational, Scalar, Value};
 use dalembert::problem::{Parameter, Problem};
-use dalembert::quantity::{Quantity, Units};
+use dalembert::quantity::{Quantity, Undefined, Units};
 
 fn number(text: &str) -> Number {
     text.parse().unwrap()
@@ -433,4 +433,35 @@ fn values_that_a_chain_does_not_have_are_refused_by_name() {
     let alone = Problem::builder().length(1).wave_speed(1).impact_speed(1);
     let alone = alone.set("body.2.length".parse::<Parameter>().unwrap(), 1);
     assert!(alone.build().unwrap_err().to_string().contains("rod by itself"));
+}
+
+/// A bar that flies has the highest point where its centre, from the waves in it, has no velocity. A bar under a load
+/// does not fall freely.
+#[test]
+fn a_body_that_falls_freely_has_its_highest_point() {
+    let bar = || Body::new(1.into(), 1.into(), 1.into());
+    let chain = |until: i64| {
+        let upper = bar().with_velocity((-1).into());
+        let chain = Chain::builder(bar()).contact(number("1/2"), upper).bottom(End::Velocity(Vec::new()));
+        chain.gravity(number("3/10")).until(until.into()).build().unwrap()
+    };
+    let upper = chain(12).problem(1).unwrap();
+    let flight = upper.doubles().unwrap().flights().unwrap().remove(0);
+    let [time, top] = [flight.top_time.unwrap(), flight.top.unwrap()];
+    assert!((time - 77.0 / 9.0).abs() < 1e-12 && (top - 127.0 / 144.0).abs() < 1e-12, "{time} {top}");
+    let at = |quantity: Quantity, time: &str| exact(&upper, quantity, &number(time), Side::Right).to_string();
+    assert_eq!(at(Quantity::CentreVelocity, "77/9"), "0");
+    assert_eq!(at(Quantity::Centre, "77/9"), "127/144");
+    // The flight begins at 16/3, and the bar turns after 7.
+    for (until, reason) in [(7, Some(Undefined::NotYet)), (12, None)] {
+        let history = chain(until).problem(1).unwrap().solve_in(Numbers::Exact).unwrap();
+        let flights = history.listing(None, true).unwrap().flights;
+        assert_eq!(flights[0][2].clone().err(), reason, "until {until}");
+    }
+    // A load on its top acts on the bar as long as it flies.
+    let upper = bar().with_velocity((-1).into());
+    let loaded = Chain::builder(bar()).contact(number("1/2"), upper).bottom(End::Velocity(Vec::new()));
+    let loaded = loaded.top(End::Force(vec![(0.into(), number("1/10"))])).gravity(number("3/10"));
+    let flights = loaded.until(12.into()).build().unwrap().problem(1).unwrap().doubles().unwrap().flights().unwrap();
+    assert!(!flights.is_empty() && flights.iter().all(|flight| flight.top_time.is_none()));
 }

@@ -13,6 +13,7 @@ mod chain_coincidences;
 mod chain_masses;
 mod chain_published;
 mod chain_soft;
+mod chain_soft_random;
 // Tests run in the order of their names: the longest one is among the first.
 mod chaotic;
 mod columns;

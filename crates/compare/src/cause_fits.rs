@@ -80,8 +80,8 @@ const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 const SOFT_MESH: f64 = 0.05;
 /// Number of steps in time within which samples show no front: schemes spread a jump over as many.
 const BLURRED: f64 = 2.0;
-/// Share of ‖e‖₂² that is left where a value of the scene explains the data by itself, but for the integrals of columns
-/// by the trapezoidal rule: no scheme is so close to another scene, and the step in time does not matter.
+/// Largest share of ‖e‖₂² that a value of the scene leaves where it explains the data by itself. The trapezoidal rule, by
+/// which columns are integrated, leaves about as much; the errors of a scheme leave more.
 const EXPLAINED: f64 = 4e-4;
 /// Share of ‖e‖₂² that such a cause removes to first order.
 const NEARLY_EXPLAINED: f64 = 0.8;

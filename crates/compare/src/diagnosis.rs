@@ -3,7 +3,7 @@
 use super::agreement::Agreement;
 use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
-use super::cause_fits::{Candidate, CauseFits};
+use super::cause_fits::{Candidate, CauseFits, Fitted};
 use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
@@ -72,10 +72,13 @@ impl Diagnosis {
         }
         let candidate = |(kind, cause)| Some(Candidate { kind, cause, slope: fits.slopes(cause, 0.0, &fits.base)? });
         fits.candidates = causes.into_iter().filter_map(candidate).collect();
-        if !fits.is_resolved(&fits.base) {
-            let best = fits.best_unresolved();
+        // A cause is asserted where no other one explains the data about as well.
+        let hints = |fits: &CauseFits<'_>, best: &[Fitted]| -> Vec<Hint> {
             let asserted = best.len() == 1;
-            self.hints.extend(best.iter().map(|fit| Hint { asserted, ..fits.hint(fit.kind, fit, reference) }));
+            best.iter().map(|fit| Hint { asserted, ..fits.hint(fit.kind, fit, reference) }).collect()
+        };
+        if !fits.is_resolved(&fits.base) {
+            self.hints.extend(hints(&fits, &fits.best_unresolved()));
             if self.hints.is_empty() {
                 self.detectable = fits.detectable();
             }
@@ -87,10 +90,8 @@ impl Diagnosis {
             if best.is_empty() || fits.is_soft_mesh(&best) {
                 break;
             }
-            let asserted = best.len() == 1;
-            let hints = best.iter().map(|fit| Hint { asserted, ..fits.hint(fit.kind, fit, reference) });
-            self.hints.extend(hints);
-            if !asserted || !fits.correct(&best[0]) {
+            self.hints.extend(hints(&fits, &best));
+            if best.len() > 1 || !fits.correct(&best[0]) {
                 break;
             }
         }

@@ -4,7 +4,9 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, Worth, json_bytes, rows_bytes};
+use crate::output::{
+    Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, SERIES, Worth, json_bytes, rows_bytes,
+};
 use crate::progress::Progress;
 use crate::terminal;
 use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
@@ -110,8 +112,7 @@ fn forces(scene: &ChainScene, pieces: &[Vec<ForcePiece<Value>>]) -> Dataset {
         ]
     }));
     if is_curved {
-        let series = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
-        data.notes.push(format!("a force is linear from force_start to force_end, or {series}"));
+        data.notes.push(format!("a force is linear from force_start to force_end, or {SERIES}"));
     } else {
         data.columns.pop();
         data.rows.iter_mut().for_each(|row| row.truncate(data.columns.len()));

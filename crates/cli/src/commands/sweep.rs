@@ -85,7 +85,7 @@ impl Sweep {
             scene.problem.to_builder().set(axis.parameter, value).build()?;
         }
         let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(&scene))?;
-        sweep::check_time(&quantities, self.time.as_ref()).map_err(|text| failure!("{text}"))?;
+        sweep::check_time(&quantities, self.time.as_ref()).map_err(|error| failure!("{error}"))?;
         let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
         let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, request };
         let [part, parts] = self.shard.unwrap_or([1, 1]);

@@ -41,7 +41,7 @@ pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, t
 pub(crate) use rows::{Layout, RowWriter, Worth};
 pub(crate) use run_info::RunInfo;
 pub(crate) use schema::schema;
-pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, STRAIGHT_ERROR};
+pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, SERIES, STRAIGHT_ERROR};
 pub(crate) use sweep::sweep_data;
 pub(crate) use table::wrapped;
 pub(crate) use target::{PAGE_DIGITS, benchmarks_page, targets_data};

@@ -67,6 +67,9 @@ pub(crate) enum HistoryPart {
     Forces,
 }
 
+/// The number that the coefficients of a piece stand for.
+pub(crate) const SERIES: &str = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
+
 /// Largest error of the straight pieces of a curved stress history, as a share of its peak.
 pub(crate) const STRAIGHT_ERROR: f64 = 1e-6;
 
@@ -200,8 +203,7 @@ impl HistoryTables {
             data.notes.push(self.ending.at(&self.end.to_string()));
         }
         if part == HistoryPart::Stress && coefficients {
-            let series = "the sum of chebyshev[k] T_k(x), x = 2(t - start)/(end - start) - 1";
-            data.notes.push(format!("v_x(0,t) is linear from strain_start to strain_end, or {series}"));
+            data.notes.push(format!("v_x(0,t) is linear from strain_start to strain_end, or {SERIES}"));
         } else if part == HistoryPart::Stress && self.is_curved {
             data.notes.push(format!(
                 "straight lines from strain_start to strain_end are within {STRAIGHT_ERROR:e} of the greatest \

@@ -6,4 +6,4 @@ mod run;
 pub(crate) use dalembert_verify::regimes::{Axis, Grid};
 pub(crate) use journal::{Journal, journal_path};
 pub(crate) use run::{Point, Request, Sweep};
-pub use run::{PointNumber, check_time, sweep};
+pub use run::{PointNumber, TimeRefused, check_time, sweep};

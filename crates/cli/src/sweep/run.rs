@@ -152,24 +152,40 @@ pub fn sweep(
         .collect::<Result<Vec<_>, _>>()
 }
 
-/// Refuses a time before the start, and one for quantities that are not asked at a time.
+/// A time that a sweep does not take.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TimeRefused {
+    /// A time before the start.
+    #[error("found time {0}, expected one from 0 on")]
+    Negative(Number),
+    /// A time beside a quantity that is not asked at a time.
+    #[error("found time {time}, expected none: {quantity} is not asked at a time")]
+    NotAsked {
+        /// The time.
+        time: Number,
+        /// The first such quantity.
+        quantity: Quantity,
+    },
+}
+
+/// Checks the time of quantities.
 ///
-/// **Errors**: the message.
+/// **Errors**: [`TimeRefused`].
 ///
 /// ```
 /// use dalembert::Quantity;
-/// use dalembert_cli::sweep::check_time;
-/// assert!(check_time(&[Quantity::Centre], Some(&1.into())).is_ok());
-/// assert_eq!(check_time(&[Quantity::Centre], Some(&(-1).into())), Err("found time -1, expected one from 0 on".into()));
+/// use dalembert_cli::sweep::{TimeRefused, check_time};
+/// assert_eq!(check_time(&[Quantity::Centre], Some(&1.into())), Ok(()));
+/// assert_eq!(check_time(&[Quantity::Centre], Some(&(-1).into())), Err(TimeRefused::Negative((-1).into())));
 /// assert!(check_time(&[Quantity::BounceTime], Some(&1.into())).is_err());
 /// ```
-pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), String> {
-    let Some(time) = time else { return Ok(()) };
+pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), TimeRefused> {
+    let Some(time) = time.cloned() else { return Ok(()) };
     if time.to_f64() < 0.0 {
-        return Err(format!("found time {time}, expected one from 0 on"));
+        return Err(TimeRefused::Negative(time));
     }
-    match quantities.iter().find(|quantity| quantity.needs() != Needs::Time) {
-        Some(quantity) => Err(format!("found time {time}, expected none: {quantity} is not asked at a time")),
+    match quantities.iter().copied().find(|quantity| quantity.needs() != Needs::Time) {
+        Some(quantity) => Err(TimeRefused::NotAsked { time, quantity }),
         None => Ok(()),
     }
 }
