@@ -153,7 +153,7 @@ impl Agreement {
         let mut contacts = Vec::new();
         if flags.is_some() || force.is_some() || end.is_some() {
             // An exact contact just after the last sample may have begun in the data; otherwise it is not missing.
-            let separation = reference.shortest_separation();
+            let separation = reference.shortest_separation(last);
             let found = find_contacts(times, touches, force, separation);
             let is_within = |contact: &ContactRecord| {
                 contact.impact < last + separation && contact.release.is_none_or(|to| to > first)

@@ -75,6 +75,8 @@ pub(super) const NO_GRAVITY: f64 = 0.009;
 const ABOUT_EQUAL: f64 = 2.0;
 /// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
 const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
+/// Largest share of ‖e‖₂² that damping may leave that is not the dissipation of a scheme.
+const NEXT_TO_NOTHING: f64 = 4e-3;
 /// `EA/kL` of the softest contact that a mesh may make: a penalty of the stiffness of an element is softer than this on
 /// fewer than 20 elements.
 const SOFT_MESH: f64 = 0.05;
@@ -99,6 +101,13 @@ pub(super) struct Fitted {
     left: f64,
     /// The share of ‖e‖₂² that is left over the columns that count.
     pub(super) share_left: f64,
+}
+
+impl Fitted {
+    /// Returns whether the cause leaves next to nothing of the misfit.
+    pub(super) fn is_clear(&self) -> bool {
+        self.share_left <= NEXT_TO_NOTHING
+    }
 }
 
 /// The fits of causes to the signals of a data set.
@@ -382,7 +391,8 @@ impl CauseFits<'_> {
             Cause::Factor(_) => self.squares(errors),
             _ => self.product_over(concerned, errors, errors),
         };
-        let mut holds = true;
+        // The model of a mass at the ends is of first order.
+        let mut holds = cause != Cause::EndMass || p.abs() <= LINEAR;
         // The error of the value where the energy at the start determines it.
         let mut by_start = None;
         for j in 0..found.len() {
@@ -417,12 +427,12 @@ impl CauseFits<'_> {
         holds &= total(found) <= most * total(&self.base);
         let span: f64 = self.model.weights.iter().sum::<f64>() * count / (self.part_ends.len() + 1) as f64;
         let resolution = self.model.step * (span / weight).sqrt() / f64::max(count, 1.0).sqrt();
+        // A factor multiplies what the step does not resolve, as it has multiplied the errors of its column.
+        let resolution = if matches!(cause, Cause::Factor(_)) { resolution * (1.0 + p).abs() } else { resolution };
         let scatter = scatter / weight / f64::max(count - 1.0, 1.0);
         let shared =
             by_start.map_or_else(|| self.product_over(concerned, found, found) / weight, |apart| apart * apart);
         let error = (scatter + shared + resolution * resolution).sqrt();
-        // A factor multiplies the errors of its column too.
-        let error = if matches!(cause, Cause::Factor(_)) { error * (1.0 + p).abs() } else { error };
         let early = early || is_column || !self.is_resolved(found);
         (holds && early && count > 0.0 && p.abs() > 2.0 * error).then_some(error)
     }

@@ -72,10 +72,20 @@ impl Diagnosis {
         }
         let candidate = |(kind, cause)| Some(Candidate { kind, cause, slope: fits.slopes(cause, 0.0, &fits.base)? });
         fits.candidates = causes.into_iter().filter_map(candidate).collect();
-        // A cause is asserted where no other one explains the data about as well.
+        // A cause is asserted where no other one explains the data about as well. A scheme that takes up energy looks
+        // like damping that is too strong, but for errors of its own.
         let hints = |fits: &CauseFits<'_>, best: &[Fitted]| -> Vec<Hint> {
-            let asserted = best.len() == 1;
-            best.iter().map(|fit| Hint { asserted, ..fits.hint(fit.kind, fit, reference) }).collect()
+            let is_like_scheme = |fit: &&Fitted| fit.cause == Cause::Damping && fit.value > 0.0 && !fit.is_clear();
+            let scheme = best.iter().find(is_like_scheme);
+            let asserted = best.len() == 1 && scheme.is_none();
+            let hints = best.iter().map(|fit| fits.hint(fit.kind, fit, reference));
+            let scheme = scheme.map(|fit| Hint {
+                text:
+                    "a scheme that takes up energy by itself: halve mesh and step, and see whether the damping halves"
+                        .into(),
+                ..fits.hint("numerical_damping", fit, reference)
+            });
+            hints.chain(scheme).map(|hint| Hint { asserted, ..hint }).collect()
         };
         if !fits.is_resolved(&fits.base) {
             self.hints.extend(hints(&fits, &fits.best_unresolved()));

@@ -295,9 +295,11 @@ impl<'a> Reference<'a> {
         contacts
     }
 
-    /// Returns the shortest separation that is not chatter: a quarter of the round trip, or of the shortest flight.
-    pub(super) fn shortest_separation(&self) -> f64 {
+    /// Returns the shortest separation that is not chatter: a quarter of the round trip, or of the shortest flight that
+    /// ends before `last`.
+    pub(super) fn shortest_separation(&self, last: f64) -> f64 {
         let contacts = self.history.contacts();
+        let contacts = &contacts[..contacts.partition_point(|contact| contact.impact <= last)];
         let flights = contacts.windows(2).filter_map(|pair| pair[0].release.map(|to| pair[1].impact - to));
         flights.fold(self.rod.round_trip(), f64::min) / 4.0
     }

@@ -67,6 +67,56 @@ fn damping_of_schemes_is_named() {
     }
 }
 
+/// The columns of a first-order upwind scheme for the invariants of the bar, at a CFL number of 0.9.
+fn upwind(cells: usize) -> Vec<(&'static str, Vec<f64>)> {
+    let (wave_speed, gravity, share) = (30.0, 10.0, 0.9);
+    let step = share * 10.0 / cells as f64 / wave_speed;
+    let (mut p, mut q) = (vec![-10.0; cells], vec![-10.0; cells]);
+    let mut columns = vec![("t", vec![]), ("u_end", vec![]), ("v_end", vec![]), ("force", vec![])];
+    let mut u = 0.0f64;
+    for k in 0..(END / step) as usize {
+        let arriving = q[0];
+        let pressed = u <= 0.0 && arriving < 0.0;
+        let (v, leaving) = if pressed { (0.0, -arriving) } else { (arriving, arriving) };
+        let row = [k as f64 * step, u, v, if pressed { -arriving * wave_speed } else { 0.0 }];
+        columns.iter_mut().zip(row).for_each(|((_, column), value)| column.push(value));
+        u = (u + v * step).max(0.0);
+        let top = p[cells - 1];
+        let upward = |k: usize| p[k] - share * (p[k] - if k == 0 { leaving } else { p[k - 1] }) - gravity * step;
+        let downward = |k: usize| q[k] - share * (q[k] - q.get(k + 1).unwrap_or(&top)) - gravity * step;
+        (p, q) = ((0..cells).map(upward).collect(), (0..cells).map(downward).collect());
+    }
+    columns
+}
+
+/// A scheme that takes up energy by itself looks damped; that its damping is wrong is not asserted.
+#[test]
+fn the_dissipation_of_a_scheme_is_not_asserted_as_damping() {
+    for cells in [100, 200, 400] {
+        let found = hints(&compare_columns(&scene("doyen-ern-piperno"), &upwind(cells), &Options::default()));
+        assert_eq!(kinds(&found)[..2], ["damping", "numerical_damping"], "{cells}: {found:#?}");
+        assert!(found[..2].iter().all(|hint| hint["asserted"] == false), "{cells}: {found:#?}");
+    }
+}
+
+/// A gap of a few samples in a contact is chatter, whatever flights come after the data.
+#[test]
+fn flights_after_the_data_do_not_make_chatter_a_contact() {
+    let scene = scene(
+        "rod = { length = 10, modulus = 900, density = 1, area = 1, damping = 0.1 }\nimpact.speed = 10\n\
+         gravity.acceleration = 10\nrun.time = 6.5\n",
+    );
+    let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.0015).collect();
+    let exact = scene.problem.doubles().unwrap();
+    let shortest = exact.contacts().windows(2).map(|pair| pair[1].impact - pair[0].release.unwrap());
+    assert!(shortest.fold(1.0, f64::min) < 0.014, "no short flight after the data");
+    let mut force = exact.columns(&[Quantity::Force], &times, Some(Side::Right)).unwrap().swap_remove(0);
+    let gap = times.iter().zip(&mut force).filter(|(t, _)| (4.8..4.8045).contains(*t));
+    let closed = gap.map(|(_, force)| std::mem::take(force)).filter(|force| *force > 0.0).count();
+    let report = compare_columns(&scene, &[("t", times), ("force", force)], &Options::default());
+    assert!(closed == 3 && report["audit"]["invented"] == 0, "{closed} {}", report["audit"]);
+}
+
 /// Some columns of a contact code.
 fn columns_of(rows: &[Row], names: &[&str]) -> Vec<(&'static str, Vec<f64>)> {
     peers::columns(rows).into_iter().filter(|(name, _)| names.contains(name)).collect()
