@@ -434,12 +434,21 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(bounded.collect())
     }
 
+    /// Computes the highest point from `h` and `h′` near it: at the release the ground has pushed for an uncertain time,
+    /// so that `h′` is known less well there.
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
-        let (time, height) = self.turn_after(release)?;
-        // dt*/dh′ = 1/(g + 2rh′); the resulting error of the height is of second order.
-        let (Bounds { rise, rate, .. }, gravity) = (self.near(&within(&time, 0.0)), self.scales.gravity);
-        let late = self.course.events[release].t_error + rate / gravity;
-        Some((within(&time, late), within(&height, rise + gravity * late * late)))
+        let events = self.course.events.get(release..)?;
+        let Event { t, h, h_rate, .. } = events.first().filter(|event| !event.h_rate.value().is_negative())?;
+        let (near, _) = self.turn([t.value(), h.value(), h_rate.value()])?;
+        let last = events.get(1).map_or(&self.course.end, |landing| &landing.t).value();
+        let near = if last < &near { last.clone() } else { near };
+        let [height, rate] = self.pair(Pair::Centre, &Estimate::exact(near.clone()), Side::Left).ok()?;
+        let (time, top) = self.turn([&near, height.value(), rate.value()])?;
+        // dt*/dh′ = 1/(g + 2rh′) and dh(t*)/dh′ = h′/(g + 2rh′), at most 2/g and 2h′/g while 2rh′ is above −g/2.
+        let gravity = self.scales.gravity;
+        let (speed, late) = (rate.value().to_f64().abs() + rate.bound(), 2.0 * rate.bound() / gravity);
+        let drag = 2.0 * self.data.damping.to_f64() / self.scales.time * speed;
+        (drag < gravity / 2.0).then(|| (within(&time, late), within(&top, height.bound() + speed * late)))
     }
 
     fn error_estimate(&self) -> Estimate<S> {

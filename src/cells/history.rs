@@ -383,19 +383,19 @@ impl<S: RoundedSpecial> Damped<S> {
         Ok(self.record().at_all(&places).into_iter().map(scaled).collect())
     }
 
-    /// Computes `t*` and `h(t*)`, the highest point of the centre of mass, of the flight after a release.
-    pub(super) fn turn_after(&self, release: usize) -> Option<(S, S)> {
-        let release = self.course.events.get(release)?.clone().map(Estimate::into_value);
-        let Scales { gravity, time, .. } = &self.data.units;
-        if gravity.is_zero() || !self.medium.free_top || release.h_rate.is_negative() {
+    /// Computes `t*` and `h(t*)`, the highest point of the centre of mass, from `t`, `h(t)` and `h′(t)` in the same
+    /// flight; `None` without gravity and under a fixed top.
+    pub(super) fn turn(&self, [time, height, rate]: [&S; 3]) -> Option<(S, S)> {
+        let Scales { gravity, time: trip, .. } = &self.data.units;
+        if gravity.is_zero() || !self.medium.free_top {
             return None;
         }
         // Remark 2, with regular forms of the quotients by 2r and 4r².
-        let damping = self.data.damping.clone() / time;
-        let rise = release.h_rate.clone() / gravity;
+        let damping = self.data.damping.clone() / trip;
+        let rise = rate.clone() / gravity;
         let drag = damping.int(2) * &damping * &rise;
-        let height = log_rest(&drag) * &rise * &release.h_rate;
-        Some((release.t.clone() + log_mean(&drag) * &rise, release.h.clone() + height))
+        let climb = log_rest(&drag) * &rise * rate;
+        Some((time.clone() + log_mean(&drag) * &rise, height.clone() + climb))
     }
 }
 

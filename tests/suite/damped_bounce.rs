@@ -3,7 +3,7 @@
 use crate::common::uniform;
 use crate::stripped::Stripped;
 use dalembert::engine::{Bounce, ContactHistory, Damped, FirstContact, Motion, Scales};
-use dalembert::{Ending, Error, Estimate, EventKind, Number, Parameters, Problem, Reason, Run, Side};
+use dalembert::{Ending, Error, Estimate, EventKind, Number, Numbers, Parameters, Problem, Reason, Run, Side};
 
 /// A rod of any length, wave speed, damping, gravity and speed that may bounce more than once.
 fn scene(random: &mut impl FnMut() -> f64) -> Problem {
@@ -163,4 +163,34 @@ fn a_flight_outlasts_its_vibration() {
         assert!(height.abs() < 1e-10 * age, "r = {damping}: {height:e} after {age}");
         assert!(age > 1e4, "{age}");
     }
+}
+
+/// The highest points of the flights of rods that the ground pushes for an uncertain time before they leave it.
+#[test]
+fn highest_points_are_within_their_bounds() {
+    let mut compared = 0;
+    for (length, modulus, density, damping, speed, gravity) in [
+        ("0.1", "12e9", "600", "0.0027", "3", "1.62"),
+        ("0.1", "12e9", "600", "3e-5", "3", "1.62"),
+        ("2.5", "7e10", "2700", "10.2", "0.5", "1.62"),
+        ("0.5", "1e6", "1100", "4", "2", "9.81"),
+        ("1", "1", "1", "0.1", "3", "1"),
+    ] {
+        let [modulus, density] = [modulus, density].map(|x| x.parse::<Number>().unwrap());
+        let rod = Problem::builder().length(length).material(modulus, density, 1);
+        let rod = rod.damping(damping).impact_speed(speed).gravity(gravity).impacts(5).build().unwrap();
+        let history = rod.solve_in(Numbers::default()).unwrap();
+        let truth = rod.solve_in(Numbers::Digits(30)).unwrap();
+        for (ours, truth) in history.flights().unwrap().into_iter().zip(truth.flights().unwrap()) {
+            assert_eq!(ours.top.is_some(), truth.top.is_some());
+            for (ours, truth) in [(ours.top, truth.top), (ours.top_time, truth.top_time)] {
+                let (Some(ours), Some(truth)) = (ours, truth) else { continue };
+                let off = (ours.to_f64() - truth.to_f64()).abs();
+                let bound = ours.bound().to_f64() + f64::EPSILON * truth.to_f64().abs();
+                assert!(off <= bound, "{length} {damping}: {ours:?} {truth:?}: {off:e}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 30, "{compared}");
 }
