@@ -241,14 +241,13 @@ impl<N: Bounded> Cluster<N> {
         let allowed = if fast < self.masses.len() { tolerance.clone() } else { tolerance.clone() / decay };
         // An amplitude within some roundings of the state is dropped; it would not decay.
         let noise = slow[0].magnitude() * &self.rounding;
-        let excess = (amplitude.magnitude() / (allowed + noise)).to_f64() / NOISE;
+        let excess = (amplitude.magnitude() / (allowed + noise)).to_f64();
         let (mut width, mut unit, mut terms, mut inputs) = (width.clone(), wide.clone(), slow, inputs);
         let mut dropped = amplitude.magnitude();
-        if excess > 1.0 {
-            // |C| (κw)ⁿ/n! is at most the tolerance.
-            let n = last + 1;
-            let log2: f64 = (1..=n).map(|k| (k as f64).log2()).sum();
-            let reach = ((log2 - excess.min(1e300).log2()) / n as f64).exp2() / decay.to_f64();
+        if excess > NOISE {
+            // The order that is left out, |C| (κw)ⁿ/n!, is at most the tolerance.
+            let log2: f64 = (1..=last).map(|k| (k as f64).log2()).sum();
+            let reach = ((log2 - excess.min(1e300).log2()) / last as f64).exp2() / decay.to_f64();
             if reach < width.to_f64() {
                 width = zero.double(reach * 0.99);
                 unit = unit_of(&width);
