@@ -37,6 +37,8 @@ pub struct ChainListing {
 
 /// Share of the natural scale from which on the size of a number decides whether its bound is small enough.
 const FAINT: f64 = 1e-6;
+/// Bits beyond those of the digits of a time, which tell it from an event beside it.
+const GUARD: u32 = 16;
 
 /// A number of an answer with the scale that its bound is held against.
 type Judged<'a> = (&'a Value, Measure);
@@ -126,6 +128,14 @@ trait Answers: fmt::Debug + Send + Sync {
 }
 
 impl Instant<'_> {
+    /// Returns the number of digits in which the time is written.
+    fn digits(self) -> u32 {
+        match self {
+            Instant::Spelled(time) => time.written_digits(),
+            Instant::Event(_) => 0,
+        }
+    }
+
     fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
         match self {
             Instant::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
@@ -379,7 +389,7 @@ impl ChainHistory {
         let printed = |value: Value| self.printed(value);
         let list = || {
             let found =
-                self.settled(|run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks));
+                self.settled(0, |run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks));
             found.map(|(listing, ending)| (Arc::new(listing.map(printed)), ending))
         };
         self.listed.get_or_init(list).as_ref().map_err(Clone::clone)
@@ -432,7 +442,7 @@ impl ChainHistory {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn force_pieces(&self, node: usize) -> Result<Vec<ForcePiece<Value>>, Error> {
-        let pieces = self.settled(|run| Ok(run.forces(node)), |pieces| piece_numbers(pieces).collect())?;
+        let pieces = self.settled(0, |run| Ok(run.forces(node)), |pieces| piece_numbers(pieces).collect())?;
         Ok(pieces.into_iter().map(|piece| piece.map(|value| self.printed(value))).collect())
     }
 
@@ -440,13 +450,16 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn time(&self, time: &Number) -> Result<Value, Error> {
-        let value = self.settled(|run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
+        let value = self.settled(0, |run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
         Ok(self.printed(value))
     }
 
     fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
-        let value =
-            self.settled(|run| run.column(column, time, side), |value| vec![(value, column.quantity.measure())])?;
+        let value = self.settled(
+            time.digits(),
+            |run| run.column(column, time, side),
+            |value| vec![(value, column.quantity.measure())],
+        )?;
         Ok(self.printed(value))
     }
 
@@ -458,7 +471,8 @@ impl ChainHistory {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
         }
-        let field = self.settled(|run| run.field(body, point, time, side), judged)?;
+        let digits = point.written_digits().max(time.written_digits());
+        let field = self.settled(digits, |run| run.field(body, point, time, side), judged)?;
         Ok(field.map(|value| self.printed(value)))
     }
 
@@ -494,9 +508,12 @@ impl ChainHistory {
     }
 
     /// Returns the answer to `query` of the first attempt that leaves no event open and whose bounds are small enough;
-    /// if there is none, that with the smallest bounds among those that reach the end of the run.
+    /// if there is none, that with the smallest bounds among those that reach the end of the run. Longer numbers take a
+    /// time within their roundings of an event for that of the event, so that numbers that do not hold the `digits` of
+    /// the times and points of the query do not answer.
     fn settled<T>(
         &self,
+        digits: u32,
         query: impl Fn(&dyn Answers) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<Judged<'_>>,
     ) -> Result<T, Error> {
@@ -507,7 +524,11 @@ impl ChainHistory {
             Numbers::Exact => 0.0,
             Numbers::Digits(n) | Numbers::ExactThenDigits(n) | Numbers::Certified(n) => -f64::from(bits_for_digits(n)),
         };
-        for k in 0..self.attempts.len() {
+        let last = self.attempts.len() - 1;
+        for k in 0..=last {
+            if matches!(self.attempts[k].0, Rung::Bits(bits) if k < last && bits < bits_for_digits(digits) + GUARD) {
+                continue;
+            }
             let answer =
                 self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run), *run.ending() != Ending::Time)));
             let (answer, whole, ends_early) = match answer {

@@ -537,18 +537,19 @@ impl<N: Bounded> Node<N> {
             }
             Ordering::Greater => (),
         }
+        // Each form adds terms of one sign.
+        let wait = |root: N| match speed.is_ge() {
+            true => (y.clone() + root) / &(-slope.clone()),
+            false => gap.clone().doubled() / (root - &y),
+        };
         let Some(root) = square.try_sqrt() else {
-            let middle = from - &(y / slope);
+            let near = (wait(square.near_sqrt()) + &from).to_f64();
             let radicand = square / &slope.square();
             // An opening parabola has landed at its earlier root, a falling one at its later root.
-            let (plus, size) = (bend.is_lt(), radicand.to_f64().sqrt());
-            let near = middle.to_f64() + if plus { size } else { -size };
-            return Ok(Root::Irrational { surd: middle.surd(plus, &radicand), near });
+            let surd = (from - &(y / slope)).surd(bend.is_lt(), &radicand);
+            return Ok(Root::Irrational { surd, near });
         };
-        let wait = match speed.is_ge() {
-            true => (y + root) / &(-slope.clone()),
-            false => gap.clone().doubled() / (root - y),
-        };
-        Ok(Root::At(wait + &from))
+        let at = wait(root) + &from;
+        Ok(Root::At(at))
     }
 }

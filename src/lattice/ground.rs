@@ -303,39 +303,43 @@ impl<N: Bounded> March<'_, N> {
                 return Ok(None);
             }
         }
-        let Some(root) = disc.try_sqrt() else {
-            let trip = self.trip_number();
-            let (age, ending) = before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc])?;
-            return Err(Stop::Halt(Halt { trip, age, ending }));
-        };
         // Each form of the root adds terms of one sign. The form without a quotient by a root keeps the exact number
         // of enclosures.
-        let flown = if q.positive()? {
-            (q.clone() + &root) / (-slope.clone())
-        } else {
-            let sum = root.clone() - q;
-            (self.height.clone().doubled() / sum).or_exactly(|| -((root + q) / slope))
+        let rises = q.positive()?;
+        let flown = |root: N| match rises {
+            true => (q.clone() + &root) / (-slope.clone()),
+            false => {
+                let sum = root.clone() - q;
+                (self.height.clone().doubled() / sum).or_exactly(|| -((root + q) / slope))
+            }
         };
+        let Some(root) = disc.try_sqrt() else {
+            let trip = self.trip_number();
+            let (age, ending) =
+                before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc], flown(disc.near_sqrt()))?;
+            return Err(Stop::Halt(Halt { trip, age, ending }));
+        };
+        let flown = flown(root);
         Ok(Some((from.clone().nominal() + flown).with_identity()))
     }
 }
 
-/// Returns a fraction just below an irrational landing, up to which the history is exact, and the ending with the surd.
-fn before_surd<N: Bounded>(unit: &N, trip: usize, [from, q, slope, disc]: [&N; 4]) -> Result<(N, Ending), Open> {
+/// Returns a fraction just below an irrational landing, up to which the history is exact, and the ending with the surd;
+/// `flown` is the width up to the landing, to 100 bits.
+fn before_surd<N: Bounded>(
+    unit: &N,
+    trip: usize,
+    [from, q, slope, disc]: [&N; 4],
+    flown: N,
+) -> Result<(N, Ending), Open> {
     let scale = unit.clone() / slope;
     let rational = (q.int(trip as i64) + from) * unit - scale.clone() * q;
-    let (later, square) = (slope.negative()?, scale.square() * disc);
-    let time = rational.surd(later, &square);
-    // One Newton step doubles the 53 correct bits of the root.
-    let root = square.double(square.to_f64().sqrt());
-    let root = (root.clone() + square / &root).halved();
-    let near = (if later { rational + root } else { rational - root }).to_f64();
-    let (q, slope, disc) = (q.to_f64(), slope.to_f64(), disc.to_f64());
-    let flown = (-q - disc.sqrt()) / slope;
+    let time = rational.surd(slope.negative()?, &(scale.square() * disc));
+    let near = ((q.int(trip as i64) + from + &flown) * unit).to_f64();
     // Prefer a short fraction if one fits between the beginning of the piece and the root.
-    let ticks = ((from.to_f64() + flown) * MILLION as f64 - 1e-3).floor();
+    let ticks = ((from.to_f64() + flown.to_f64()) * MILLION as f64 - 1e-3).floor();
     let short = from.int(ticks as i64) / from.int(MILLION);
-    let below = if from.below(&short)? { short } else { from.clone() + from.double(flown * (1.0 - 1e-9)) };
+    let below = if from.below(&short)? { short } else { flown * from.double(1.0 - 1e-9) + from };
     Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
 }
 

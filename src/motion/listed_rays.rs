@@ -11,7 +11,7 @@ use crate::number::Scalar;
 #[derive(Clone, Debug)]
 pub(super) struct ListedRays<S> {
     length: S,
-    wave_speed: S,
+    pub(super) wave_speed: S,
     /// Times at which rays leave the lower end and the upper end, ascending, and whether they carry a jump (otherwise
     /// only a kink).
     ends: [Vec<(S, bool)>; 2],
@@ -53,22 +53,22 @@ impl<S: Scalar> ListedRays<S> {
         [(up, rise), (down, fall)]
     }
 
-    /// Returns the times at which rays pass `point` near `time`.
-    pub(super) fn about(&self, point: &S, time: &S) -> Vec<S> {
+    /// Returns the times at which rays pass `point` near `time`, each with whether the ray goes upward.
+    pub(super) fn about(&self, point: &S, time: &S) -> Vec<(S, bool)> {
         let mut met = Vec::new();
-        for (rays, delay) in self.ways(point) {
+        for ((rays, delay), upward) in self.ways(point).into_iter().zip([true, false]) {
             let departure = time.to_f64() - delay.to_f64();
             let reach = self.reach + time.log2_error().exp2() + delay.log2_error().exp2();
             let first = rays.partition_point(|(ray, _)| ray.to_f64() < departure - reach);
             let near = rays[first..].iter().take_while(|(ray, _)| ray.to_f64() <= departure + reach);
-            met.extend(near.map(|(ray, _)| ray.clone() + &delay));
+            met.extend(near.map(|(ray, _)| (ray.clone() + &delay, upward)));
         }
         met
     }
 
     /// Returns the times at which rays pass `point` that are indistinguishable from `time` within both bounds.
     pub(super) fn near(&self, point: &S, time: &S) -> Vec<S> {
-        let mut near = self.about(point, time);
+        let mut near: Vec<S> = self.about(point, time).into_iter().map(|(met, _)| met).collect();
         near.retain(|met| is_open(met, time));
         near
     }

@@ -14,7 +14,7 @@ use crate::number::Scalar;
 #[derive(Clone, Debug)]
 pub(super) struct RepeatedRays<S> {
     round_trip: S,
-    wave_speed: S,
+    pub(super) wave_speed: S,
     /// Groups of rays that are at the ground at the same times modulo round trips, in the order of these times.
     known: Vec<Phase<S>>,
     /// The greatest bound of their times, in round trips.
@@ -109,23 +109,24 @@ impl<S: Scalar> RepeatedRays<S> {
         if !about(travel) && !about(-travel) {
             return Vec::new();
         }
-        let mut near = self.about(point, time, widest);
+        let mut near: Vec<S> = self.about(point, time, widest).into_iter().map(|(met, _)| met).collect();
         near.retain(|met| is_open(met, time));
         near
     }
 
-    /// Returns the times at which rays pass `point` near `time`, up to `widest` round trips apart.
-    pub(super) fn about(&self, point: &S, time: &S, widest: f64) -> Vec<S> {
+    /// Returns the times at which rays pass `point` near `time`, up to `widest` round trips apart, each with whether
+    /// the ray goes upward there.
+    pub(super) fn about(&self, point: &S, time: &S, widest: f64) -> Vec<(S, bool)> {
         let travel = point.clone() / &self.wave_speed;
-        let delays = if point.vanishes() == Ok(true) { vec![travel] } else { vec![travel.clone(), -travel] };
+        let down = (point.vanishes() != Ok(true)).then(|| (-travel.clone(), false));
         let mut met = Vec::new();
-        for delay in delays {
+        for (delay, upward) in std::iter::once((travel, true)).chain(down) {
             let at_ground = time.clone() - &delay;
             let place = fraction(&(at_ground.clone() / &self.round_trip));
             for known in self.known_near(place, NEAR + widest) {
                 let trips = (at_ground.clone() - known) / &self.round_trip;
                 if let Some(trips @ 0..) = (trips.clone() + trips.ratio(1, 2)).floor_int() {
-                    met.push(self.round_trip.int(trips) * &self.round_trip + known + &delay);
+                    met.push((self.round_trip.int(trips) * &self.round_trip + known + &delay, upward));
                 }
             }
         }

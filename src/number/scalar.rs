@@ -166,6 +166,13 @@ pub trait Scalar:
         format!("{} {} √({})", self.text(), if plus { '+' } else { '−' }, square.text())
     }
 
+    /// Returns the square root of a positive number within `2⁻¹⁰⁰` of itself, if the system holds as many bits: one
+    /// Newton step doubles the 53 correct bits of a double.
+    fn near_sqrt(&self) -> Self {
+        let root = self.double(self.to_f64().sqrt());
+        (self.clone() / &root + &root) / self.int(2)
+    }
+
     /// Returns `p/q` in the precision of `self`, for formulas with fractional constants.
     fn ratio(&self, p: i64, q: i64) -> Self {
         self.int(p) / self.int(q)

@@ -32,10 +32,19 @@ fn spelled<M: Scalar>(time: &M) -> Option<Spelling> {
     time.as_double().and_then(|_| time.spelled_as())
 }
 
+/// Returns whether numbers are rounded: neither exact nor enclosures.
+fn rounds<M: Scalar>(precision: &M::Precision) -> bool {
+    M::spelling(&1.into(), precision).spelled_as().is_some()
+}
+
 /// Returns whether a time is an enclosure wider than roundings.
 fn is_wide<N: Scalar, M: Scalar>(time: &M, given: &N) -> bool {
-    let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
-    spelled(time).is_none() && given.log2_error() > roundings.log2()
+    spelled(time).is_none() && given.log2_error() > roundings(time).log2()
+}
+
+/// Returns the distance within which a computed number counts as that of a ray, or as the length.
+fn roundings<M: Scalar>(x: &M) -> f64 {
+    8.0 * x.log2_roundoff().exp2() * x.to_f64()
 }
 
 impl<N: Scalar, M: Reads<N>> Converted<N, M> {
@@ -46,8 +55,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             event.t_error = event.t_error.max(event.t.log2_error().exp2());
         }
         let precision = engine.end().precision();
-        let rounds = N::spelling(&1.into(), &precision).spelled_as().is_some();
-        let windows = rounds.then(|| Windows::of(&*engine));
+        let windows = rounds::<N>(&precision).then(|| Windows::of(&*engine));
         let scales = engine.scales().map(M::read);
         Converted { precision, rays: RayRegister::of(&*engine), windows, course, scales, engine }
     }
@@ -164,9 +172,8 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
             return Err(Error::PointOutside { found: point.text(), length: length.text() });
         }
         // The length in other bits, or an enclosure of it, also counts as the length.
-        let rounding = 8.0 * point.log2_roundoff().exp2() * point.to_f64();
-        let rounded =
-            point.log2_error() <= rounding.log2() && (self.scales.length.clone() - point).vanishes() != Ok(false);
+        let rounded = point.log2_error() <= roundings(point).log2()
+            && (self.scales.length.clone() - point).vanishes() != Ok(false);
         if rounded || self.scales.length.alike(point) {
             return Ok(length);
         }
@@ -198,11 +205,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
         if given.vanishes() == Ok(true) && given.log2_error() == f64::NEG_INFINITY {
             return Ok(given);
         }
-        let roundings = 8.0 * time.log2_roundoff().exp2() * time.to_f64();
         // A wide enclosure does not count as the time of a ray.
         let wide = is_wide(time, &given);
         if spelled(time).is_none() && !wide {
-            let met = self.rays.meant(point, given.clone(), roundings);
+            let met = self.rays.meant(point, given.clone(), roundings(time));
             if met.compare(&given).is_ok_and(Ordering::is_ne) {
                 return Ok(met);
             }
@@ -288,9 +294,15 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     /// which the values at the corners, the midpoints of the sides and the centre interpolate with coefficients of at
     /// most 1.
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
-        let given = self.point(point)?;
+        let mut given = self.point(point)?;
         let near = point.spelled_as() == Some(Spelling::Near);
         let at = self.time_at_point(&given, near, time)?;
+        // The time of an event or the end is the engine's own, and the point alone was rounded.
+        let is_end = |point: &N| point.vanishes() == Ok(true) || self.engine.scales().length.alike(point);
+        let is_rounded = rounds::<M>(&point.precision()) && spelled(time).is_none();
+        if is_rounded && self.known(time).is_some() && !is_end(&given) {
+            given = self.rays.reached(given, &at, roundings(time));
+        }
         let ask = |point: &N, time: &N| {
             let Field { displacement, velocity, strain } = self.engine.field(point, time, side)?;
             Ok(vec![displacement, velocity, strain])
