@@ -11,10 +11,10 @@
 //! single state is bounded by the greater of its error before and that of its input.
 
 use super::curve::{Curve, Fall, Signal, first_fall, greater, upper, value};
-use super::interface::{Interface, Mode, Moment, Row, Softness};
+use super::interface::{Interface, Mode, Moment, Softness};
 use super::law::Law;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
-use super::step::{Linear, Step, Values, degree, in_unit, power, refs};
+use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
@@ -66,7 +66,7 @@ pub(super) struct Cluster<N> {
 }
 
 /// Arriving signals, states and their errors over a step.
-type Solved<'a, N> = (&'a [[Curve<N>; 2]], &'a Step<N>, &'a [N]);
+pub(super) type Solved<'a, N> = (&'a [[Curve<N>; 2]], &'a Step<N>, &'a [N]);
 
 /// All that leaves an interface over a step, and its state.
 struct Output<N> {
@@ -366,45 +366,15 @@ impl<N: Bounded> Cluster<N> {
         side(1) - side(0)
     }
 
-    /// Returns the polynomials of rows of the law of an interface over a step.
-    fn curves<const R: usize>(
-        &self,
-        rows: [&Row<N>; R],
-        j: usize,
-        (inputs, step, errors): Solved<'_, N>,
-    ) -> [Curve<N>; R] {
-        let zero = self.norm.zero();
-        let states = step.states.iter().map(Vec::len).max().unwrap_or(1);
-        let count = inputs[j].iter().map(|curve| curve.terms.len()).max().unwrap_or(1).max(states);
-        let values = |k: usize| {
-            let state = |state: usize| step.states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
-            self.values(inputs, j, k, &state)
-        };
-        let values: Vec<Values<N>> = (0..count).map(values).collect();
-        let side = |side: usize| match &self.interfaces[j].sides[side].source {
-            Source::Mass(mass) => errors[*mass].clone(),
-            _ => inputs[j][side].error.clone(),
-        };
-        let bounds = [side(0), side(1), errors[self.masses.len() + j].clone()];
-        rows.map(|row| {
-            let terms = values.iter().map(|values| row.of(refs(values))).collect();
-            Curve::new((&self.reached.at, &step.unit), terms, row.bound_of(refs(&bounds)), &step.width)
-        })
-    }
-
-    /// Returns the polynomial of a state over a step.
-    fn state_curve(&self, state: usize, (_, step, errors): Solved<'_, N>) -> Curve<N> {
-        let origin = (&self.reached.at, &step.unit);
-        Curve::new(origin, step.states[state].clone(), errors[state].clone(), &step.width)
-    }
-
     /// Returns all that leaves an interface over a step, and its state.
     fn output(&self, j: usize, solved: Solved<'_, N>) -> Output<N> {
         let interface = &self.interfaces[j];
         let rows = interface.rows();
-        let [force, rate, below, above] =
-            self.curves([&rows.force, &rows.rate, &rows.leaving[0], &rows.leaving[1]], j, solved);
-        let softness = (interface.law == Law::Contact || interface.soft.is_some()).then(|| Softness {
+        let is_wave = |side: usize| matches!(interface.sides[side].source, Source::Wave(_));
+        let [below, above] = [0, 1].map(|side| if is_wave(side) { &rows.leaving[side] } else { interface.nothing() });
+        let rate = if interface.has_gap() { &rows.rate } else { interface.nothing() };
+        let [force, rate, below, above] = self.curves([&rows.force, rate, below, above], j, solved);
+        let softness = interface.has_gap().then(|| Softness {
             gap: self.state_curve(self.masses.len() + j, solved),
             rate,
             loaded: interface.mode == Mode::Closed,

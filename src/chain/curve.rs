@@ -33,6 +33,9 @@ pub(super) enum Signal<N> {
     Curve(Box<Curve<N>>),
 }
 
+/// Bits up to which doubles hold the roundings of numbers.
+const ROUGH_BITS: u32 = 600;
+
 /// Returns the least power of two that is no less than a width.
 pub(super) fn unit_of<N: Bounded>(width: &N) -> N {
     let size = width.to_f64();
@@ -75,6 +78,16 @@ pub(super) fn rough_slope<N: Bounded>(terms: &[N], width: &N, order: usize) -> N
     width.double(sum * (1.0 + 8.0 * f64::EPSILON * (terms.len() as f64 + 1.0)) + 1e-300 * terms.len() as f64)
 }
 
+/// Returns the slope of a polynomial at a width as a double, and a bound of its rounding.
+pub(super) fn rough_slope_at<N: Bounded>(terms: &[N], width: &N) -> [f64; 2] {
+    let at = width.to_f64();
+    let scaled = terms.iter().enumerate().skip(1).map(|(k, term)| k as f64 * term.to_f64()).rev();
+    let sums = |[sum, size]: [f64; 2], term: f64| [sum * at + term, size * at.abs() + term.abs()];
+    let [sum, size] = scaled.fold([0.0, 0.0], sums);
+    // Terms and width round once each, a product and a sum twice.
+    [sum, size * 8.0 * f64::EPSILON * (terms.len() as f64 + 1.0)]
+}
+
 /// Returns the coefficients of the derivative.
 pub(super) fn derivative<N: Bounded>(terms: &[N]) -> Vec<N> {
     let scaled = |(k, term): (usize, &N)| term.clone() * term.int(k as i64);
@@ -104,7 +117,11 @@ pub(super) fn shifted<N: Bounded>(terms: &[N], by: &N) -> Vec<N> {
 /// Returns the stored values of coefficients, and a bound of what the polynomial loses with their errors.
 pub(super) fn centred<N: Bounded>(terms: Vec<N>, width: &N) -> (Vec<N>, N) {
     let (stored, errors): (Vec<N>, Vec<N>) = terms.iter().map(N::centred).unzip();
-    let error = if errors.iter().all(is_exact_zero) { width.zero() } else { bound(&errors, width) };
+    let error = match width.bits() {
+        _ if errors.iter().all(is_exact_zero) => width.zero(),
+        Some(bits) if bits <= ROUGH_BITS => rough_bound(&errors, width),
+        _ => bound(&errors, width),
+    };
     (stored, error)
 }
 
@@ -290,6 +307,11 @@ impl<N: Bounded> Curve<N> {
             reach = reach.halved().centred().0;
         }
         None
+    }
+
+    /// Returns whether the curve and its bound are zero.
+    pub(super) fn is_zero(&self) -> bool {
+        is_exact_zero(&self.error) && self.terms.iter().all(is_exact_zero)
     }
 
     /// Returns the negative curve.

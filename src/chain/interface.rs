@@ -102,6 +102,23 @@ impl<N: Bounded> Row<N> {
         Row { sizes: factors.each_ref().map(Factor::magnitude), factors }
     }
 
+    /// Returns whether the form is zero for all values that count.
+    pub(super) fn is_zero(&self, counts: [bool; 3]) -> bool {
+        self.factors.iter().zip(counts).all(|(factor, counts)| !counts || matches!(factor, Factor::Zero))
+    }
+
+    /// Returns the only value that counts, by its index, and whether it counts as its negative; `None` where several
+    /// count, or a factor changes their size.
+    pub(super) fn only(&self, counts: [bool; 3]) -> Option<(usize, bool)> {
+        let is_left = |(k, factor): &(usize, &Factor<N>)| counts[*k] && !matches!(factor, Factor::Zero);
+        let mut left = self.factors.iter().enumerate().filter(is_left);
+        match (left.next()?, left.next()) {
+            ((k, Factor::Plus), None) => Some((k, false)),
+            ((k, Factor::Minus), None) => Some((k, true)),
+            _ => None,
+        }
+    }
+
     /// Returns the value of the form.
     pub(super) fn of(&self, values: [&N; 3]) -> N {
         weighted(&self.factors, values)
@@ -300,6 +317,16 @@ impl<N: Bounded> Interface<N> {
     /// Returns the laws in the present state.
     pub(super) fn rows(&self) -> &Rows<N> {
         if self.mode == Mode::Closed { &self.closed } else { &self.open }
+    }
+
+    /// Returns a form that is zero.
+    pub(super) fn nothing(&self) -> &Row<N> {
+        &self.open.force
+    }
+
+    /// Returns whether the gap is a number of the answers: that of a contact or a spring.
+    pub(super) fn has_gap(&self) -> bool {
+        self.law == Law::Contact || self.soft.is_some()
     }
 
     /// Returns the rate of the gap between free ends.

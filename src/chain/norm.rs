@@ -1,7 +1,7 @@
 //! Bounds of the errors of the states of a cluster.
 
 use super::cluster::Cluster;
-use super::curve::{Curve, bound, derivative, greater, upper, value};
+use super::curve::{Curve, greater, rough_slope, rough_slope_at, upper};
 use super::interface::{Mode, Rows};
 use super::node::Source;
 use super::step::{Linear, Step, Values, refs};
@@ -122,13 +122,14 @@ impl<N: Bounded> Cluster<N> {
         let late = self.reached.late.clone();
         let Some((before, unit, reach)) = self.before.clone().filter(|_| !is_exact_zero(&late)) else { return };
         for (state, terms) in step.states.iter().enumerate() {
-            // Rates and their slopes per time, at the end of the step before and at the beginning of this one.
-            let (old, new) = (derivative(&before[state]), derivative(terms));
-            let rate = value(&new, &late.zero()) / &step.unit - value(&old, &reach) / &unit;
-            let jump = rate.magnitude();
-            let old_bend = bound(&derivative(&old), &(late.clone() / &unit + &reach)) / unit.square();
-            let bend = bound(&derivative(&new), &(late.clone() / &step.unit)) / step.unit.square() + old_bend;
-            let added = upper((jump + bend * &late) * &late);
+            // Rates and their slopes per time, at the end of the step before and at the beginning of this one. Doubles
+            // suffice: what they lose is a rounding of the rates.
+            let [old, new] = [rough_slope_at(&before[state], &reach), rough_slope_at(terms, &late.zero())];
+            let [old, new] = [(old, &unit), (new, &step.unit)].map(|(slope, unit)| slope.map(|x| x / unit.to_f64()));
+            let jump = (new[0] - old[0]).abs() * (1.0 + 2.0 * f64::EPSILON) + old[1] + new[1];
+            let old_bend = rough_slope(&before[state], &(late.clone() / &unit + &reach), 2) / unit.square();
+            let bend = rough_slope(terms, &(late.clone() / &step.unit), 2) / step.unit.square() + old_bend;
+            let added = upper((late.double(jump) + bend * &late) * &late);
             match self.linear.root(state) {
                 Some(root) => self.norm = self.norm.clone() + added * root,
                 None => {

@@ -1,6 +1,8 @@
 //! The linear equation of a cluster over a step, and its solution by polynomials.
 
-use super::cluster::Cluster;
+use std::cell::LazyCell;
+
+use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
 use super::interface::{Interface, Row};
 use super::node::{Source, Stop};
@@ -114,6 +116,51 @@ impl<N: Bounded> Cluster<N> {
         self.rates(&values, false)
     }
 
+    /// Returns the polynomials of rows of the law of an interface over a step.
+    pub(super) fn curves<const R: usize>(
+        &self,
+        rows: [&Row<N>; R],
+        j: usize,
+        (inputs, step, errors): Solved<'_, N>,
+    ) -> [Curve<N>; R] {
+        let zero = self.norm.zero();
+        let is_mass = |side: usize| matches!(self.interfaces[j].sides[side].source, Source::Mass(_));
+        let [below, above] = [0, 1].map(|side| is_mass(side) || !inputs[j][side].is_zero());
+        let counts = [below, above, true];
+        let origin = (&self.reached.at, &step.unit);
+        let signal = |k: usize| inputs[j].get(k).filter(|_| !is_mass(k));
+        let states = step.states.iter().map(Vec::len).max().unwrap_or(1);
+        let count = inputs[j].iter().map(|curve| curve.terms.len()).max().unwrap_or(1).max(states);
+        let values = |k: usize| {
+            let state = |state: usize| step.states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
+            self.values(inputs, j, k, &state)
+        };
+        let values = LazyCell::new(|| (0..count).map(values).collect::<Vec<Values<N>>>());
+        let error = |side: usize| match &self.interfaces[j].sides[side].source {
+            Source::Mass(mass) => errors[*mass].clone(),
+            _ => inputs[j][side].error.clone(),
+        };
+        let bounds = [error(0), error(1), errors[self.masses.len() + j].clone()];
+        rows.map(|row| match row.only(counts).and_then(|(k, negative)| Some((signal(k)?, negative))) {
+            _ if row.is_zero(counts) => Curve::new(origin, vec![zero.clone()], zero.clone(), &step.width),
+            // A signal that passes as it is.
+            Some((curve, negative)) => {
+                let curve = Curve { width: step.width.clone(), ..curve.clone() }.trimmed();
+                if negative { curve.negated() } else { curve }
+            }
+            None => {
+                let terms = values.iter().map(|values| row.of(refs(values))).collect();
+                Curve::new(origin, terms, row.bound_of(refs(&bounds)), &step.width)
+            }
+        })
+    }
+
+    /// Returns the polynomial of a state over a step.
+    pub(super) fn state_curve(&self, state: usize, (_, step, errors): Solved<'_, N>) -> Curve<N> {
+        let origin = (&self.reached.at, &step.unit);
+        Curve::new(origin, step.states[state].clone(), errors[state].clone(), &step.width)
+    }
+
     /// Returns the values of the states at the time that is reached.
     fn states(&self) -> Vec<N> {
         let gaps = self.interfaces.iter().map(|interface| interface.gap.clone());
@@ -163,6 +210,11 @@ impl<N: Bounded> Cluster<N> {
     /// Solves the equation of the states from the time that is reached on, over `width` or less.
     pub(super) fn solve(&self, inputs: &[[Curve<N>; 2]], width: &N) -> Result<Step<N>, Stop> {
         let zero = self.norm.zero();
+        if self.masses.is_empty() && self.interfaces.iter().all(|interface| interface.rows().rate.is_zero([true; 3])) {
+            let states: Vec<Vec<N>> = self.states().into_iter().map(|state| vec![state]).collect();
+            let defects = vec![zero; states.len()];
+            return Ok(Step { states, unit: unit_of(width), width: width.clone(), defects });
+        }
         let Linear { dynamic, decay, rate } = &self.linear;
         let rate = *rate;
         let tolerance = self.speed.clone() * &self.rounding;
