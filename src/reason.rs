@@ -289,7 +289,7 @@ pub enum Warning {
     /// Strains of a material that the theory does not hold for.
     #[error(
         "the strain reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
-         modulus and density, such as GPa in place of Pa",
+         the material and of velocities, such as GPa in place of Pa",
         .strain.decimal(3)
     )]
     StrainAboveOne {

@@ -538,14 +538,8 @@ impl<'a> Reader<'a> {
         let Some(array) = value.get_ref().as_array() else {
             return Ok(self.plain_number(key)?.map(|value| vec![(0.into(), value)]).unwrap_or_default());
         };
-        let number = |value: &Value<'a>| {
-            let written = self.written(value, key)?;
-            written.number().cloned().map_err(|error| {
-                self.error(value.span(), Kind::NotANumber, error.to_string(), "a number such as 3, 0.1 or \"1/3\"")
-            })
-        };
         let point = |point: &Value<'a>| match point.get_ref().as_array().map(|array| array.iter().as_slice()) {
-            Some([x, v]) => Ok((number(x)?, number(v)?)),
+            Some([x, v]) => Ok((self.number_in(x, key)?, self.number_in(v, key)?)),
             _ => {
                 let found = format!("{} among the points of the {key}", short(self.slice(&point.span())));
                 Err(self.error(point.span(), Kind::WrongType, found, "points such as [[0, 0], [1, 2]]"))

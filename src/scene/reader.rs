@@ -44,11 +44,15 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The number at a key outside of the problem.
+    /// Reads the number at a key outside of the problem.
     pub(super) fn plain_number(&self, key: &str) -> Result<Option<Number>, SceneError> {
-        let Some((_, value)) = self.get(key) else { return Ok(None) };
+        self.get(key).map(|(_, value)| self.number_in(value, key)).transpose()
+    }
+
+    /// Reads the number `value`, which stands at `key` or in a list there.
+    pub(super) fn number_in(&self, value: &Value<'_>, key: &str) -> Result<Number, SceneError> {
         let written = self.written(value, key)?;
-        let number = Given::new("", key, &written).map(|given| Some(given.number.clone()));
+        let number = Given::new("", key, &written).map(|given| given.number.clone());
         number.map_err(|error| self.error(value.span(), error.kind, error.found, error.expected))
     }
 

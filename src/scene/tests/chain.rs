@@ -106,6 +106,7 @@ fn contradictions_are_refused_with_their_place() {
         ("bottom = 'fixed'\n", "impacts = 3\n", "expected time: a chain runs up to a time", 8),
         ("bottom = { force = 1, gap = 2 }\n", "", "bottom of [rod] with force and gap", 5),
         ("bottom = 'fixd'\n", "", "bottom = 'fixd'", 5),
+        ("bottom = { force = [[0, nan]] }\n", "", "found force = nan, expected a number such as 3", 5),
         ("bottom = 'fixed'\njoint = 'bonded'\n", "", "unknown key `joint`", 6),
     ];
     for (rod, more, found, line) in cases {
