@@ -3,21 +3,18 @@
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
+use super::answers::{Answers, Instant, run};
 use super::body::Body;
-use super::column::{ChainColumn, ChainQuantity};
+use super::column::ChainColumn;
 use super::definition::Chain;
-use super::field::BodySums;
-use super::run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
+use super::run::{ChainContact, ChainEvent, ForcePiece, Touch};
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
-use crate::number::{
-    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Open, Rational, Reads, Scalar, Value, Wide,
-    bits_for_digits,
-};
+use crate::number::{Number, Open, Scalar, Value, bits_for_digits};
 use crate::quantity::Measure;
 use crate::reason::Warning;
 use crate::solve::chain::{EXACT_PIECES, rungs};
-use crate::solve::{DEFAULT_ACCURACY, LONG, Numbers, Observer, Rung};
+use crate::solve::{DEFAULT_ACCURACY, Numbers, Observer, Rung};
 
 /// Events, contacts and forces of a chain.
 #[derive(Clone, Debug)]
@@ -85,147 +82,6 @@ fn piece_numbers(pieces: &[ForcePiece<Value>]) -> impl Iterator<Item = Judged<'_
     })
 }
 
-/// A number that can be handed out as a [`Value`].
-trait ToValue: Bounded {
-    fn to_value(self) -> Value;
-}
-
-macro_rules! to_value {
-    ($($type:ty),*) => {$(
-        impl ToValue for $type {
-            fn to_value(self) -> Value {
-                self.into()
-            }
-        }
-    )*};
-}
-to_value!(Estimate<f64>, Estimate<Float>, Rational, Interval);
-
-impl<const N: usize> ToValue for Estimate<Wide<N>> {
-    fn to_value(self) -> Value {
-        Estimate::<Float>::read(self).into()
-    }
-}
-
-/// A time that is asked about.
-#[derive(Clone, Copy, Debug)]
-enum Instant<'a> {
-    Spelled(&'a Number),
-    /// The event with this index.
-    Event(usize),
-}
-
-/// A run in any number system.
-trait Answers: fmt::Debug + Send + Sync {
-    fn listing(&self) -> ChainListing;
-    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
-    fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
-    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
-    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
-    fn ending(&self) -> &Ending;
-    fn doubt(&self) -> Option<f64>;
-    fn pieces(&self) -> usize;
-}
-
-impl Instant<'_> {
-    /// Returns the number of digits in which the time is written.
-    fn digits(self) -> u32 {
-        match self {
-            Instant::Spelled(time) => time.written_digits(),
-            Instant::Event(_) => 0,
-        }
-    }
-
-    fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
-        match self {
-            Instant::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
-            Instant::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
-        }
-    }
-}
-
-impl<N: ToValue> Answers for ChainRun<N> {
-    fn listing(&self) -> ChainListing {
-        let value = N::to_value;
-        let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
-        let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
-        let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
-        let forces = |node| if self.is_curved(node) { Vec::new() } else { Answers::forces(self, node) };
-        let forces = (0..self.nodes.len()).map(forces).collect();
-        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
-    }
-
-    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>> {
-        self.force_pieces(node).into_iter().map(|piece| piece.map(N::to_value)).collect()
-    }
-
-    fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
-        time.in_run(self).map(N::to_value)
-    }
-
-    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
-        let ChainColumn { quantity, place } = column;
-        let time = time.in_run(self)?;
-        let end = |is_top: bool| self.end_field(place, is_top, &time, side);
-        let sums = || self.sums(place, &time);
-        let found = match quantity {
-            ChainQuantity::EndDisplacement => end(false)?.displacement,
-            ChainQuantity::EndVelocity => end(false)?.velocity,
-            ChainQuantity::TopDisplacement => end(true)?.displacement,
-            ChainQuantity::TopVelocity => end(true)?.velocity,
-            ChainQuantity::Centre => sums()?.displacement,
-            ChainQuantity::CentreVelocity => sums()?.velocity,
-            ChainQuantity::Kinetic => sums()?.kinetic,
-            ChainQuantity::StrainEnergy => sums()?.strain,
-            ChainQuantity::Energy => {
-                let BodySums { kinetic, strain, potential, .. } = sums()?;
-                kinetic + strain + potential
-            }
-            ChainQuantity::Force => self.force(place, &time, side)?,
-            ChainQuantity::Gap => self.gap(place, &time)?,
-            ChainQuantity::SpringEnergy => self.spring_energies(place, &time)?[0].clone(),
-            ChainQuantity::Dissipated => self.spring_energies(place, &time)?[1].clone(),
-        };
-        Ok(found.to_value())
-    }
-
-    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
-        let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
-        Ok(ChainRun::field(self, body, &point, &time, side)?.map(N::to_value))
-    }
-
-    fn ending(&self) -> &Ending {
-        &self.ending
-    }
-
-    fn doubt(&self) -> Option<f64> {
-        self.undetermined_from()
-    }
-
-    fn pieces(&self) -> usize {
-        ChainRun::pieces(self)
-    }
-}
-
-/// Runs `chain` in the numbers of `rung`.
-fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>, Error> {
-    let observe = &|events: usize, pieces: usize| observe(events, pieces);
-    Ok(match rung {
-        Rung::Double => Box::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
-        Rung::Fractions => Box::new(ChainRun::<Rational>::new(chain, &(), observe)?),
-        Rung::Bits(..=128) if LONG => Box::new(ChainRun::<Estimate<Wide<2>>>::confirmed(chain, &(), 128, observe)?),
-        Rung::Bits(129..=256) if LONG => Box::new(ChainRun::<Estimate<Wide<4>>>::confirmed(chain, &(), 256, observe)?),
-        Rung::Bits(bits) if LONG => Box::new(ChainRun::<Estimate<Float>>::confirmed(chain, &bits, bits, observe)?),
-        Rung::Enclosures(bits) if LONG => {
-            let precision = IntervalPrecision { bits, exact: true };
-            Box::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
-        }
-        Rung::Bits(bits) | Rung::Enclosures(bits) | Rung::Confirmed(bits) => {
-            return Err(Error::NotDecided { what: "what the answer is", bits });
-        }
-    })
-}
-
 type Attempt = OnceLock<Result<Box<dyn Answers>, Error>>;
 
 /// The largest numbers that a chain can be expected to have.
@@ -287,9 +143,18 @@ pub struct ChainHistory {
     numbers: Numbers,
     observe: Observer,
     attempts: Vec<(Rung, Attempt)>,
+    /// Whether each attempt has the events of the listing.
+    agreeing: Vec<OnceLock<bool>>,
     scales: Scales,
-    /// Events, contacts and forces, with the reason of the end by the same attempt.
-    listed: OnceLock<Result<(Arc<ChainListing>, Ending), Error>>,
+    listed: OnceLock<Result<Listed, Error>>,
+}
+
+/// Events, contacts and forces, and the end of the attempt that gives them.
+struct Listed {
+    listing: Arc<ChainListing>,
+    ending: Ending,
+    /// The first time of a decision that the attempt leaves open.
+    doubt: Option<f64>,
 }
 
 impl fmt::Debug for ChainHistory {
@@ -317,9 +182,11 @@ impl Chain {
             return Err(Error::SoftExact);
         }
         let is_possible = |rung: &Rung| !(self.is_soft() && *rung == Rung::Fractions);
-        let attempts = rungs(numbers).into_iter().filter(is_possible).map(|rung| (rung, Attempt::new())).collect();
+        let attempts = rungs(numbers).into_iter().filter(is_possible).map(|rung| (rung, Attempt::new()));
+        let attempts: Vec<_> = attempts.collect();
+        let agreeing = attempts.iter().map(|_| OnceLock::new()).collect();
         let (scales, listed) = (self.scales(), OnceLock::new());
-        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts, scales, listed };
+        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts, agreeing, scales, listed };
         history.attempt(0).map(|_| ()).or_else(|error| match error {
             Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
             error => Err(error),
@@ -374,25 +241,51 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn listing(&self) -> Result<Arc<ChainListing>, Error> {
-        self.listed().map(|(listing, _)| listing.clone())
+        self.listed().map(|listed| listed.listing.clone())
     }
 
     /// Returns the reason of the end, by the attempt that gives the listing.
     ///
     /// **Errors**: the errors of the runs.
     pub fn ending(&self) -> Result<Ending, Error> {
-        self.listed().map(|(_, ending)| ending.clone())
+        self.listed().map(|listed| listed.ending.clone())
     }
 
-    fn listed(&self) -> Result<&(Arc<ChainListing>, Ending), Error> {
+    fn listed(&self) -> Result<&Listed, Error> {
         let peaks = !self.chain.is_soft();
-        let printed = |value: Value| self.printed(value);
         let list = || {
-            let found =
-                self.settled(0, |run| Ok((run.listing(), run.ending().clone())), |(listing, _)| listing.numbers(peaks));
-            found.map(|(listing, ending)| (Arc::new(listing.map(printed)), ending))
+            let query = |run: &dyn Answers| Ok((run.listing(), run.ending().clone(), run.doubt()));
+            let (listing, ending, doubt) = self.settled(0, query, |(listing, ..)| listing.numbers(peaks))?;
+            Ok(Listed { listing: Arc::new(listing.map(|value| self.printed(value))), ending, doubt })
         };
         self.listed.get_or_init(list).as_ref().map_err(Clone::clone)
+    }
+
+    /// Returns whether a run that leaves a decision open has the events of the listing, whose attempt leaves one open
+    /// too. Both are then right within their bounds under the same condition.
+    fn agrees(&self, k: usize, run: &dyn Answers) -> bool {
+        let Some(Ok(Listed { listing, ending: Ending::Time, doubt: Some(_) })) = self.listed.get() else {
+            return false;
+        };
+        let is_same = |(a, b): (&ChainEvent<Value>, &ChainEvent<Value>)| {
+            let [t, other] = [&a.t, &b.t].map(Value::to_f64);
+            let known = a.t.bound().to_f64() + b.t.bound().to_f64() + 4.0 * f64::EPSILON * t.abs();
+            a.kind == b.kind && a.node == b.node && (t - other).abs() <= known
+        };
+        *self.agreeing[k].get_or_init(|| {
+            let events = run.listing().events;
+            *run.ending() == Ending::Time
+                && events.len() == listing.events.len()
+                && events.iter().zip(&listing.events).all(is_same)
+        })
+    }
+
+    /// Finds the listing where the first attempt leaves a decision open, so that attempts are held against it.
+    fn decide(&self) {
+        if self.attempt(0).is_ok_and(|run| run.doubt().is_some()) {
+            // An error of the listing is that of the query too.
+            let _ = self.listed();
+        }
     }
 
     /// Returns the value of a column at a time; at a jump, the limit from `side`.
@@ -455,6 +348,7 @@ impl ChainHistory {
     }
 
     fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
+        self.decide();
         let value = self.settled(
             time.digits(),
             |run| run.column(column, time, side),
@@ -471,6 +365,7 @@ impl ChainHistory {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
         }
+        self.decide();
         let digits = point.written_digits().max(time.written_digits());
         let field = self.settled(digits, |run| run.field(body, point, time, side), judged)?;
         Ok(field.map(|value| self.printed(value)))
@@ -529,8 +424,9 @@ impl ChainHistory {
             if matches!(self.attempts[k].0, Rung::Bits(bits) if k < last && bits < bits_for_digits(digits) + GUARD) {
                 continue;
             }
-            let answer =
-                self.attempt(k).and_then(|run| Ok((query(run)?, is_whole(run), *run.ending() != Ending::Time)));
+            let answer = self
+                .attempt(k)
+                .and_then(|run| Ok((query(run)?, is_whole(run) || self.agrees(k, run), *run.ending() != Ending::Time)));
             let (answer, whole, ends_early) = match answer {
                 Ok(answer) => answer,
                 // The first attempt says what is wrong with the question.

@@ -537,19 +537,21 @@ impl<N: Bounded> Node<N> {
             }
             Ordering::Greater => (),
         }
+        let exact = square.try_sqrt();
+        let is_known = exact.is_some();
+        let root = exact.unwrap_or_else(|| square.near_sqrt());
         // Each form adds terms of one sign.
-        let wait = |root: N| match speed.is_ge() {
+        let wait = match speed.is_ge() {
             true => (y.clone() + root) / &(-slope.clone()),
             false => gap.clone().doubled() / (root - &y),
         };
-        let Some(root) = square.try_sqrt() else {
-            let near = (wait(square.near_sqrt()) + &from).to_f64();
-            let radicand = square / &slope.square();
-            // An opening parabola has landed at its earlier root, a falling one at its later root.
-            let surd = (from - &(y / slope)).surd(bend.is_lt(), &radicand);
-            return Ok(Root::Irrational { surd, near });
-        };
-        let at = wait(root) + &from;
-        Ok(Root::At(at))
+        let at = wait + &from;
+        if is_known {
+            return Ok(Root::At(at));
+        }
+        let radicand = square / &slope.square();
+        // An opening parabola has landed at its earlier root, a falling one at its later root.
+        let surd = (from - &(y / slope)).surd(bend.is_lt(), &radicand);
+        Ok(Root::Irrational { surd, near: at.to_f64() })
     }
 }

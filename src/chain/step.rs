@@ -1,7 +1,5 @@
 //! The linear equation of a cluster over a step, and its solution by polynomials.
 
-use std::cell::LazyCell;
-
 use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
 use super::interface::{Interface, Row};
@@ -117,42 +115,51 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Returns the polynomials of rows of the law of an interface over a step.
-    pub(super) fn curves<const R: usize>(
+    pub(super) fn curves<const R: usize>(&self, rows: [&Row<N>; R], j: usize, solved: Solved<'_, N>) -> [Curve<N>; R] {
+        let mut values = Vec::new();
+        rows.map(|row| self.row_curve(row, j, solved, &mut values))
+    }
+
+    /// Returns the polynomial of a row; `values` are the signals in all orders, which the first row that needs them
+    /// finds.
+    fn row_curve(
         &self,
-        rows: [&Row<N>; R],
+        row: &Row<N>,
         j: usize,
         (inputs, step, errors): Solved<'_, N>,
-    ) -> [Curve<N>; R] {
+        values: &mut Vec<Values<N>>,
+    ) -> Curve<N> {
         let zero = self.norm.zero();
         let is_mass = |side: usize| matches!(self.interfaces[j].sides[side].source, Source::Mass(_));
         let [below, above] = [0, 1].map(|side| is_mass(side) || !inputs[j][side].is_zero());
         let counts = [below, above, true];
         let origin = (&self.reached.at, &step.unit);
+        if row.is_zero(counts) {
+            return Curve::new(origin, vec![zero.clone()], zero, &step.width);
+        }
         let signal = |k: usize| inputs[j].get(k).filter(|_| !is_mass(k));
-        let states = step.states.iter().map(Vec::len).max().unwrap_or(1);
-        let count = inputs[j].iter().map(|curve| curve.terms.len()).max().unwrap_or(1).max(states);
-        let values = |k: usize| {
-            let state = |state: usize| step.states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
-            self.values(inputs, j, k, &state)
-        };
-        let values = LazyCell::new(|| (0..count).map(values).collect::<Vec<Values<N>>>());
+        if let Some((curve, negative)) = row.only(counts).and_then(|(k, negative)| Some((signal(k)?, negative))) {
+            // A signal that passes as it is.
+            let curve = Curve { width: step.width.clone(), ..curve.clone() }.trimmed();
+            return if negative { curve.negated() } else { curve };
+        }
+        if values.is_empty() {
+            let states = step.states.iter().map(Vec::len).max().unwrap_or(1);
+            let count = inputs[j].iter().map(|curve| curve.terms.len()).max().unwrap_or(1).max(states);
+            *values = (0..count)
+                .map(|k| {
+                    let state = |state: usize| step.states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
+                    self.values(inputs, j, k, &state)
+                })
+                .collect();
+        }
         let error = |side: usize| match &self.interfaces[j].sides[side].source {
             Source::Mass(mass) => errors[*mass].clone(),
             _ => inputs[j][side].error.clone(),
         };
         let bounds = [error(0), error(1), errors[self.masses.len() + j].clone()];
-        rows.map(|row| match row.only(counts).and_then(|(k, negative)| Some((signal(k)?, negative))) {
-            _ if row.is_zero(counts) => Curve::new(origin, vec![zero.clone()], zero.clone(), &step.width),
-            // A signal that passes as it is.
-            Some((curve, negative)) => {
-                let curve = Curve { width: step.width.clone(), ..curve.clone() }.trimmed();
-                if negative { curve.negated() } else { curve }
-            }
-            None => {
-                let terms = values.iter().map(|values| row.of(refs(values))).collect();
-                Curve::new(origin, terms, row.bound_of(refs(&bounds)), &step.width)
-            }
-        })
+        let terms = values.iter().map(|values| row.of(refs(values))).collect();
+        Curve::new(origin, terms, row.bound_of(refs(&bounds)), &step.width)
     }
 
     /// Returns the polynomial of a state over a step.

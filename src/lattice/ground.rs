@@ -303,23 +303,22 @@ impl<N: Bounded> March<'_, N> {
                 return Ok(None);
             }
         }
+        let exact = disc.try_sqrt();
+        let is_known = exact.is_some();
+        let root = exact.unwrap_or_else(|| disc.near_sqrt());
         // Each form of the root adds terms of one sign. The form without a quotient by a root keeps the exact number
         // of enclosures.
-        let rises = q.positive()?;
-        let flown = |root: N| match rises {
-            true => (q.clone() + &root) / (-slope.clone()),
-            false => {
-                let sum = root.clone() - q;
-                (self.height.clone().doubled() / sum).or_exactly(|| -((root + q) / slope))
-            }
+        let flown = if q.positive()? {
+            (q.clone() + &root) / (-slope.clone())
+        } else {
+            let sum = root.clone() - q;
+            (self.height.clone().doubled() / sum).or_exactly(|| -((root + q) / slope))
         };
-        let Some(root) = disc.try_sqrt() else {
+        if !is_known {
             let trip = self.trip_number();
-            let (age, ending) =
-                before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc], flown(disc.near_sqrt()))?;
+            let (age, ending) = before_surd(&self.problem.units.round_trip, trip, [from, q, slope, &disc], flown)?;
             return Err(Stop::Halt(Halt { trip, age, ending }));
-        };
-        let flown = flown(root);
+        }
         Ok(Some((from.clone().nominal() + flown).with_identity()))
     }
 }

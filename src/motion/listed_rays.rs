@@ -68,9 +68,8 @@ impl<S: Scalar> ListedRays<S> {
 
     /// Returns the times at which rays pass `point` that are indistinguishable from `time` within both bounds.
     pub(super) fn near(&self, point: &S, time: &S) -> Vec<S> {
-        let mut near: Vec<S> = self.about(point, time).into_iter().map(|(met, _)| met).collect();
-        near.retain(|met| is_open(met, time));
-        near
+        let near = self.about(point, time).into_iter().map(|(met, _)| met);
+        near.filter(|met| is_open(met, time)).collect()
     }
 
     /// Returns the rays that pass `point` from one time to another, in order.

@@ -64,35 +64,37 @@ impl<S: Scalar> RayRegister<S> {
 
     /// Returns the time of a ray at `point` within `roundings` plus the ray's own bound of `time`, or else `time`.
     pub fn meant(&self, point: &S, time: S, roundings: f64) -> S {
-        let known = |met: &S| self.end.below(met) != Ok(true);
-        self.within(point, &time, roundings).map(|(met, _)| met).find(known).unwrap_or(time)
+        let known = |(met, _): &(S, bool)| self.end.below(met) != Ok(true);
+        self.within(point, &time, roundings).into_iter().find(known).map_or(time, |(met, _)| met)
     }
 
     /// Returns the point that a ray reaches at `time`, if it passes `point` within `roundings` plus the ray's own bound
     /// of `time`, or else `point`.
     pub(crate) fn reached(&self, point: S, time: &S, roundings: f64) -> S {
-        let Some((met, upward)) = self.within(&point, time, roundings).next() else { return point };
         let wave_speed = match &self.rays {
             Rays::Repeated(rays) => &rays.wave_speed,
             Rays::Listed(rays) => &rays.wave_speed,
         };
-        let way = (time.clone() - met) * wave_speed;
-        if upward { point + way } else { point - way }
+        match self.within(&point, time, roundings).first() {
+            Some((met, true)) => (time.clone() - met) * wave_speed + point,
+            Some((met, false)) => (met.clone() - time) * wave_speed + point,
+            None => point,
+        }
     }
 
     /// Returns the times of rays at `point` within `roundings` plus the ray's own bound of `time`, each with whether
     /// the ray goes upward.
-    fn within(&self, point: &S, time: &S, roundings: f64) -> impl Iterator<Item = (S, bool)> + use<S> {
-        let about = match &self.rays {
+    fn within(&self, point: &S, time: &S, roundings: f64) -> Vec<(S, bool)> {
+        let mut about = match &self.rays {
             Rays::Repeated(rays) => rays.about(point, time, 0.0),
             Rays::Listed(rays) => rays.about(point, time),
         };
-        let time = time.clone();
-        about.into_iter().filter(move |(met, _)| {
+        about.retain(|(met, _)| {
             let bound = met.log2_error().exp2();
             let known = roundings + if bound.is_finite() { bound } else { 0.0 };
-            (met.clone() - &time).to_f64().abs() <= known
-        })
+            (met.clone() - time).to_f64().abs() <= known
+        });
+        about
     }
 
     /// Returns the times at which rays pass `point` that are indistinguishable from `time` within both bounds.

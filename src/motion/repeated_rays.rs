@@ -109,9 +109,8 @@ impl<S: Scalar> RepeatedRays<S> {
         if !about(travel) && !about(-travel) {
             return Vec::new();
         }
-        let mut near: Vec<S> = self.about(point, time, widest).into_iter().map(|(met, _)| met).collect();
-        near.retain(|met| is_open(met, time));
-        near
+        let near = self.about(point, time, widest).into_iter().map(|(met, _)| met);
+        near.filter(|met| is_open(met, time)).collect()
     }
 
     /// Returns the times at which rays pass `point` near `time`, up to `widest` round trips apart, each with whether

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, Windows, not_told};
 use super::ladder::Engined;
-use super::plan::Plan;
+use super::plan::{LONG, Plan};
 use super::question::Observer;
 use crate::error::Error;
 use crate::lattice::Undamped;
@@ -297,9 +297,10 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         let mut given = self.point(point)?;
         let near = point.spelled_as() == Some(Spelling::Near);
         let at = self.time_at_point(&given, near, time)?;
-        // The time of an event or the end is the engine's own, and the point alone was rounded.
+        // The time of an event or the end is the engine's own, and the point alone was rounded. Without long numbers
+        // answers are doubles, and such points are spelled.
         let is_end = |point: &N| point.vanishes() == Ok(true) || self.engine.scales().length.alike(point);
-        let is_rounded = rounds::<M>(&point.precision()) && spelled(time).is_none();
+        let is_rounded = LONG && rounds::<M>(&point.precision()) && spelled(time).is_none();
         if is_rounded && self.known(time).is_some() && !is_end(&given) {
             given = self.rays.reached(given, &at, roundings(time));
         }

@@ -12,7 +12,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, serde::Serialize)]
 pub struct Sensitivity {
     by: &'static str,
-    /// Number of events after t = 0 in the measurement.
+    /// Number of events in the measurement whose times depend on the value.
     events: usize,
     /// `|p ∂t/∂p|/t` of the last event.
     last: f64,
@@ -54,8 +54,8 @@ impl std::fmt::Display for Sensitivity {
         let (last, digits) = (last.decimal(2), digits_per_event.decimal(2));
         write!(
             f,
-            "1 % more {by} changes the time of the last of {events} events by {last} %, to first order: each event \
-             costs {digits} digits"
+            "1 % more {by} changes the time of the last of {events} events that depend on it by {last} %, to first order: \
+             each event costs {digits} digits"
         )
     }
 }

@@ -545,3 +545,30 @@ fn fractions_and_bodies_by_themselves_are_refused() {
     let release = listing(&chain, Numbers::default()).contacts[0].release.clone().unwrap();
     near(&release, 1.0 + std::f64::consts::FRAC_PI_2, 1e-14);
 }
+
+/// Where no attempt decides whether a front that rises from zero closes a contact, doubles with the events of the longest
+/// attempt answer within their bounds.
+#[test]
+fn doubles_answer_where_all_attempts_have_the_same_doubt() {
+    let bar = || Body::new(1.into(), 1.into(), 1.into());
+    let spring = Spring { stiffness: 20.into(), damping: 0.into() };
+    let ground = End::Ground { gap: 0.into(), velocity: Vec::new() };
+    let chain = Chain::builder(bar()).contact(0.into(), bar().with_velocity((-1).into())).spring(1, spring);
+    let chain = chain.bottom(ground).until(3.into()).build().unwrap();
+    let history = chain.solve(Numbers::Double(Some(1e-6))).unwrap();
+    let truth = chain.solve(Numbers::Digits(30)).unwrap();
+    assert!(history.warning().is_some(), "no doubt");
+    let mut in_doubles = 0;
+    for name in ["force.bottom", "force.1", "v_top.2", "u_end.1"] {
+        let column = ChainColumn::read(name, &chain).unwrap();
+        for tenths in 11..30 {
+            let time = format!("{}.{}", tenths / 10, tenths % 10).parse().unwrap();
+            let [ours, truth] = [&history, &truth].map(|history| history.value(column, &time, Side::Right).unwrap());
+            let off = (ours.to_f64() - truth.to_f64()).abs();
+            let bound = ours.bound().to_f64();
+            assert!(off <= bound + f64::EPSILON * truth.to_f64().abs(), "{name} {time}: {ours:?} {truth:?}");
+            in_doubles += usize::from(bound > 8.0 * f64::EPSILON * ours.to_f64().abs());
+        }
+    }
+    assert!(in_doubles > 30, "{in_doubles} of 76 in doubles");
+}

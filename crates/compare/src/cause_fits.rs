@@ -66,9 +66,12 @@ const MOST_DAMPED: f64 = 1.0;
 const SOFT: f64 = 0.1;
 /// Change of a number up to which the derivatives of the signals are taken for the same.
 const SAME_SLOPE: f64 = 0.01;
-/// Limit of the ratio of a fitted value to that of the scene. A fit to other data runs away, and a rod of a much faster
-/// wave takes as much longer to solve.
+/// Limit of the ratio of a fitted value to that of the scene.
 const MAX_RATIO: f64 = 1000.0;
+/// Limit of the ratio of the round trip of a fitted rod to that of the scene, in either direction: that of a modulus in
+/// another unit, and no more. A fit to other data runs away, and a rod of a much faster wave takes as much longer to
+/// solve.
+const MAX_TRIP_RATIO: f64 = 32.0;
 /// Standard error below which a gravity of nearly zero is none.
 pub(super) const NO_GRAVITY: f64 = 0.009;
 /// Factor of the ‖e‖₂² that the best cause leaves, up to which another cause explains the data about as well.
@@ -128,8 +131,11 @@ impl CauseFits<'_> {
     fn problem_with(&self, cause: Cause, p: f64) -> Option<Problem> {
         let problem = self.model.problem;
         let (parameter, value) = match cause {
-            // A rod that is short is crossed as quickly as by a fast wave.
-            Cause::Value(Parameter::Length) if (1.0 + p) * MAX_RATIO < 1.0 => return None,
+            Cause::Value(Parameter::Length | Parameter::WaveSpeed)
+                if !(1.0 / MAX_TRIP_RATIO..=MAX_TRIP_RATIO).contains(&(1.0 + p)) =>
+            {
+                return None;
+            }
             Cause::Value(parameter) if (1.0 + p).abs() <= MAX_RATIO => {
                 (parameter, parameter.value(problem)? * (1.0 + p))
             }

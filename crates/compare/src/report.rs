@@ -427,7 +427,8 @@ struct ComparedReport<'a> {
     hints: &'a [Hint],
     /// The values from which on a wrong number would be named; empty where one is, or where that is not known.
     told_from: &'a [Detectable],
-    /// The time over which the fronts of the data are spread; null where that is not known, or within a step.
+    /// The time over which the fronts of the data are spread; null where that is not known, within a step, or more than
+    /// a quarter of a round trip.
     spread: Option<f64>,
     /// The values of the scene that explain the data best, where some are asked for.
     fit: Option<FitReport<'a>>,

@@ -111,7 +111,7 @@ pub(super) fn unstable_energy(columns: &[ComparedColumn]) -> Option<Hint> {
 ///
 /// **Source**: `∫ e² dt = J² W/12` for a ramp of width `W` about a jump `J`; the median over the jumps at both ends of
 /// the first contact, and at the top when the first wave arrives. The start is left out, as there are no data before
-/// it.
+/// it. Data that are farther off than any ramp among the samples about the jump have no fronts.
 pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) -> Result<Option<f64>, Error> {
     let (history, Agreement { grid, quantities, .. }) = (reference.history, agreement);
     let trip = history.scales().time;
@@ -133,7 +133,7 @@ pub(super) fn fronts_spread(reference: &Reference<'_>, agreement: &Agreement) ->
         }
     }
     widths.sort_by(f64::total_cmp);
-    Ok(widths.get(widths.len() / 2).copied().filter(|width| *width > agreement.step))
+    Ok(widths.get(widths.len() / 2).copied().filter(|width| *width > agreement.step && *width < trip / 4.0))
 }
 
 /// Returns the hint at velocities that are half a step from their times, before any wave has reached the end of the rod

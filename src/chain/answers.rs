@@ -1,0 +1,156 @@
+//! The answers of a run of a chain in any number system, as [`Value`]s.
+
+use std::fmt;
+
+use super::column::{ChainColumn, ChainQuantity};
+use super::definition::Chain;
+use super::field::BodySums;
+use super::history::ChainListing;
+use super::run::{ChainRun, ForcePiece};
+use crate::error::Error;
+use crate::motion::{Ending, Field, Side};
+use crate::number::{
+    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Open, Rational, Reads, Value, Wide,
+};
+use crate::solve::{LONG, Observer, Rung};
+
+/// A number that can be handed out as a [`Value`].
+trait ToValue: Bounded {
+    fn to_value(self) -> Value;
+}
+
+macro_rules! to_value {
+    ($($type:ty),*) => {$(
+        impl ToValue for $type {
+            fn to_value(self) -> Value {
+                self.into()
+            }
+        }
+    )*};
+}
+to_value!(Estimate<f64>, Estimate<Float>, Rational, Interval);
+
+impl<const N: usize> ToValue for Estimate<Wide<N>> {
+    fn to_value(self) -> Value {
+        Estimate::<Float>::read(self).into()
+    }
+}
+
+/// A time that is asked about.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Instant<'a> {
+    Spelled(&'a Number),
+    /// The event with this index.
+    Event(usize),
+}
+
+/// A run in any number system.
+pub(super) trait Answers: fmt::Debug + Send + Sync {
+    fn listing(&self) -> ChainListing;
+    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
+    fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
+    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
+    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
+    fn ending(&self) -> &Ending;
+    fn doubt(&self) -> Option<f64>;
+    fn pieces(&self) -> usize;
+}
+
+impl Instant<'_> {
+    /// Returns the number of digits in which the time is written.
+    pub(super) fn digits(self) -> u32 {
+        match self {
+            Instant::Spelled(time) => time.written_digits(),
+            Instant::Event(_) => 0,
+        }
+    }
+
+    fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
+        match self {
+            Instant::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
+            Instant::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
+        }
+    }
+}
+
+impl<N: ToValue> Answers for ChainRun<N> {
+    fn listing(&self) -> ChainListing {
+        let value = N::to_value;
+        let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
+        let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
+        let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
+        let forces = |node| if self.is_curved(node) { Vec::new() } else { Answers::forces(self, node) };
+        let forces = (0..self.nodes.len()).map(forces).collect();
+        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
+    }
+
+    fn forces(&self, node: usize) -> Vec<ForcePiece<Value>> {
+        self.force_pieces(node).into_iter().map(|piece| piece.map(N::to_value)).collect()
+    }
+
+    fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
+        time.in_run(self).map(N::to_value)
+    }
+
+    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
+        let ChainColumn { quantity, place } = column;
+        let time = time.in_run(self)?;
+        let end = |is_top: bool| self.end_field(place, is_top, &time, side);
+        let sums = || self.sums(place, &time);
+        let found = match quantity {
+            ChainQuantity::EndDisplacement => end(false)?.displacement,
+            ChainQuantity::EndVelocity => end(false)?.velocity,
+            ChainQuantity::TopDisplacement => end(true)?.displacement,
+            ChainQuantity::TopVelocity => end(true)?.velocity,
+            ChainQuantity::Centre => sums()?.displacement,
+            ChainQuantity::CentreVelocity => sums()?.velocity,
+            ChainQuantity::Kinetic => sums()?.kinetic,
+            ChainQuantity::StrainEnergy => sums()?.strain,
+            ChainQuantity::Energy => {
+                let BodySums { kinetic, strain, potential, .. } = sums()?;
+                kinetic + strain + potential
+            }
+            ChainQuantity::Force => self.force(place, &time, side)?,
+            ChainQuantity::Gap => self.gap(place, &time)?,
+            ChainQuantity::SpringEnergy => self.spring_energies(place, &time)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies(place, &time)?[1].clone(),
+        };
+        Ok(found.to_value())
+    }
+
+    fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
+        let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
+        Ok(ChainRun::field(self, body, &point, &time, side)?.map(N::to_value))
+    }
+
+    fn ending(&self) -> &Ending {
+        &self.ending
+    }
+
+    fn doubt(&self) -> Option<f64> {
+        self.undetermined_from()
+    }
+
+    fn pieces(&self) -> usize {
+        ChainRun::pieces(self)
+    }
+}
+
+/// Runs `chain` in the numbers of `rung`.
+pub(super) fn run(rung: Rung, chain: &Chain, observe: &Observer) -> Result<Box<dyn Answers>, Error> {
+    let observe = &|events: usize, pieces: usize| observe(events, pieces);
+    Ok(match rung {
+        Rung::Double => Box::new(ChainRun::<Estimate<f64>>::new(chain, &(), observe)?),
+        Rung::Fractions => Box::new(ChainRun::<Rational>::new(chain, &(), observe)?),
+        Rung::Bits(..=128) if LONG => Box::new(ChainRun::<Estimate<Wide<2>>>::confirmed(chain, &(), 128, observe)?),
+        Rung::Bits(129..=256) if LONG => Box::new(ChainRun::<Estimate<Wide<4>>>::confirmed(chain, &(), 256, observe)?),
+        Rung::Bits(bits) if LONG => Box::new(ChainRun::<Estimate<Float>>::confirmed(chain, &bits, bits, observe)?),
+        Rung::Enclosures(bits) if LONG => {
+            let precision = IntervalPrecision { bits, exact: true };
+            Box::new(ChainRun::<Interval>::new(chain, &precision, observe)?)
+        }
+        Rung::Bits(bits) | Rung::Enclosures(bits) | Rung::Confirmed(bits) => {
+            return Err(Error::NotDecided { what: "what the answer is", bits });
+        }
+    })
+}
