@@ -434,8 +434,8 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         Ok(bounded.collect())
     }
 
-    /// Computes the highest point from `h` and `h′` near it: at the release the ground has pushed for an uncertain time,
-    /// so that `h′` is known less well there.
+    /// Computes the highest point from `h` and `h′` near it. At the release `h′` is known less well, as the ground has
+    /// pushed for an uncertain time.
     fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
         let events = self.course.events.get(release..)?;
         let Event { t, h, h_rate, .. } = events.first().filter(|event| !event.h_rate.value().is_negative())?;

@@ -84,8 +84,9 @@ pub(super) fn rough_slope_at<N: Bounded>(terms: &[N], width: &N) -> [f64; 2] {
     let scaled = terms.iter().enumerate().skip(1).map(|(k, term)| k as f64 * term.to_f64()).rev();
     let sums = |[sum, size]: [f64; 2], term: f64| [sum * at + term, size * at.abs() + term.abs()];
     let [sum, size] = scaled.fold([0.0, 0.0], sums);
-    // Terms and width round once each, a product and a sum twice.
-    [sum, size * 8.0 * f64::EPSILON * (terms.len() as f64 + 1.0)]
+    // Each step rounds twice, each term and the width once, and what underflows is less than the least normal double.
+    let count = terms.len() as f64 + 1.0;
+    [sum, size * 8.0 * f64::EPSILON * count + 1e-300 * count]
 }
 
 /// Returns the coefficients of the derivative.

@@ -16,11 +16,12 @@
 //!
 //! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
-//! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod),
-//! `answers` (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers
-//! of a chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or masses have, in place of `node`, `curve` (signals that are
-//! polynomials), `interface` (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its
-//! error), `cluster` (nodes that act on each other at once), `peak` (greatest values).
+//! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
+//! (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
+//! chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
+//! masses have, in place of `node`, `curve` (signals that are polynomials), `interface` (a node with its signals),
+//! `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that act on each other at
+//! once), `peak` (greatest values).
 
 mod answers;
 mod body;

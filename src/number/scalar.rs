@@ -167,10 +167,19 @@ pub trait Scalar:
     }
 
     /// Returns the square root of a positive number within `2⁻¹⁰⁰` of itself, if the system holds as many bits: one
-    /// Newton step doubles the 53 correct bits of a double.
+    /// Newton step doubles the 53 correct bits of a double. Zero below the range of doubles.
+    ///
+    /// ```
+    /// use dalembert::Rational;
+    /// use dalembert::number::Scalar;
+    /// let root = Rational::from(2).near_sqrt();
+    /// assert!(Scalar::to_f64(&(Scalar::square(&root) - Rational::from(2))).abs() < 1e-29);
+    /// let small = (0..5).fold(root.ratio(1, 10_i64.pow(18)), |x, _| Scalar::square(&x));
+    /// assert_eq!(small.near_sqrt(), Rational::from(0));
+    /// ```
     fn near_sqrt(&self) -> Self {
         let root = self.double(self.to_f64().sqrt());
-        (self.clone() / &root + &root) / self.int(2)
+        if root.to_f64() == 0.0 { root } else { (self.clone() / &root + &root) / self.int(2) }
     }
 
     /// Returns `p/q` in the precision of `self`, for formulas with fractional constants.

@@ -297,8 +297,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         let mut given = self.point(point)?;
         let near = point.spelled_as() == Some(Spelling::Near);
         let at = self.time_at_point(&given, near, time)?;
-        // The time of an event or the end is the engine's own, and the point alone was rounded. Without long numbers
-        // answers are doubles, and such points are spelled.
+        // The engine knows the time of its own event or end, while the point was rounded: it is moved onto the ray that
+        // passes it. The page, which has no long numbers, has no room for this.
         let is_end = |point: &N| point.vanishes() == Ok(true) || self.engine.scales().length.alike(point);
         let is_rounded = LONG && rounds::<M>(&point.precision()) && spelled(time).is_none();
         if is_rounded && self.known(time).is_some() && !is_end(&given) {

@@ -54,8 +54,8 @@ impl std::fmt::Display for Sensitivity {
         let (last, digits) = (last.decimal(2), digits_per_event.decimal(2));
         write!(
             f,
-            "1 % more {by} changes the time of the last of {events} events that depend on it by {last} %, to first order: \
-             each event costs {digits} digits"
+            "1 % more {by} changes the time of the last of {events} events that depend on it by {last} %, to first \
+             order: each event costs {digits} digits"
         )
     }
 }

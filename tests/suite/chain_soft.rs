@@ -546,7 +546,7 @@ fn fractions_and_bodies_by_themselves_are_refused() {
     near(&release, 1.0 + std::f64::consts::FRAC_PI_2, 1e-14);
 }
 
-/// Where no attempt decides whether a front that rises from zero closes a contact, doubles with the events of the longest
+/// A front that rises from zero closes a contact, which no attempt decides: doubles with the events of the longest
 /// attempt answer within their bounds.
 #[test]
 fn doubles_answer_where_all_attempts_have_the_same_doubt() {

@@ -3,7 +3,7 @@
 use super::agreement::Agreement;
 use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
-use super::cause_fits::{Candidate, CauseFits, Fitted};
+use super::cause_fits::{Candidate, CauseFits, Fitted, LEFT_BY_DAMPING};
 use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
@@ -75,7 +75,8 @@ impl Diagnosis {
         // A cause is asserted where no other one explains the data about as well. A scheme that takes up energy looks
         // like damping that is too strong, but for errors of its own.
         let hints = |fits: &CauseFits<'_>, best: &[Fitted]| -> Vec<Hint> {
-            let is_like_scheme = |fit: &&Fitted| fit.cause == Cause::Damping && fit.value > 0.0 && !fit.is_clear();
+            let is_like_scheme =
+                |fit: &&Fitted| fit.cause == Cause::Damping && fit.value > 0.0 && fit.share_left > LEFT_BY_DAMPING;
             let scheme = best.iter().find(is_like_scheme);
             let asserted = best.len() == 1 && scheme.is_none();
             let hints = best.iter().map(|fit| fits.hint(fit.kind, fit, reference));
