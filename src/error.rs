@@ -182,6 +182,12 @@ pub enum Error {
         /// The number of contacts.
         found: usize,
     },
+    /// A number of a contact that lasts to the end of the history.
+    #[error("contact number {} lasts to the end of the history", contact + 1)]
+    ContactLasts {
+        /// Its index, from 0.
+        contact: usize,
+    },
     /// A start or a top for which the first contact has no closed form.
     #[error(
         "found a gap, a start that is not uniform, or a fixed top; expected a uniform start on the ground under a free \

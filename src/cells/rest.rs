@@ -11,7 +11,7 @@ use super::record::Record;
 use super::series::bound;
 use super::strips::{Node, Pool};
 use crate::motion::Ending;
-use crate::reason::{Reason, StillState};
+use crate::reason::{NoBounceReason, Reason, StillState};
 use crate::special::RoundedSpecial;
 
 /// Multiple of the accumulated error below which a motion counts as over.
@@ -143,7 +143,13 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let (from, speed) = ((now.clone() * &units.time).to_f64(), velocity * units.velocity.to_f64());
         let still = |state| Reason::Still { from, speed, state };
         let Goal::Time(end) = goal else {
-            return neither.then(|| Ending::Undecided(still(StillState::Open)));
+            // A rod that nothing moves or presses stays where it is.
+            let nothing = || Reason::NoBounce(NoBounceReason::NothingMoves);
+            return neither.then(|| match (speed == 0.0, self.contact) {
+                (true, true) => self.held(nothing()),
+                (true, false) => Ending::NoFurtherImpact(nothing()),
+                (false, _) => Ending::Undecided(still(StillState::Open)),
+            });
         };
         let since = since.get_or_insert_with(|| now.clone());
         if (now.clone() - &*since).to_f64() < 1.0 || time < 1.0 {

@@ -49,7 +49,9 @@ pub(super) trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
     fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
+    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits.
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
+    /// Returns the field at a point; where a ray is not told from it, the bounds cover both limits.
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
     fn ending(&self) -> &Ending;
     fn doubt(&self) -> Option<f64>;
@@ -81,7 +83,8 @@ impl<N: ToValue> Answers for ChainRun<N> {
         let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
         let forces = |node| if self.is_curved(node) { Vec::new() } else { Answers::forces(self, node) };
         let forces = (0..self.nodes.len()).map(forces).collect();
-        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()) }
+        let ending = self.ending.clone();
+        ChainListing { events, touches, contacts, forces, end: value(self.end().clone()), ending }
     }
 
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>> {
@@ -95,7 +98,7 @@ impl<N: ToValue> Answers for ChainRun<N> {
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
         let ChainColumn { quantity, place } = column;
         let time = time.in_run(self)?;
-        let end = |is_top: bool| self.end_field(place, is_top, &time, side);
+        let end = |is_top: bool| self.field_within(place, &self.end_point(place, is_top), &time, side);
         let sums = || self.sums(place, &time);
         let found = match quantity {
             ChainQuantity::EndDisplacement => end(false)?.displacement,
@@ -110,17 +113,17 @@ impl<N: ToValue> Answers for ChainRun<N> {
                 let BodySums { kinetic, strain, potential, .. } = sums()?;
                 kinetic + strain + potential
             }
-            ChainQuantity::Force => self.force(place, &time, side)?,
+            ChainQuantity::Force => self.force_within(place, &time, side)?,
             ChainQuantity::Gap => self.gap(place, &time)?,
-            ChainQuantity::SpringEnergy => self.spring_energies(place, &time)?[0].clone(),
-            ChainQuantity::Dissipated => self.spring_energies(place, &time)?[1].clone(),
+            ChainQuantity::SpringEnergy => self.spring_energies(place, &time, side)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies(place, &time, side)?[1].clone(),
         };
         Ok(found.to_value())
     }
 
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
-        Ok(ChainRun::field(self, body, &point, &time, side)?.map(N::to_value))
+        Ok(self.field_within(body, &point, &time, side)?.map(N::to_value))
     }
 
     fn ending(&self) -> &Ending {

@@ -56,7 +56,7 @@ pub(super) struct Cluster<N> {
     /// States of the step before, their unit of time, and its width in that unit.
     pub(super) before: Option<(Vec<Vec<N>>, N, N)>,
     /// Latest events of the interfaces.
-    latest: Vec<Option<Moment<N>>>,
+    latest: Vec<Option<Latest<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
     jumps: Vec<usize>,
     /// Number of events without a step between them.
@@ -73,6 +73,14 @@ struct Output<N> {
     force: Curve<N>,
     leaving: [Curve<N>; 2],
     softness: Option<Softness<N>>,
+}
+
+/// The latest change of a contact.
+#[derive(Clone, Debug)]
+struct Latest<N> {
+    moment: Moment<N>,
+    /// Whether it is an impact or a release.
+    is_event: bool,
 }
 
 /// Changes of a contact that a step ends with.
@@ -206,7 +214,7 @@ impl<N: Bounded> Cluster<N> {
         waves: &mut [[Wave<N>; 2]],
     ) -> Result<Vec<(usize, Occurrence<N>)>, Stop> {
         self.look_up(waves);
-        self.pass_breaks(waves);
+        let mut occurrences = self.pass_breaks(waves);
         let mut end = self.end(horizon);
         let (width, late) = (end.at.clone() - &self.reached.at).centred();
         if width.positive() != Ok(true) {
@@ -238,9 +246,11 @@ impl<N: Bounded> Cluster<N> {
                 (width, end)
             }
         };
-        let at = if is_exact_zero(&next.late) { width.clone() } else { width.clone().widened(&next.late) };
-        let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         let is_at_once = next.at.alike(&origin);
+        // An event at once is as late as the breaks that it follows.
+        let late = if is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
+        let at = if is_exact_zero(&late) { width.clone() } else { width.clone().widened(&late) };
+        let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         if is_at_once {
             self.repeated += 1;
             if self.repeated > MOST_REPEATED {
@@ -257,9 +267,8 @@ impl<N: Bounded> Cluster<N> {
         if !is_at_once {
             self.reached = next;
         } else if self.reached.late.below(&next.late) != Ok(false) {
-            self.reached = Moment::beside(self.reached.at.clone(), greater(next.late, self.reached.late.clone()));
+            self.reached = Moment::beside(self.reached.at.clone(), late);
         }
-        let mut occurrences = Vec::new();
         for (j, change, at) in found {
             if !first.as_ref().is_some_and(|first| at.meets(first)) {
                 continue;
@@ -284,8 +293,10 @@ impl<N: Bounded> Cluster<N> {
         Ok(occurrences)
     }
 
-    /// Passes on to the pieces of all signals that begin at the time that is reached.
-    fn pass_breaks(&mut self, waves: &[[Wave<N>; 2]]) {
+    /// Passes on to the pieces of all signals that begin at the time that is reached. A break that agrees with the latest
+    /// event within their bounds counts as one with it: the result has the rates after it, without a kind.
+    fn pass_breaks(&mut self, waves: &[[Wave<N>; 2]]) -> Vec<(usize, Occurrence<N>)> {
+        let mut occurrences = Vec::new();
         let mut spread = self.reached.late.clone();
         for j in 0..self.interfaces.len() {
             let mut passed: Vec<(Moment<N>, N)> = Vec::new();
@@ -315,14 +326,32 @@ impl<N: Bounded> Cluster<N> {
                 self.check_sliver(j, &passed);
             }
             if !passed.is_empty()
-                && let Some(event) = &self.latest[j]
+                && let Some(Latest { moment: event, is_event }) = &self.latest[j]
                 && event.meets(&self.reached)
                 && !passed.iter().all(|(moment, _)| moment.is(event))
             {
+                if *is_event {
+                    let drive = self.arriving(j, 1) - self.arriving(j, 0);
+                    let t = self.reached.time.clone();
+                    occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
+                }
                 self.doubts();
             }
         }
         self.reached.late = upper(spread);
+        occurrences
+    }
+
+    /// Returns the signal that arrives at a side of an interface at the time that is reached.
+    fn arriving(&self, j: usize, side: usize) -> N {
+        let side = &self.interfaces[j].sides[side];
+        match &side.source {
+            Source::Mass(mass) => {
+                let mass = &self.masses[*mass];
+                mass.velocity.clone().widened(&(self.norm.clone() / &mass.root))
+            }
+            _ => side.signal.value_at(&self.reached.time),
+        }
     }
 
     /// Notes a doubt if the force of a closed contact may be greater between two breaks that coincide within their
@@ -447,7 +476,7 @@ impl<N: Bounded> Cluster<N> {
         if at_once && self.jumps[j] > 1 {
             self.doubts();
         }
-        self.latest[j] = Some(self.reached.clone());
+        self.latest[j] = Some(Latest { moment: self.reached.clone(), is_event: change != Change::Return });
         let was_sprung = self.interfaces[j].is_sprung();
         let root = self.linear.root(masses + j).cloned();
         let interface = &mut self.interfaces[j];

@@ -231,3 +231,45 @@ impl ChainContactQuantity {
         }
     }
 }
+
+/// A quantity of a chain by itself: one over time, or that of a contact.
+///
+/// ```
+/// use dalembert::chain::{Body, Chain, ChainQuery};
+/// let bar = || Body::new(1.into(), 1.into(), 1.into());
+/// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
+/// assert!(matches!(ChainQuery::read("u_top.2", &chain), Some(ChainQuery::Column(_))));
+/// assert!(matches!(ChainQuery::read("release.1", &chain), Some(ChainQuery::Contact(1, _))));
+/// # Ok::<(), dalembert::problem::ProblemError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChainQuery {
+    /// A quantity over time.
+    Column(ChainColumn),
+    /// A quantity of a contact of the node with this index, 0 at the bottom.
+    Contact(usize, ChainContactQuantity),
+}
+
+impl ChainQuery {
+    /// Reads `force.1` or `release.1`; `None` if the chain has no such quantity or place.
+    pub fn read(name: &str, chain: &Chain) -> Option<Self> {
+        let column = ChainColumn::read(name, chain).map(ChainQuery::Column);
+        let contact =
+            || ChainContactQuantity::read(name, chain).map(|(node, number)| ChainQuery::Contact(node, number));
+        column.or_else(contact)
+    }
+
+    /// Returns the names of all quantities of `chain`.
+    pub fn names(chain: &Chain) -> Vec<String> {
+        let columns = ChainColumn::all(chain).into_iter().map(|column| column.name(chain));
+        columns.chain(ChainContactQuantity::names(chain)).collect()
+    }
+
+    /// Returns the measure of the quantity.
+    pub fn measure(self) -> Measure {
+        match self {
+            ChainQuery::Column(column) => column.quantity.measure(),
+            ChainQuery::Contact(_, quantity) => quantity.measure(),
+        }
+    }
+}

@@ -88,6 +88,19 @@ impl<N: Bounded> ChainRun<N> {
     /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if the point is not told from a
     /// ray.
     pub fn field(&self, body: usize, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
+        self.field_by((body, point, time), |wave, time| wave.at(time, side))
+    }
+
+    /// Returns [`ChainRun::field`], with bounds that cover both limits where the point is not told from a ray.
+    pub(super) fn field_within(&self, body: usize, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
+        self.field_by((body, point, time), |wave, time| Ok(wave.within(time, side)))
+    }
+
+    fn field_by(
+        &self,
+        (body, point, time): (usize, &N, &N),
+        at: impl Fn(&Wave<N>, &N) -> Result<(N, N), Open>,
+    ) -> Result<Field<N>, Error> {
         self.check_time(time)?;
         let Bar { length, wave_speed, mass, .. } = &self.bars[body];
         let is_rigid = mass.is_some();
@@ -96,8 +109,8 @@ impl<N: Bounded> ChainRun<N> {
         }
         let [up, down] = &self.waves[body];
         let above = length.clone() - point;
-        let rising = up.at(&(time.clone() - point.clone() / wave_speed), side)?;
-        let falling = down.at(&(time.clone() - above / wave_speed), side)?;
+        let rising = at(up, &(time.clone() - point.clone() / wave_speed))?;
+        let falling = at(down, &(time.clone() - above / wave_speed))?;
         let fall = self.gravity.clone() * time;
         Ok(Field {
             displacement: (rising.1 + &falling.1 - fall.clone() * time).halved(),
@@ -108,8 +121,13 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns displacement, velocity and strain of the bottom or the top of a body, as [`ChainRun::field`] does.
     pub fn end_field(&self, body: usize, is_top: bool, time: &N, side: Side) -> Result<Field<N>, Error> {
+        self.field(body, &self.end_point(body, is_top), time, side)
+    }
+
+    /// Returns the point of the bottom or the top of a body.
+    pub(super) fn end_point(&self, body: usize, is_top: bool) -> N {
         let length = &self.bars[body].length;
-        self.field(body, &if is_top { length.clone() } else { length.zero() }, time, side)
+        if is_top { length.clone() } else { length.zero() }
     }
 
     /// Returns the tensile axial force of a body at its point `x`, as [`ChainRun::field`] does.

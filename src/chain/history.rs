@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::answers::{Answers, Instant, run};
 use super::body::Body;
-use super::column::ChainColumn;
+use super::column::{ChainColumn, ChainContactQuantity};
 use super::definition::Chain;
 use super::run::{ChainContact, ChainEvent, ForcePiece, Touch};
 use crate::error::Error;
@@ -30,6 +30,8 @@ pub struct ChainListing {
     pub forces: Vec<Vec<ForcePiece<Value>>>,
     /// The last time.
     pub end: Value,
+    /// The reason of the end.
+    pub ending: Ending,
 }
 
 /// Share of the natural scale from which on the size of a number decides whether its bound is small enough.
@@ -50,7 +52,13 @@ impl ChainListing {
             contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
             forces: self.forces.into_iter().map(pieces).collect(),
             end: f(self.end),
+            ending: self.ending,
         }
+    }
+
+    /// Returns whether impulse and peak of a contact are known: it ends, or it lasts to the time asked for.
+    pub fn is_settled(&self, contact: &ChainContact<Value>) -> bool {
+        contact.release.is_some() || self.ending == Ending::Time
     }
 
     /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to
@@ -149,10 +157,9 @@ pub struct ChainHistory {
     listed: OnceLock<Result<Listed, Error>>,
 }
 
-/// Events, contacts and forces, and the end of the attempt that gives them.
+/// Events, contacts and forces.
 struct Listed {
     listing: Arc<ChainListing>,
-    ending: Ending,
     /// The first time of a decision that the attempt leaves open.
     doubt: Option<f64>,
 }
@@ -248,15 +255,15 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn ending(&self) -> Result<Ending, Error> {
-        self.listed().map(|listed| listed.ending.clone())
+        self.listed().map(|listed| listed.listing.ending.clone())
     }
 
     fn listed(&self) -> Result<&Listed, Error> {
         let peaks = !self.chain.is_soft();
         let list = || {
-            let query = |run: &dyn Answers| Ok((run.listing(), run.ending().clone(), run.doubt()));
-            let (listing, ending, doubt) = self.settled(0, query, |(listing, ..)| listing.numbers(peaks))?;
-            Ok(Listed { listing: Arc::new(listing.map(|value| self.printed(value))), ending, doubt })
+            let query = |run: &dyn Answers| Ok((run.listing(), run.doubt()));
+            let (listing, doubt) = self.settled(0, query, |(listing, _)| listing.numbers(peaks))?;
+            Ok(Listed { listing: Arc::new(listing.map(|value| self.printed(value))), doubt })
         };
         self.listed.get_or_init(list).as_ref().map_err(Clone::clone)
     }
@@ -264,9 +271,10 @@ impl ChainHistory {
     /// Returns whether a run that leaves a decision open has the events of the listing, whose attempt leaves one open
     /// too. Both are then right within their bounds under the same condition.
     fn agrees(&self, k: usize, run: &dyn Answers) -> bool {
-        let Some(Ok(Listed { listing, ending: Ending::Time, doubt: Some(_) })) = self.listed.get() else {
+        let Some(Ok(Listed { listing, doubt: Some(_) })) = self.listed.get() else { return false };
+        if listing.ending != Ending::Time {
             return false;
-        };
+        }
         let is_same = |(a, b): (&ChainEvent<Value>, &ChainEvent<Value>)| {
             let [t, other] = [&a.t, &b.t].map(Value::to_f64);
             let known = a.t.bound().to_f64() + b.t.bound().to_f64() + 4.0 * f64::EPSILON * t.abs();
@@ -288,17 +296,18 @@ impl ChainHistory {
         }
     }
 
-    /// Returns the value of a column at a time; at a jump, the limit from `side`.
+    /// Returns the value of a column at a time; at a jump, the limit from `side`. If no attempt tells the time from that
+    /// of a jump, the bound covers both limits.
     ///
-    /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if no attempt tells the time from that of a jump.
+    /// **Errors**: [`Error::TimeOutside`].
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
         self.value_at(column, Instant::Spelled(time), side)
     }
 
     /// Returns the value of a column at an event of the [`listing`](ChainHistory::listing); at a jump, the limit from
-    /// `side`.
+    /// `side`, or both where no attempt tells the event from another jump.
     ///
-    /// **Errors**: [`Error::Open`] if no attempt has this event, or tells it from a jump.
+    /// **Errors**: [`Error::Open`] if no attempt has this event.
     ///
     /// ```
     /// use dalembert::chain::{Body, Chain, ChainColumn};
@@ -313,6 +322,20 @@ impl ChainHistory {
     /// ```
     pub fn value_at_event(&self, column: ChainColumn, event: usize, side: Side) -> Result<Value, Error> {
         self.value_at(column, Instant::Event(event), side)
+    }
+
+    /// Returns a number of the contact of a node with this index, counted from 0.
+    ///
+    /// **Errors**: [`Error::NoContact`] if the node has fewer contacts; [`Error::ContactLasts`] for the end of one that
+    /// lasts, and for impulse and peak of one that goes on beyond the end of a history that stops early; the errors of
+    /// the runs.
+    pub fn contact_value(&self, node: usize, quantity: ChainContactQuantity, contact: usize) -> Result<Value, Error> {
+        let listing = self.listing()?;
+        let mut of_node = listing.contacts.iter().filter(|contact| contact.node == node);
+        let found = of_node.clone().count();
+        let found = of_node.nth(contact).ok_or(Error::NoContact { contact, found })?;
+        let is_known = quantity == ChainContactQuantity::Impact || listing.is_settled(found);
+        quantity.of(found).filter(|_| is_known).cloned().ok_or(Error::ContactLasts { contact })
     }
 
     /// Returns the pieces of the compressive force of a node, in order and without a gap: lines, and where springs,
@@ -357,10 +380,10 @@ impl ChainHistory {
         Ok(self.printed(value))
     }
 
-    /// Returns displacement, velocity and strain of a body at its point; on a ray, the limit in time from `side`.
+    /// Returns displacement, velocity and strain of a body at its point; on a ray, the limit in time from `side`. If no
+    /// attempt tells the point from a ray, the bounds cover both limits.
     ///
-    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Open`] if no attempt tells the point from
-    /// a ray.
+    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`].
     pub fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()

@@ -172,7 +172,14 @@ fn march<N: Bounded>(
     let mut ending = Ending::Time;
     let record = |(node, occurrence): (usize, Occurrence<N>), events: &mut Vec<ChainEvent<N>>| {
         let Occurrence { kind, t, drive: [before, after] } = occurrence;
-        events.extend(kind.map(|kind| ChainEvent { kind, node, t, before, after }));
+        match kind {
+            Some(kind) => events.push(ChainEvent { kind, node, t, before, after }),
+            // A break that counts as one with the latest event of the node.
+            None => {
+                let latest = events.iter_mut().rfind(|event| event.node == node);
+                latest.into_iter().for_each(|latest| latest.after.clone_from(&after));
+            }
+        }
     };
     let open = || Ending::Undecided(Reason::Order { bits: until.bits().unwrap_or(0) });
     for cluster in &mut clusters {

@@ -50,7 +50,7 @@ mod wave;
 pub(crate) use body::steepest;
 pub use body::{Body, BodyMaterial, Points};
 pub(crate) use body_motion::{BodyMotion, Runs};
-pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity};
+pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity, ChainQuery};
 pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use foresee::ForeseenPieces;

@@ -7,6 +7,7 @@ use super::body::{Body, BodyMaterial, Points};
 use super::definition::{Chain, End, Joint};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
 use crate::number::{Number, Rational};
+use crate::problem::Parameter;
 use crate::quantity::Measure;
 
 /// A kind of value that bodies, joints and ends of a chain have.
@@ -144,6 +145,15 @@ impl fmt::Display for ChainParameter {
 }
 
 impl ChainParameter {
+    /// Returns the value of a chain that a parameter is.
+    fn of(parameter: Parameter) -> Option<Self> {
+        match parameter {
+            Parameter::OfChain(value) => Some(value),
+            Parameter::Stiffness => Some(ChainParameter { value: ChainValue::Stiffness, place: Place::Bottom }),
+            _ => None,
+        }
+    }
+
     /// Returns the kind of value.
     pub const fn value(self) -> ChainValue {
         self.value
@@ -225,17 +235,62 @@ impl Chain {
     /// **Errors**: [`ProblemError`] where the chain has no such value, and those of
     /// [`ChainBuilder::build`](super::ChainBuilder::build).
     pub fn with_value(&self, parameter: ChainParameter, number: Number) -> Result<Chain, ProblemError> {
-        self.replaced(parameter, number).ok_or_else(|| self.has_no(parameter))?.checked()
+        self.with_values([(Parameter::OfChain(parameter), number)])
+    }
+
+    /// Returns the chain with these numbers in place of its own values: values of its bodies, joints and ends,
+    /// [`Gravity`](Parameter::Gravity), the [`Stiffness`](Parameter::Stiffness) of the ground and the last
+    /// [`Time`](Parameter::Time).
+    ///
+    /// **Errors**: [`ProblemError`] where the chain has no such value, and those of
+    /// [`ChainBuilder::build`](super::ChainBuilder::build).
+    ///
+    /// ```
+    /// use dalembert::Parameter;
+    /// use dalembert::chain::{Body, Chain};
+    /// let bar = || Body::new(1.into(), 1.into(), 1.into());
+    /// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
+    /// let longer = chain.with_values([("body.2.length".parse()?, 3.into()), (Parameter::Gravity, 10.into())])?;
+    /// assert_eq!((longer.bodies()[1].length(), longer.gravity()), (&3.into(), &10.into()));
+    /// assert!(chain.with_values([(Parameter::Damping, 1.into())]).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_values(&self, values: impl IntoIterator<Item = (Parameter, Number)>) -> Result<Chain, ProblemError> {
+        let mut chain = self.clone();
+        for (parameter, number) in values {
+            match parameter {
+                Parameter::Gravity => chain.gravity = number,
+                Parameter::Time => chain.until = number,
+                _ => {
+                    let replaced = ChainParameter::of(parameter).and_then(|value| chain.replaced(value, number));
+                    chain = replaced.ok_or_else(|| self.has_no(parameter))?;
+                }
+            }
+        }
+        chain.checked()
+    }
+
+    /// Returns the number that [`Chain::with_values`] replaces.
+    ///
+    /// **Errors**: [`ProblemError`] where the chain has no such value.
+    pub fn number(&self, parameter: Parameter) -> Result<Number, ProblemError> {
+        match parameter {
+            Parameter::Gravity => Ok(self.gravity.clone()),
+            Parameter::Time => Ok(self.until.clone()),
+            _ => {
+                ChainParameter::of(parameter).and_then(|value| self.value(value)).ok_or_else(|| self.has_no(parameter))
+            }
+        }
     }
 
     /// Returns the refusal of a value that the chain does not have.
-    pub(crate) fn has_no(&self, parameter: ChainParameter) -> ProblemError {
+    fn has_no(&self, parameter: Parameter) -> ProblemError {
         let known: Vec<String> = self.parameters().map(|parameter| parameter.to_string()).collect();
         ProblemError::new(
             Kind::OutOfRange,
             "",
-            format!("the value {parameter}"),
-            format!("one that the chain has: {}", known.join(", ")),
+            format!("the value {}", parameter.full_path()),
+            format!("one that the chain has: {}, gravity.acceleration, run.time", known.join(", ")),
         )
     }
 

@@ -299,6 +299,11 @@ impl<N: Bounded> ChainRun<N> {
         Ok(smooth_value(stages.iter().map(|stage| (&stage.from, &stage.force)), time)?)
     }
 
+    /// Returns [`ChainRun::force`], with a bound that covers both limits where the time is not told from a jump.
+    pub(super) fn force_within(&self, node: usize, time: &N, side: Side) -> Result<N, Error> {
+        either(self.stages(node, time, side)?.iter().map(|stage| stage.force.value_at(time))).ok_or(Error::Open(Open))
+    }
+
     /// Returns the gap of a contact; zero where the node is none.
     ///
     /// **Errors**: [`Error::TimeOutside`].
@@ -315,10 +320,11 @@ impl<N: Bounded> ChainRun<N> {
         either(self.stages(node, time, Side::Right)?.iter().map(gap)).ok_or(Error::Open(Open))
     }
 
-    /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up.
+    /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up: where a spring
+    /// is let go at a depth, or closes again at one, the limit from `side`.
     ///
     /// **Errors**: [`Error::TimeOutside`].
-    pub fn spring_energies(&self, node: usize, time: &N) -> Result<[N; 2], Error> {
+    pub fn spring_energies(&self, node: usize, time: &N, side: Side) -> Result<[N; 2], Error> {
         let energies = |stage: &Stage<N>| {
             let (Some(softness), Some(soft)) = (stage.softness(), &self.springs[node]) else {
                 return [time.zero(), time.zero()];
@@ -331,7 +337,7 @@ impl<N: Bounded> ChainRun<N> {
             let lost = softness.rate.square_integral(&since) * &soft.damping;
             [stored.halved(), lost + &softness.dissipated]
         };
-        let stages = self.stages(node, time, Side::Right)?;
+        let stages = self.stages(node, time, side)?;
         let one = |k: usize| either(stages.iter().map(|stage| energies(stage)[k].clone())).ok_or(Error::Open(Open));
         Ok([one(0)?, one(1)?])
     }

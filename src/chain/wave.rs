@@ -171,6 +171,14 @@ impl<N: Bounded> Wave<N> {
         Ok((smooth_value(pieces.iter().map(Piece::begun), time)?, self.sum_within(near, time)))
     }
 
+    /// Returns value and integral of the wave at a time, as [`Wave::at`] does: a value that covers both limits where it
+    /// is undecided on which side of a jump the time is.
+    pub(super) fn within(&self, time: &N, side: Side) -> (N, N) {
+        let near = self.pieces_at(time, side);
+        let values = self.pieces[near.clone()].iter().map(|piece| piece.signal.value_at(time));
+        (either(values).unwrap_or_else(|| time.zero()), self.sum_within(near, time))
+    }
+
     /// Returns whether the wave, or its slope, may have two limits at a time.
     pub(super) fn may_jump(&self, time: &N) -> Result<bool, Open> {
         may_jump(&self.pieces, Piece::begun, time)
@@ -276,9 +284,9 @@ pub(super) fn smooth_value<'a, N: Bounded + 'a>(
     signals: impl Iterator<Item = (&'a N, &'a Signal<N>)> + Clone,
     time: &N,
 ) -> Result<N, Open> {
+    // Signals that continue each other at the true beginning differ at the stored one, by their slopes.
     for ((_, before), (from, after)) in signals.clone().zip(signals.clone().skip(1)) {
-        let at = from.clone().nominal();
-        if before.value_at(&at).compare(&after.value_at(&at)).is_ok_and(Ordering::is_ne) {
+        if before.value_at(from).compare(&after.value_at(from)).is_ok_and(Ordering::is_ne) {
             return Err(Open);
         }
     }

@@ -59,6 +59,9 @@ pub fn double_bound<S: Scalar>(x: &S) -> f64 {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
+/// Digits beyond those of a text that tell whether it is rounded.
+const MORE_DIGITS: u32 = 60;
+
 /// Returns `log₂` of the error bound of the text of [`show`], its rounding to digits included.
 pub fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
     let size = x.to_f64().abs();
@@ -67,7 +70,9 @@ pub fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
         let last = (size.log10() + 1e-9).floor() + 1.0 - f64::from(digits);
         last / std::f64::consts::LOG10_2 - 1.0
     });
-    let rounded = || show(x, digits).parse::<f64>().is_ok_and(|read| read != x.to_f64());
+    // More digits of a number that is not rounded are zeros.
+    let rounded =
+        || show(x, digits.saturating_add(MORE_DIGITS)).trim_end_matches('0') != show(x, digits).trim_end_matches('0');
     if x.log2_error() == f64::NEG_INFINITY && rounded() { rounding } else { with_rounding(x, rounding) }
 }
 

@@ -144,6 +144,13 @@ impl Units {
         Units { material: problem.material().clone(), system }
     }
 
+    /// Returns units without names, for forces, impulses and energies that are numbers by themselves, as those of rigid
+    /// masses are.
+    pub fn unnamed() -> Self {
+        let [modulus, density] = [1.into(), 1.into()];
+        Units { material: Material::Elastic { modulus, density, area: Some(1.into()) }, system: UnitSystem::Other }
+    }
+
     /// Returns whether the scene gives modulus and density.
     pub fn has_material(&self) -> bool {
         matches!(self.material, Material::Elastic { .. })

@@ -19,4 +19,4 @@ pub use effects::{Effect, EffectUse};
 pub use error::SceneError;
 pub use publication::Publication;
 pub use read::Scene;
-pub use target::{ChainTarget, ChainTargetQuantity, Published, Target};
+pub use target::{ChainTarget, Published, Target};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::error::SceneError;
 use super::reader::Reader;
-use crate::chain::{Chain, ChainColumn, ChainContactQuantity};
+use crate::chain::{Chain, ChainQuery};
 use crate::motion::Side;
 use crate::names::{did_you_mean, nearest};
 use crate::number::Number;
@@ -36,7 +36,7 @@ pub struct Target {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainTarget {
     /// The quantity that was published.
-    pub quantity: ChainTargetQuantity,
+    pub quantity: ChainQuery,
     /// The name of the quantity: `force.1`, `release.top`.
     pub name: String,
     /// `t`, for a quantity over time.
@@ -47,15 +47,6 @@ pub struct ChainTarget {
     pub contact: usize,
     /// The published value.
     pub published: Published,
-}
-
-/// A quantity of a body or node of a chain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChainTargetQuantity {
-    /// A quantity over time.
-    Column(ChainColumn),
-    /// A quantity of a contact of the node with this index, 0 at the bottom.
-    Contact(usize, ChainContactQuantity),
 }
 
 /// A published number, with its source and what is known of it.
@@ -85,14 +76,6 @@ impl ChainTarget {
     /// Returns the quantity in words: `release.1 2`, `force.1 from the left`.
     pub fn label(&self) -> String {
         label(&self.name, self.contact, self.side)
-    }
-
-    /// Returns the measure of the quantity.
-    pub fn measure(&self) -> Measure {
-        match self.quantity {
-            ChainTargetQuantity::Column(column) => column.quantity.measure(),
-            ChainTargetQuantity::Contact(_, quantity) => quantity.measure(),
-        }
     }
 }
 
@@ -202,23 +185,19 @@ impl<'a> Reader<'a> {
         let known: Vec<&str> = KEYS.iter().copied().filter(|key| !["origin", "body"].contains(key)).collect();
         let near = |key: &str| nearest(key, known.iter().copied()).map(String::from);
         self.check_known((self.document, "[[target]]"), &known, near)?;
-        let column = ChainColumn::read(name, chain).map(ChainTargetQuantity::Column);
-        let of_contact = || ChainContactQuantity::read(name, chain);
-        let contact = || of_contact().map(|(node, quantity)| ChainTargetQuantity::Contact(node, quantity));
-        let Some(quantity) = column.or_else(contact) else {
-            let columns = ChainColumn::all(chain).into_iter().map(|column| column.name(chain));
-            let names: Vec<String> = columns.chain(ChainContactQuantity::names(chain)).collect();
+        let Some(quantity) = ChainQuery::read(name, chain) else {
+            let names = ChainQuery::names(chain);
             let hint = did_you_mean(nearest(name, names.iter().map(String::as_str)));
             let found = format!("quantity = \"{name}\"");
             return Err(self.error(named, Kind::OutOfRange, found, format!("one of {}{hint}", names.join(", "))));
         };
         let time = self.plain_number("time")?;
         match quantity {
-            ChainTargetQuantity::Contact(..) => {
+            ChainQuery::Contact(..) => {
                 self.refuse_in_target("time", name, "no time: it belongs to a contact")?;
                 self.refuse_in_target("side", name, "no side: it belongs to a contact")?;
             }
-            ChainTargetQuantity::Column(_) => {
+            ChainQuery::Column(_) => {
                 self.refuse_in_target("contact", name, "a time: it has a value at every time")?;
                 if time.is_none() {
                     let found = "no time in [[target]]";

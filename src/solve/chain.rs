@@ -6,9 +6,10 @@ use super::plan::{LONG, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer};
 use crate::chain::{BodyMotion, Chain, ChainRun, Varied};
 use crate::error::Error;
-use crate::motion::{Ending, Motion};
-use crate::number::{Bounded, bits_for_digits};
+use crate::motion::{Ending, Event, Motion};
+use crate::number::{Bounded, Estimate, Scalar, bits_for_digits};
 use crate::problem::Problem;
+use crate::reason::Warning;
 
 /// Whether motions of bodies of chains are built in.
 const CHAINS: bool = cfg!(feature = "chain");
@@ -39,11 +40,37 @@ pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
     }
 }
 
+/// Returns the error of an attempt that longer numbers follow.
+fn undecided(rung: Rung, what: &'static str) -> Error {
+    Error::NotDecided { what, bits: rung.bits() }
+}
+
+fn is_last(plan: &Plan, rung: Rung) -> bool {
+    plan.next(rung, Lacks::Bits(f64::INFINITY)).is_none()
+}
+
 /// Returns the motion of the body that `problem` describes, from a run of its chain in the numbers `N`.
 ///
 /// **Errors**: those of the run; [`Error::NotDecided`] if longer numbers follow and this run does not decide its
 /// events, or if its fractions end.
 pub(super) fn motion<N: Bounded>(
+    problem: &Problem,
+    plan: &Plan,
+    at: (Rung, &N::Precision),
+    observe: &Observer,
+) -> Result<BodyMotion<N>, Error> {
+    let (rung, motion) = (at.0, open_motion::<N>(problem, plan, at, observe)?);
+    if !is_last(plan, rung) && motion.undetermined_from().is_some() {
+        return Err(undecided(rung, "in which order the events come"));
+    }
+    if !is_last(plan, rung) && matches!(motion.ending(), Ending::ExactnessEnds { .. } | Ending::Undecided(_)) {
+        return Err(undecided(rung, "what happens at a joint"));
+    }
+    Ok(motion)
+}
+
+/// Returns [`motion`] also where it leaves decisions open.
+fn open_motion<N: Bounded>(
     problem: &Problem,
     plan: &Plan,
     (rung, precision): (Rung, &N::Precision),
@@ -53,11 +80,10 @@ pub(super) fn motion<N: Bounded>(
         return Err(Error::NoChains);
     }
     let problem = plan.reaching(problem);
-    let undecided = |what| Error::NotDecided { what, bits: rung.bits() };
     let (Some((chain, body)), Some(place)) = (problem.chain(), &problem.in_chain) else {
-        return Err(undecided("a chain without neighbours"));
+        return Err(undecided(rung, "a chain without neighbours"));
     };
-    let is_last = plan.next(rung, Lacks::Bits(f64::INFINITY)).is_none();
+    let is_last = is_last(plan, rung);
     let limited = rung == Rung::Fractions && !is_last && chain.max_pieces() > EXACT_PIECES;
     let run = || {
         let limit = Chain::with_max_pieces;
@@ -69,21 +95,38 @@ pub(super) fn motion<N: Bounded>(
         }
     };
     let run = match place.runs.get(&chain, rung.bits(), run) {
-        Err(Error::TooManyPieces { .. }) if limited => return Err(undecided("by fractions")),
+        Err(Error::TooManyPieces { .. }) if limited => return Err(undecided(rung, "by fractions")),
         // Doubles keep their answer where fractions have none.
         Err(Error::Irrational { .. } | Error::SoftExact) if !is_last || matches!(plan.numbers, Numbers::Double(_)) => {
-            return Err(undecided("by fractions"));
+            return Err(undecided(rung, "by fractions"));
         }
         run => run?,
     };
-    let motion = BodyMotion::new(&chain, body, run);
-    if !is_last && motion.undetermined_from().is_some() {
-        return Err(undecided("in which order the events come"));
+    Ok(BodyMotion::new(&chain, body, run))
+}
+
+/// Returns the motion in doubles where a picture is asked for and longer numbers leave a decision open: doubles with the
+/// same events, known to the accuracy of the picture, are right under the same condition, and answer many times as fast.
+pub(super) fn sketch(
+    problem: &Problem,
+    plan: &Plan,
+    long: &dyn Motion<Estimate<f64>>,
+    observe: &Observer,
+) -> Option<BodyMotion<Estimate<f64>>> {
+    let Numbers::Double(Some(accuracy)) = plan.numbers else { return None };
+    let is_open = long.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
+    if accuracy < COARSE || !is_open {
+        return None;
     }
-    if !is_last && matches!(motion.ending(), Ending::ExactnessEnds { .. } | Ending::Undecided(_)) {
-        return Err(undecided("what happens at a joint"));
-    }
-    Ok(motion)
+    let motion = open_motion(problem, plan, (Rung::Double, &()), observe).ok()?;
+    let is_same = |(a, b): (&Event<Estimate<f64>>, &Event<Estimate<f64>>)| {
+        a.kind == b.kind && (a.t.clone() - &b.t).vanishes() != Ok(false)
+    };
+    let agrees = *motion.ending() == Ending::Time
+        && motion.events().len() == long.events().len()
+        && motion.events().iter().zip(long.events()).all(is_same)
+        && motion.error_estimate().to_f64() <= accuracy;
+    agrees.then_some(motion)
 }
 
 /// Returns the motion of the body that `problem` describes, in numbers that carry the rates at which they change as the

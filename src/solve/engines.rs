@@ -18,15 +18,21 @@ use crate::problem::Problem;
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
         if plan.engine == Engine::Chain {
-            if rung != Rung::Double {
-                return long_chain(problem, plan, rung, observe);
-            }
-            let engine = chain::engine::<Estimate<f64>>(problem, plan, (rung, &()), observe)?;
+            let engine = if rung == Rung::Double {
+                chain::motion::<Estimate<f64>>(problem, plan, (rung, &()), observe)?
+            } else {
+                let run = long_chain(problem, plan, rung, observe)?;
+                // Without longer numbers the first attempt answers.
+                match LONG.then(|| chain::sketch(problem, plan, &*run, observe)).flatten() {
+                    Some(sketch) => sketch,
+                    None => return Ok(run),
+                }
+            };
             let rungs = plan.chain_rungs().into_iter().skip(1).collect();
             let owned = (problem.clone(), plan.clone(), observe.clone());
             let run = move |rung| long_chain(&owned.0, &owned.1, rung, &owned.2);
             let longer = Longer::<f64> { rungs, exact_contacts: u32::MAX, run: Box::new(run) };
-            return Ok(Telling::of(engine, problem, Open::Says(longer)));
+            return Ok(Telling::of(Arc::new(engine), problem, Open::Says(longer)));
         }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));

@@ -1,9 +1,7 @@
 //! The answer in `Value`s, for every number system.
 
-use std::sync::Arc;
-
 use super::derivative::{Derivative, Derivatives};
-use super::finer::Finer;
+use super::finer::{Finer, digits_beyond, holds};
 use super::ladder::Target;
 use super::places::Places;
 use super::plan::Plan;
@@ -12,7 +10,7 @@ use super::solution::{ExactnessEnd, Solution};
 use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, Waves, straight};
-use crate::number::{Float, IntoValue, List, Number, Scalar, Value};
+use crate::number::{Estimate, IntoValue, List, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
     self, Flight, Measure, Missing, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
@@ -66,12 +64,30 @@ macro_rules! typed {
 /// history inside `$history`.
 macro_rules! typed_at {
     ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
-        let finer = $history.finer(&$places)?.map(|$typed| (|| -> Result<_, Error> { $body })());
-        match finer {
-            Some(found @ (Ok(_) | Err(Error::Interrupted))) => found,
-            Some(Err(_)) | None => typed!($history, $typed => $body),
+        let beyond = $history.digits_beyond(&$places);
+        let mut found = None;
+        if let Some(digits) = beyond {
+            let (problem, plan) = ($history.problem(), $history.plan());
+            let observe = typed!($history, history => &history.observe);
+            if let Some($typed) = $history.finer.proved(problem, plan, observe)? {
+                found = answered((|| -> Result<_, Error> { $body })());
+            }
+            if found.is_none()
+                && let Some($typed) = $history.finer.in_digits(problem, plan, observe, digits)?
+            {
+                found = answered((|| -> Result<_, Error> { $body })());
+            }
+        }
+        match found {
+            Some(found) => found,
+            None => typed!($history, $typed => $body),
         }
     }};
+}
+
+/// Returns an answer of a longer run, or its interruption; `None` for any other error.
+fn answered<T>(found: Result<T, Error>) -> Option<Result<T, Error>> {
+    Some(found).filter(|found| matches!(found, Ok(_) | Err(Error::Interrupted)))
 }
 
 /// Values of quantities by row; a missing value is replaced by the reason.
@@ -468,14 +484,30 @@ impl History {
     /// Returns a number as the history prints its numbers.
     fn printed(&self, number: impl IntoValue, unit: &'static str) -> Value {
         let value = number.into();
-        let value = if matches!(self.solution, Solution::Double(_)) { value.to_double() } else { value };
+        let value = match self.solution {
+            Solution::Double(_) => value.to_double(),
+            // A proved run has answered for a time of more digits.
+            Solution::Digits(_) => value.without_ends(),
+            Solution::Exact(_) | Solution::Certified(_) => value,
+        };
         value.printed_in(self.digits(), unit)
     }
 
-    /// Returns the run in the digits that `places` need, if the numbers of this history do not hold them.
-    fn finer(&self, places: &[&Places<'_>]) -> Result<Option<Arc<TypedHistory<Float>>>, Error> {
-        let observe = typed!(self, history => &history.observe);
-        self.finer.run(self.problem(), self.plan(), observe, places)
+    /// Returns the greatest number of digits in `places` that the numbers of this history do not hold, if these leave
+    /// an answer open: `places` are times, or points and times.
+    fn digits_beyond(&self, places: &[&Places<'_>]) -> Option<u32> {
+        let plan = self.plan();
+        let numbers = || places.iter().flat_map(|places| places.spelled()).filter(|number| !holds(plan, number));
+        let digits = digits_beyond(plan, numbers())?;
+        // Doubles answer a time that they tell from every event, and from the rays at both ends.
+        if let (Solution::Double(history), [_]) = (&self.solution, places) {
+            let is_open = |time: &Number| {
+                let time = Estimate::<f64>::spelling(time, &());
+                history.ask(|motion| motion.may_jump(&time), |_| Vec::new()).unwrap_or(true)
+            };
+            return numbers().any(is_open).then_some(digits);
+        }
+        Some(digits)
     }
 
     /// Returns the value of a quantity from its `number` without a unit.

@@ -211,6 +211,11 @@ impl Ladder<'_> {
                     }
                 }
                 Err(Error::NotDecided { .. } | Error::Open(_)) => Lacks::Bits(f64::INFINITY),
+                // Longer numbers have reached their limit of effort before the time that doubles answer.
+                Err(error @ Error::TimeOutside { .. }) => {
+                    let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
+                    return kept.ok_or(error);
+                }
                 Err(error) => return Err(error),
             };
             // If exact roots do not decide, the known numbers report what they take as equal.

@@ -139,7 +139,7 @@ fn compare<N: Bounded>(precision: &N::Precision, only: impl Fn(&str) -> bool) ->
             for (k, node) in sample["nodes"].as_array().unwrap().iter().enumerate() {
                 compared.check(|| at("force", k), &run.force(k, &time, Side::Right).unwrap(), &node["force"]);
                 compared.check(|| at("gap", k), &run.gap(k, &time).unwrap(), &node["gap"]);
-                let [stored, dissipated] = run.spring_energies(k, &time).unwrap();
+                let [stored, dissipated] = run.spring_energies(k, &time, Side::Right).unwrap();
                 compared.check(|| at("spring energy", k), &stored, &node["stored"]);
                 compared.check(|| at("dissipated", k), &dissipated, &node["dissipated"]);
                 for (side, body, is_top) in [("below", k.wrapping_sub(1), true), ("above", k, false)] {
@@ -454,7 +454,7 @@ fn energy_is_conserved() {
                 sum = sum + sums.kinetic + sums.strain + sums.potential;
             }
             for node in 0..=bodies.len() {
-                let [stored, dissipated] = run.spring_energies(node, &time).unwrap();
+                let [stored, dissipated] = run.spring_energies(node, &time, Side::Right).unwrap();
                 sum = sum + stored + dissipated;
             }
             sum

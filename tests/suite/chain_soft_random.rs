@@ -87,8 +87,8 @@ fn compare_random_chains(mut random: Random, count: usize) -> [usize; 3] {
                 let side = Side::Right;
                 check("force", &doubles.force(node, &short, side).unwrap(), &longer.force(node, &long, side).unwrap());
                 check("gap", &doubles.gap(node, &short).unwrap(), &longer.gap(node, &long).unwrap());
-                let [stored, lost] = doubles.spring_energies(node, &short).unwrap();
-                let [long_stored, long_lost] = longer.spring_energies(node, &long).unwrap();
+                let [stored, lost] = doubles.spring_energies(node, &short, Side::Right).unwrap();
+                let [long_stored, long_lost] = longer.spring_energies(node, &long, Side::Right).unwrap();
                 check("spring energy", &stored, &long_stored);
                 check("dissipated", &lost, &long_lost);
             }

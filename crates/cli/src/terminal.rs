@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 use std::io::IsTerminal;
-use std::sync::RwLock;
+use std::sync::{Mutex, PoisonError, RwLock};
 
 use clap::ColorChoice;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -54,9 +54,16 @@ pub(crate) fn note(text: impl Display) {
     message("note", text);
 }
 
-/// Prints a warning on standard error, unless `--quiet` is given.
+/// Prints a warning on standard error, unless `--quiet` is given. A warning that several histories share is printed
+/// once.
 pub(crate) fn warn(text: impl Display) {
-    message("warning", text);
+    static PRINTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+    let text = text.to_string();
+    let mut printed = PRINTED.lock().unwrap_or_else(PoisonError::into_inner);
+    if !printed.contains(&text) {
+        message("warning", &text);
+        printed.push(text);
+    }
 }
 
 fn message(kind: &str, text: impl Display) {

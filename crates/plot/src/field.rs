@@ -116,6 +116,9 @@ pub(crate) fn settled(x: &Double) -> f64 {
     if x.log2_error() < f64::INFINITY { x.to_f64() } else { f64::NAN }
 }
 
+/// Distance in time, in round trips, at which a point on a front takes its value.
+const ASIDE: f64 = 1e-6;
+
 /// Returns the field at points `(t, x)`.
 fn values_at(
     history: &TypedHistory<f64>,
@@ -134,7 +137,18 @@ fn values_at(
         |motion| {
             let end = motion.end();
             let place = |k: &usize| (end.double(points[*k].y), end.double(points[*k].x));
-            motion.rates(&order.iter().map(place).collect::<Vec<_>>())
+            let places: Vec<_> = order.iter().map(place).collect();
+            match motion.rates(&places) {
+                // A point on a front that only its bound tells from it takes the value beside it.
+                Err(Error::Open(_) | Error::NotDecided { .. }) if extent.is_soft => {
+                    let aside = end.double(ASIDE * extent.trip());
+                    let one = |place: &(Double, Double)| motion.rates(std::slice::from_ref(place));
+                    let beside = |(x, t): &(Double, Double)| one(&(x.clone(), t.clone() - &aside));
+                    let rates = places.iter().map(|place| one(place).or_else(|_| beside(place)));
+                    Ok(rates.collect::<Result<Vec<_>, _>>()?.concat())
+                }
+                rates => rates,
+            }
         },
         |rates| rates.iter().flatten().collect(),
     )?;

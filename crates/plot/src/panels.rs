@@ -226,6 +226,10 @@ fn curves(picture: Picture, scenes: &[SceneData], dashed: bool) -> Result<Panel,
             ("stress at the ground", "E v_x(0,t)")
         }
         Picture::Stress => ("strain at the ground", "v_x(0,t)"),
+        // A mass has no strain whose multiple its force is.
+        Picture::Quantity(Quantity::Force) if scenes.iter().all(SceneData::is_rigid) => {
+            (short_meaning(Quantity::Force), "f")
+        }
         Picture::Quantity(quantity) => (short_meaning(quantity), symbol(quantity)),
         _ => ("both ends and the centre of mass", "displacement"),
     };

@@ -122,8 +122,9 @@ impl Request {
 
     /// Returns the request for the bodies of a chain, which are drawn over one span: that of all of these.
     pub fn over(&self, spans: &[[f64; 2]]) -> Request {
-        let from = spans.iter().map(|span| span[0]).reduce(f64::min);
-        Request { from, to: spans.iter().map(|span| span[1]).reduce(f64::max), ..self.clone() }
+        let from = spans.iter().map(|span| span[0]).reduce(f64::min).or(self.from);
+        let to = spans.iter().map(|span| span[1]).reduce(f64::max).or(self.to);
+        Request { from, to, ..self.clone() }
     }
 
     /// Asks a history for all that the pictures show.

@@ -1,13 +1,11 @@
 //! Values that others have published of a scene, beside those of its history.
 
-use dalembert::chain::ChainHistory;
+use dalembert::chain::{ChainHistory, ChainQuery};
 use dalembert::number::{Estimate, Number, Scalar};
 use dalembert::quantity::{Needs, Quantity, Units};
 use dalembert::reason::Warning;
 use dalembert::solve::{History, Numbers};
-use dalembert::{
-    ChainScene, ChainTarget, ChainTargetQuantity, Error, Publication, Published, Scene, Side, Target, Value, builtin,
-};
+use dalembert::{ChainScene, ChainTarget, Error, Publication, Published, Scene, Side, Target, Value, builtin};
 
 type Double = Estimate<f64>;
 
@@ -72,7 +70,7 @@ impl PublishedScene {
             for target in &scene.chain_targets {
                 published.values.push(ComparedValue {
                     label: target.label(),
-                    unit: scene.unit(target.measure()),
+                    unit: scene.unit(target.quantity.measure()),
                     time: target.time.clone(),
                     published: target.published.clone(),
                     ours: chain_value(&history, target)?,
@@ -183,15 +181,9 @@ fn at(history: &History, quantity: Quantity, time: &Number, side: Side) -> Resul
 /// Returns the value of the history of a chain.
 fn chain_value(history: &ChainHistory, target: &ChainTarget) -> Result<Value, Error> {
     match (target.quantity, &target.time) {
-        (ChainTargetQuantity::Column(column), Some(time)) => history.value(column, time, target.side),
-        (ChainTargetQuantity::Column(column), None) => history.value(column, &Number::from(0), target.side),
-        (ChainTargetQuantity::Contact(node, quantity), _) => {
-            let contacts = &history.listing()?.contacts;
-            let of_node: Vec<_> = contacts.iter().filter(|contact| contact.node == node).collect();
-            let contact = target.contact - 1;
-            let value = of_node.get(contact).and_then(|contact| quantity.of(contact));
-            value.cloned().ok_or(Error::NoContact { contact, found: of_node.len() })
-        }
+        (ChainQuery::Column(column), Some(time)) => history.value(column, time, target.side),
+        (ChainQuery::Column(column), None) => history.value(column, &Number::from(0), target.side),
+        (ChainQuery::Contact(node, quantity), _) => history.contact_value(node, quantity, target.contact - 1),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::output::{
     Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, SERIES, Worth, json_bytes, rows_bytes,
 };
 use crate::progress::Progress;
+use crate::source::nearest;
 use crate::terminal;
 use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
 use dalembert::number::{List, Value};
@@ -40,6 +41,13 @@ fn units_json(scene: &ChainScene) -> Json {
     let name = |measure: Measure| Some(scene.unit(measure)).filter(|name| !name.is_empty());
     let measures = [Time, Length, Velocity, Force, Impulse, Energy];
     measures.iter().map(|measure| (measure.name().to_string(), json!(name(*measure)))).collect::<Map<_, _>>().into()
+}
+
+/// Builds the failure for a name that is no quantity of a chain.
+pub(crate) fn unknown_quantity(name: &str, known: &[String]) -> Failure {
+    let near = nearest(name, known.iter().map(String::as_str));
+    let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+    failure!("found the quantity {name} of a chain, expected one of {}{near}", known.join(", "))
 }
 
 fn digits(numbers: Numbers) -> u32 {
@@ -81,15 +89,16 @@ const PLATEAU: f64 = 0.01;
 
 fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |contact: &dalembert::chain::ChainContact<Value>| {
-        let number = |value: &Value| Cell::Number(value.clone());
+        let known = |value: &Value| Cell::number(Some(value).filter(|_| listing.is_settled(contact)).cloned());
         // The peak of a plateau has no time of its own.
-        let is_told = |time: &&Value| time.bound().to_f64() <= PLATEAU * time.to_f64().abs();
+        let is_told =
+            |time: &&Value| listing.is_settled(contact) && time.bound().to_f64() <= PLATEAU * time.to_f64().abs();
         vec![
             (Column::new("node").text(), place(scene, contact.node)),
-            (column("impact"), number(&contact.impact)),
+            (column("impact"), Cell::Number(contact.impact.clone())),
             (column("release"), Cell::number(contact.release.clone())),
-            (column("impulse"), number(&contact.impulse)),
-            (column("peak_force"), number(&contact.peak)),
+            (column("impulse"), known(&contact.impulse)),
+            (column("peak_force"), known(&contact.peak)),
             (column("peak_time"), Cell::number(Some(&contact.peak_time).filter(is_told).cloned())),
         ]
     };
@@ -145,7 +154,7 @@ pub(crate) fn solve(
     let digits = digits(numbers);
     let whole = |data: Dataset| Dataset { digits, ..data };
     let part = |make: MakeTable| whole(make(scene, &listing));
-    let ending = history.ending()?.at(&listing.end.to_string());
+    let ending = listing.ending.at(&listing.end.to_string());
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
             "schema": 1,
@@ -231,8 +240,8 @@ impl ChainRows<'_> {
         let chain = &self.scene.chain;
         let read = |name: &String| {
             ChainColumn::read(name, chain).ok_or_else(|| {
-                let known: Vec<String> = ChainColumn::all(chain).into_iter().map(|column| column.name(chain)).collect();
-                failure!("found the quantity {name} of a chain, expected one of {}", known.join(", "))
+                let known = ChainColumn::all(chain).into_iter().map(|column| column.name(chain));
+                unknown_quantity(name, &known.collect::<Vec<_>>())
             })
         };
         let is_key = |name: &&String| matches!(name.as_str(), "t" | "side");

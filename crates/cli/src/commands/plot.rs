@@ -71,6 +71,11 @@ enum Drawn {
 /// Accuracy of a picture without --accuracy: finer than any line.
 const ACCURACY: f64 = 1e-6;
 
+/// Returns whether a chain has a body with waves.
+fn has_bar(scene: &ChainScene) -> bool {
+    scene.chain.bodies().iter().any(|body| body.rigid_mass().is_none())
+}
+
 /// Returns the names of pictures that are no quantities.
 fn pictures() -> impl Iterator<Item = PossibleValue> {
     let names = Picture::names().filter(|name| !matches!(name.parse(), Ok(Picture::Quantity(_))));
@@ -95,7 +100,8 @@ impl Plot {
         let drawn = self.read()?;
         let pictures = match (self.quantity.is_empty(), &drawn) {
             (false, _) => self.pictures()?,
-            (true, Drawn::Chain(_)) => Picture::CHAIN.to_vec(),
+            (true, Drawn::Chain(scene)) if has_bar(scene) => Picture::CHAIN.to_vec(),
+            (true, Drawn::Chain(_)) => Picture::CHAIN.into_iter().filter(|it| *it != Picture::SpaceTime).collect(),
             (true, Drawn::Rods(scenes)) if scenes.len() == 1 => Picture::SHEET.to_vec(),
             (true, Drawn::Rods(_)) => Picture::COMPARED.to_vec(),
         };
@@ -106,6 +112,12 @@ impl Plot {
         }
         if self.deformed && self.field != FieldQuantity::default() {
             return Err(failure!("found --deformed with --field, expected one of them"));
+        }
+        if let Drawn::Chain(scene) = &drawn
+            && has_field
+            && !has_bar(scene)
+        {
+            return Err(failure!("found xt of a chain without bars, expected it of bars: it shows their waves"));
         }
         let mut request =
             Request { pictures, field: self.field, deformed: self.deformed, from, to, heights: Vec::new() };
@@ -150,7 +162,7 @@ impl Plot {
     fn read(&self) -> Result<Drawn, Failure> {
         if let [name] = self.scenes.as_slice() {
             return match self.body.read_any(name)? {
-                AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 => Ok(Drawn::Chain(scene)),
+                AnyScene::Chain(scene) if scene.chain.bodies().len() > 1 || !has_bar(&scene) => Ok(Drawn::Chain(scene)),
                 scene => Ok(Drawn::Rods(vec![(name.clone(), scene.into_rod(name, None)?)])),
             };
         }
@@ -165,10 +177,8 @@ impl Plot {
             name.map_or_else(|| format!("body {}", k + 1), str::to_string)
         };
         let bodies = scene.bodies()?;
-        let Some(bar) = bodies.iter().flatten().next() else {
-            return Err(failure!("found a chain without bars, expected one: the pictures show its waves"));
-        };
-        let units = Units::new(&bar.problem, bar.units);
+        let bar = bodies.iter().flatten().next();
+        let units = bar.map_or_else(Units::unnamed, |bar| Units::new(&bar.problem, bar.units));
         let solve = |bar: &Option<Scene>| bar.as_ref().map(|bar| self.solve(bar)).transpose();
         let answers = bodies.iter().map(solve).collect::<Result<Vec<_>, _>>()?;
         let span = |answer: &Answer| Ok(answer.history.in_doubles(|doubles| request.span(doubles))??);
@@ -177,10 +187,11 @@ impl Plot {
         let chain = if answers.iter().all(Option::is_some) {
             None
         } else {
-            let until = self.to.as_ref().unwrap_or(scene.chain.until());
-            let longer = bar.problem.to_builder().time(until.clone()).build()?;
-            let chain = longer.chain().map_or_else(|| scene.chain.clone(), |(chain, _)| chain);
-            Some(chain.solve(self.picture_numbers(bar))?)
+            let chain = match &self.to {
+                Some(to) => scene.chain.with_until(to.clone())?,
+                None => scene.chain.clone(),
+            };
+            Some(chain.solve(self.picture_numbers(scene.accuracy))?)
         };
         let mut all = Vec::new();
         for (k, answer) in answers.into_iter().enumerate() {
@@ -202,9 +213,9 @@ impl Plot {
         Some(self.scenes[0].as_str()).filter(|name| *name != "-")
     }
 
-    /// Returns the numbers in which a scene is drawn.
-    fn picture_numbers(&self, scene: &Scene) -> Numbers {
-        match self.numbers.numbers(scene) {
+    /// Returns the numbers in which a scene of this accuracy is drawn.
+    fn picture_numbers(&self, accuracy: Option<f64>) -> Numbers {
+        match self.numbers.numbers_to(accuracy) {
             Numbers::Double(None) => Numbers::Double(Some(ACCURACY)),
             numbers => numbers,
         }
@@ -228,7 +239,7 @@ impl Plot {
     }
 
     fn solve(&self, scene: &Scene) -> Result<Answer, Failure> {
-        let numbers = self.picture_numbers(scene);
+        let numbers = self.picture_numbers(scene.accuracy);
         let question = match &self.to {
             Some(to) => Question::between(0.into(), to.clone(), numbers),
             None => Question::run(numbers),

@@ -8,15 +8,19 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::json;
 
+use super::chain::unknown_quantity;
 use crate::args::{SceneArgs, in_threads, known_formats};
 use crate::failure::{self, Failure};
 use crate::file::{Format, write_all};
 use crate::output::{rows_bytes, sweep_data};
 use crate::quantities::{NameParser, Scope, has_material};
-use crate::sweep::{self, Axis, Grid, Journal, Point, Request, journal_path};
+use crate::source::AnyScene;
+use crate::sweep::{self, Axis, ChainRequest, Grid, Journal, Point, Request, Subject, journal_path};
 use crate::terminal;
+use dalembert::chain::ChainQuery;
 use dalembert::number::Number;
 use dalembert::problem::Parameter;
+use dalembert::{ChainScene, Scene};
 use dalembert_verify::regimes::GridError;
 
 #[derive(Args, Debug)]
@@ -30,15 +34,17 @@ pub(crate) struct Sweep {
     #[command(flatten)]
     scene: SceneArgs,
     /// A value to vary: PATH=V1,V2,… or PATH=A..B:N, with :log in geometric progression; several times for a grid.
-    /// With --body N also values of other bodies and of joints, such as body.2.mass and joint.1.gap.
+    /// Of a chain also values of bodies and joints, such as body.2.mass and joint.1.gap.
     /// Values between A and B are the shortest decimals of doubles, as the rows spell them
     #[arg(long, value_name = "PATH=VALUES", required = true, allow_hyphen_values = true)]
     vary: Vec<String>,
-    /// Quantities of each point and groups of them, separated by commas
+    /// Quantities of each point and groups of them, separated by commas. Of a whole chain they have a place: u_top.2 of
+    /// the second body, force.bottom, and of the first contact of the joint above the first body impact.1, release.1,
+    /// impulse.1, peak_force.1
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',', required = true)]
-    #[arg(value_parser = NameParser::new(&[Scope::SingleNumber], []))]
+    #[arg(value_parser = NameParser::new(&[Scope::SingleNumber], []).with_places())]
     quantity: Vec<String>,
-    /// The time of quantities over time; by default the first bounce
+    /// The time of quantities over time; by default the first bounce of a rod, the end of the run of a whole chain
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: Option<Number>,
     /// Only the i-th of n consecutive parts of the points, for job arrays
@@ -75,19 +81,22 @@ impl Sweep {
     /// Solves all points and writes them. The exit code is 1 if no point has a number.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let destinations = self.scene.output.destinations(FORMATS)?;
-        let (scene, numbers) = self.scene.read()?;
         let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
-        // A value that the chain does not have would make every point a row without a number.
-        let absent = |axis: &&Axis| {
-            matches!(axis.parameter, Parameter::OfChain(_)) && axis.parameter.value(&scene.problem).is_none()
+        // Names with a place are those of a whole chain.
+        let whole = self.quantity.iter().any(|name| name.contains('.'));
+        let scene = match self.scene.body.read_any(&self.scene.scene)? {
+            AnyScene::Chain(scene) if whole => AnyScene::Chain(scene),
+            scene => AnyScene::Rod(Box::new(scene.into_rod(&self.scene.scene, None)?)),
         };
-        if let Some((axis, value)) = axes.iter().find(absent).and_then(|axis| Some((axis, axis.values.first()?))) {
-            scene.problem.to_builder().set(axis.parameter, value).build()?;
-        }
-        let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(&scene))?;
-        sweep::check_time(&quantities, self.time.as_ref()).map_err(|error| failure!("{error}"))?;
-        let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
-        let sweep = sweep::Sweep { grid: Grid::new(scene.problem.clone(), axes)?, request };
+        let (title, source) = match &scene {
+            AnyScene::Rod(scene) => (scene.title.clone(), scene.source().to_string()),
+            AnyScene::Chain(scene) => (scene.title.clone(), scene.source().to_string()),
+        };
+        let subject = match scene {
+            AnyScene::Rod(scene) => self.of_rod(&scene, &axes)?,
+            AnyScene::Chain(scene) => self.of_chain(scene, &axes)?,
+        };
+        let sweep = sweep::Sweep { grid: Grid::new(axes)?, subject };
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
@@ -95,18 +104,18 @@ impl Sweep {
         // Everything that the points depend on.
         let identity = json!({
             "dalembert": env!("CARGO_PKG_VERSION"),
-            "scene": scene.source(),
+            "scene": source,
             "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
-            "quantity": sweep.request.quantities.iter().map(|quantity| quantity.name()).collect::<Vec<_>>(),
-            "time": sweep.request.time,
-            "number": sweep.request.numbers.to_string(),
+            "quantity": sweep.units().into_iter().map(|(name, _)| name).collect::<Vec<_>>(),
+            "time": self.time,
+            "number": sweep.numbers_and_time().0.to_string(),
             "points": [points.start, points.end],
         });
         let path = destinations.iter().find_map(|destination| destination.path.as_deref());
         let open = |path| Journal::open(path, &identity, self.resume).map_err(|error| unopened(path, error));
         let (journal, known) = path.map(open).transpose()?.unzip();
         let found = self.solve(&sweep, points, known.unwrap_or_default(), journal.as_ref())?;
-        let data = sweep_data(&sweep, &found, scene.title.as_deref());
+        let data = sweep_data(&sweep, &found, title.as_deref());
         write_all(&destinations, |format| rows_bytes(&data, format))?;
         if let Some((journal, path)) = journal.zip(path) {
             journal.remove().map_err(failure::cannot(&format!("remove {}", journal_path(path).display())))?;
@@ -114,6 +123,36 @@ impl Sweep {
         let mut numbers = found.iter().flat_map(|point| &point.numbers);
         let fails = !found.is_empty() && numbers.all(|number| number.value.is_null());
         Ok(ExitCode::from(u8::from(fails)))
+    }
+
+    /// Returns the numbers that are asked for at each point of a rod or a body of a chain.
+    fn of_rod(&self, scene: &Scene, axes: &[Axis]) -> Result<Subject, Failure> {
+        // A value that the chain does not have would make every point a row without a number.
+        let absent = |axis: &&Axis| {
+            matches!(axis.parameter, Parameter::OfChain(_)) && axis.parameter.value(&scene.problem).is_none()
+        };
+        if let Some((axis, value)) = axes.iter().find(absent).and_then(|axis| Some((axis, axis.values.first()?))) {
+            scene.problem.to_builder().set(axis.parameter, value).build()?;
+        }
+        let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(scene))?;
+        sweep::check_time(&quantities, self.time.as_ref()).map_err(|error| failure!("{error}"))?;
+        let numbers = self.scene.numbers.numbers(scene);
+        let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
+        Ok(Subject::Rod(scene.problem.clone(), request))
+    }
+
+    /// Returns the numbers that are asked for at each point of a whole chain.
+    fn of_chain(&self, scene: Box<ChainScene>, axes: &[Axis]) -> Result<Subject, Failure> {
+        // A value that the chain does not have would make every point a row without a number.
+        let chain = &scene.chain;
+        axes.iter().try_for_each(|axis| chain.number(axis.parameter).map(|_| ()))?;
+        let read = |name: &String| {
+            let query = ChainQuery::read(name, chain).map(|query| (name.clone(), query));
+            query.ok_or_else(|| unknown_quantity(name, &ChainQuery::names(chain)))
+        };
+        let quantities = self.quantity.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
+        Ok(Subject::Chain(scene, ChainRequest { quantities, time: self.time.clone(), numbers }))
     }
 
     fn solve(

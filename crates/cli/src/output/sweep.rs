@@ -89,12 +89,11 @@ struct PointRow {
 fn columns(sweep: &Sweep, noted: bool) -> Vec<Column> {
     let axis = |path: String| Column::new(path.clone()).keyed(format!("at/{path}"));
     let axes = sweep.grid.axes.iter().map(|it| axis(it.parameter.full_path()));
-    let numbers = sweep.units().flat_map(|(quantity, unit)| {
-        let name = quantity.name();
-        let head = if unit.is_empty() { name.to_string() } else { format!("{name} [{unit}]") };
+    let numbers = sweep.units().into_iter().flat_map(|(name, unit)| {
+        let head = if unit.is_empty() { name.clone() } else { format!("{name} [{unit}]") };
         [
             Column::table(head),
-            Column::data(name).keyed(format!("values/{name}")).with_unit(unit),
+            Column::data(name.clone()).keyed(format!("values/{name}")).with_unit(unit),
             Column::data(format!("{name}_uncertainty")).keyed(format!("uncertainty/{name}")).with_unit(unit),
             Column::json(format!("notes/{name}")),
         ]
@@ -109,7 +108,7 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
     let mut below: Vec<String> = Vec::new();
     let mut row = |point: &Point| {
         let mut row: Vec<Cell> = vec![point.index.into()];
-        row.extend(sweep.grid.values(point.index).iter().map(|value| value.to_string().into()));
+        row.extend(sweep.grid.values(point.index).iter().map(|(_, value)| value.to_string().into()));
         for cell in &point.numbers {
             let [value, uncertainty] = [&cell.value, &cell.uncertainty].map(|value| value.clone().into());
             row.extend([shown(cell), value, uncertainty, cell.note.clone().into()]);
@@ -129,12 +128,13 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         .enumerate()
         .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
+    let (numbers, time) = sweep.numbers_and_time();
     let header = SweepHeader {
         schema: SchemaVersion,
         title,
-        number: sweep.request.numbers.to_string(),
-        time: sweep.request.time.as_ref().map(Number::to_string),
-        units: sweep.units().map(|(quantity, unit)| (quantity.name().to_string(), unit.into())).collect(),
+        number: numbers.to_string(),
+        time: time.map(Number::to_string),
+        units: sweep.units().into_iter().map(|(name, unit)| (name, unit.into())).collect(),
         vary: sweep.grid.axes.iter().map(AxisJson::from).collect(),
     };
     Dataset {

@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 use crate::sweep::Grid;
-use dalembert::Error;
-use dalembert::Value;
+use dalembert::chain::{Chain, ChainHistory, ChainQuery};
 use dalembert::number::Number;
 use dalembert::problem::{Problem, ProblemError};
 use dalembert::quantity::{Missing, Needs, Quantity, UnitSystem, Units, ValueQuery};
 use dalembert::solve::{History, Numbers, Question, unobserved};
+use dalembert::{ChainScene, Error, Side, Value};
 
 /// A request for the numbers of every point.
 #[derive(Clone, Debug)]
@@ -66,7 +66,30 @@ impl PointNumber {
 
     /// Returns the number of a history.
     fn new(history: &History, query: &ValueQuery) -> Self {
-        let found: Result<Result<Value, Missing>, Error> = history.query(query);
+        let digits = history.digits();
+        let end = history.exactness_end().map(|end| format!("{end}; the number is in {digits} digits"));
+        let notes = end.into_iter().chain(history.warnings().into_iter().map(|warning| warning.to_string()));
+        PointNumber::noted(history.query(query), notes)
+    }
+
+    /// Returns the number of the history of a chain, at a time where the query is for a quantity over time.
+    fn of_chain(history: &ChainHistory, query: ChainQuery, time: Option<&Number>) -> Self {
+        let value = match query {
+            ChainQuery::Column(column) => {
+                let last = history.chain().until();
+                history.value(column, time.unwrap_or(last), Side::Right)
+            }
+            ChainQuery::Contact(node, quantity) => match history.contact_value(node, quantity, 0) {
+                Err(Error::NoContact { .. }) => return PointNumber::missing("no contact up to the end of the run"),
+                value => value,
+            },
+        };
+        let warnings = history.warning().into_iter().chain(history.chain().strain_warning());
+        PointNumber::noted(value.map(Ok), warnings.map(|warning| warning.to_string()))
+    }
+
+    /// Returns a number with notes on it.
+    fn noted(found: Result<Result<Value, Missing>, Error>, notes: impl Iterator<Item = String>) -> Self {
         let number = match found {
             Ok(Ok(value)) if !value.is_finite() => PointNumber::missing("no finite number"),
             Ok(Ok(value)) => {
@@ -78,9 +101,6 @@ impl PointNumber {
             Ok(Err(missing)) => PointNumber::missing(missing.why),
             Err(error) => PointNumber::missing(error),
         };
-        let digits = history.digits();
-        let end = history.exactness_end().map(|end| format!("{end}; the number is in {digits} digits"));
-        let notes = end.into_iter().chain(history.warnings().into_iter().map(|warning| warning.to_string()));
         let notes: Vec<String> = number.note.iter().cloned().chain(notes).collect();
         PointNumber { note: (!notes.is_empty()).then(|| notes.join("; ")), ..number }
     }
@@ -190,19 +210,81 @@ pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), 
     }
 }
 
-/// A grid of problems, and the numbers that each is asked for.
+/// The subject of a sweep: what each point is asked for.
+#[derive(Debug)]
+pub(crate) enum Subject {
+    /// A rod by itself, or a body of a chain.
+    Rod(Problem, Request),
+    /// A whole chain.
+    Chain(Box<ChainScene>, ChainRequest),
+}
+
+/// A request for the numbers of the chain of every point.
+#[derive(Debug)]
+pub(crate) struct ChainRequest {
+    /// The quantities with their names.
+    pub(crate) quantities: Vec<(String, ChainQuery)>,
+    /// Time of the quantities over time; `None` for the end of the run.
+    pub(crate) time: Option<Number>,
+    pub(crate) numbers: Numbers,
+}
+
+impl ChainRequest {
+    /// Returns the numbers of a chain, or the reasons why they do not exist.
+    fn numbers_of(&self, chain: Result<Chain, ProblemError>) -> Vec<PointNumber> {
+        // The run reaches the time, whatever its own end.
+        let late = |chain: &Chain| self.time.clone().filter(|time| time.compare(chain.until()).is_gt());
+        let reaching = |chain: Chain| late(&chain).map_or(Ok(chain.clone()), |time| chain.with_until(time));
+        let history = match chain.and_then(reaching).map(|chain| chain.solve(self.numbers)) {
+            Ok(Ok(history)) => history,
+            Ok(Err(error)) => return vec![PointNumber::missing(error); self.quantities.len()],
+            Err(error) => return vec![PointNumber::missing(error); self.quantities.len()],
+        };
+        let number = |(_, query): &(_, ChainQuery)| PointNumber::of_chain(&history, *query, self.time.as_ref());
+        self.quantities.iter().map(number).collect()
+    }
+}
+
+/// A grid of values, and the numbers that are asked for at each of its points.
 #[derive(Debug)]
 pub(crate) struct Sweep {
     pub(crate) grid: Grid,
-    pub(crate) request: Request,
+    pub(crate) subject: Subject,
 }
 
 impl Sweep {
-    /// Returns the quantities with their units, which are the same at every point.
-    pub(crate) fn units(&self) -> impl Iterator<Item = (Quantity, &'static str)> {
-        let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(index).ok());
-        let units = problem.map_or_else(Units::default, |problem| Units::new(&problem, self.request.units));
-        self.request.quantities.iter().map(move |quantity| (*quantity, quantity.unit(&units)))
+    /// Returns the names of the quantities with their units, which are the same at every point.
+    pub(crate) fn units(&self) -> Vec<(String, &'static str)> {
+        match &self.subject {
+            Subject::Rod(start, request) => {
+                let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(start, index).ok());
+                let units = problem.map_or_else(Units::default, |problem| Units::new(&problem, request.units));
+                let unit = |quantity: &Quantity| (quantity.name().to_string(), quantity.unit(&units));
+                request.quantities.iter().map(unit).collect()
+            }
+            Subject::Chain(scene, request) => {
+                let unit = |(name, query): &(String, ChainQuery)| (name.clone(), scene.unit(query.measure()));
+                request.quantities.iter().map(unit).collect()
+            }
+        }
+    }
+
+    /// Returns the numbers of the answers, and the time of the quantities over time.
+    pub(crate) fn numbers_and_time(&self) -> (Numbers, Option<&Number>) {
+        match &self.subject {
+            Subject::Rod(_, request) => (request.numbers, request.time.as_ref()),
+            Subject::Chain(_, request) => (request.numbers, request.time.as_ref()),
+        }
+    }
+
+    fn numbers_of(&self, index: usize) -> Vec<PointNumber> {
+        match &self.subject {
+            Subject::Rod(start, request) => request.numbers_of(self.grid.problem(start, index)),
+            Subject::Chain(scene, request) => {
+                let values = self.grid.values(index).into_iter().map(|(parameter, value)| (parameter, value.clone()));
+                request.numbers_of(scene.chain.with_values(values))
+            }
+        }
     }
 
     /// Solves `points` and returns all of them in order. Points that are `known` are not solved again; `done` receives
@@ -224,7 +306,7 @@ impl Sweep {
                 Some(point) => Ok(point.clone()),
                 None => {
                     let index = points.start + place;
-                    let point = Point { index, numbers: self.request.numbers_of(self.grid.problem(index)) };
+                    let point = Point { index, numbers: self.numbers_of(index) };
                     done(&point).map(|()| point)
                 }
             })

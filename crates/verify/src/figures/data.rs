@@ -150,7 +150,7 @@ fn tenth_bounces() -> Result<Columns, VerifyError> {
 
 /// Returns the values of a point of the grid.
 fn point(grid: &Grid, index: usize) -> Row {
-    grid.values(index).into_iter().map(|value| Some(Double::exact(value.to_f64()))).collect()
+    grid.values(index).into_iter().map(|(_, value)| Some(Double::exact(value.to_f64()))).collect()
 }
 
 /// The end of a first contact: `t_b` and some values; all `None` for a contact without a bounce.
@@ -176,14 +176,19 @@ const ENERGIES: Values<2> =
 /// Computes the first bounces of a grid over `impact.speed` and `rod.damping`, to `accuracy` of the numbers, or of 1
 /// where they are less.
 fn bounces<const N: usize>(grid: &Grid, values: Values<N>, accuracy: f64) -> Result<Vec<Bounce<N>>, VerifyError> {
-    (0..grid.len()).into_par_iter().map(|index| bounce(&grid.problem(index)?, values, accuracy)).collect()
+    let start = rod();
+    (0..grid.len()).into_par_iter().map(|index| bounce(&grid.problem(&start, index)?, values, accuracy)).collect()
 }
 
-/// Builds the grid of the paper's rod, `c = L = g = 1`, with the speed varying fastest.
+/// Builds the paper's rod, `c = L = g = 1`.
+fn rod() -> Problem {
+    Problem::uniform(1.into(), 1.into(), 1.into(), 1.into())
+}
+
+/// Builds a grid of dampings and speeds, with the speed varying fastest.
 fn grid(dampings: &str, speeds: &str) -> Result<Grid, VerifyError> {
-    let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
     let axes = [format!("rod.damping={dampings}"), format!("impact.speed={speeds}")];
-    Ok(Grid::new(rod, axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?)?)
+    Ok(Grid::new(axes.iter().map(|axis| axis.parse::<Axis>()).collect::<Result<Vec<_>, _>>()?)?)
 }
 
 fn bounce<const N: usize>(problem: &Problem, values: Values<N>, accuracy: f64) -> Result<Bounce<N>, VerifyError> {
@@ -264,7 +269,7 @@ fn held_stress(damping: &str) -> Result<Vec<Row>, VerifyError> {
 
 /// Computes `e_E²` of the tenth contact at a point of the grid; `None` where it is not defined or not settled.
 fn tenth_restitution(grid: &Grid, index: usize) -> Option<Double> {
-    let rod = grid.problem(index).ok()?.with_run(Run::Impacts(10)).ok()?;
+    let rod = grid.problem(&rod(), index).ok()?.with_run(Run::Impacts(10)).ok()?;
     let query = |motion: &dyn Motion<Double>| {
         let contact = motion.contacts().get(9);
         contact.map(|contact| restitution(motion, contact.times())).transpose()

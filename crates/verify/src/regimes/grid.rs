@@ -2,7 +2,7 @@
 
 use dalembert::UnknownName;
 use dalembert::number::{List, ListError, Number, NumberError};
-use dalembert::problem::{Parameter, Problem, ProblemError, Written};
+use dalembert::problem::{Builder, Parameter, Problem, ProblemError, Written};
 
 const MOST_POINTS: usize = 10_000_000;
 
@@ -85,26 +85,23 @@ pub(super) fn values(text: &str) -> Result<Vec<Number>, GridError> {
 /// Every combination of the values of some axes, with the last axis varying fastest.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    problem: Problem,
     /// The axes, in order.
     pub axes: Vec<Axis>,
 }
 
 impl Grid {
-    /// Builds the grid of `problem` with the values of `axes` in place of its own.
+    /// Builds the grid of the values of `axes`.
     ///
     /// **Errors**: [`GridError::Twice`]; [`GridError::TooManyPoints`].
     ///
     /// ```
-    /// use dalembert::Problem;
     /// use dalembert_verify::regimes::Grid;
     /// let axes = ["rod.damping=0,0.1", "impact.speed=1..2:3"].map(|axis| axis.parse());
-    /// let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
-    /// let grid = Grid::new(rod, axes.into_iter().collect::<Result<_, _>>()?)?;
-    /// assert_eq!((grid.len(), grid.values(4)[1].to_f64()), (6, 1.5));
+    /// let grid = Grid::new(axes.into_iter().collect::<Result<_, _>>()?)?;
+    /// assert_eq!((grid.len(), grid.values(4)[1].1.to_f64()), (6, 1.5));
     /// # Ok::<(), dalembert_verify::regimes::GridError>(())
     /// ```
-    pub fn new(problem: Problem, axes: Vec<Axis>) -> Result<Self, GridError> {
+    pub fn new(axes: Vec<Axis>) -> Result<Self, GridError> {
         for (k, axis) in axes.iter().enumerate() {
             if axes[..k].iter().any(|other| other.parameter == axis.parameter) {
                 return Err(GridError::Twice(axis.parameter.full_path()));
@@ -115,7 +112,7 @@ impl Grid {
             let sizes = axes.iter().map(|axis| axis.values.len().to_string()).collect::<Vec<_>>().join(" × ");
             return Err(GridError::TooManyPoints(sizes));
         }
-        Ok(Grid { problem, axes })
+        Ok(Grid { axes })
     }
 
     /// Returns the number of points.
@@ -124,24 +121,24 @@ impl Grid {
         self.axes.iter().map(|axis| axis.values.len()).product()
     }
 
-    /// Returns the values of a point, in the order of the axes.
-    pub fn values(&self, index: usize) -> Vec<&Number> {
+    /// Returns the values of a point with their parameters, in the order of the axes.
+    pub fn values(&self, index: usize) -> Vec<(Parameter, &Number)> {
         let mut rest = index;
-        let mut values: Vec<&Number> = Vec::with_capacity(self.axes.len());
-        for axis in self.axes.iter().rev() {
-            values.push(&axis.values[rest % axis.values.len()]);
-            rest /= axis.values.len();
+        let mut values = Vec::with_capacity(self.axes.len());
+        for Axis { parameter, values: all } in self.axes.iter().rev() {
+            values.push((*parameter, &all[rest % all.len()]));
+            rest /= all.len();
         }
         values.reverse();
         values
     }
 
-    /// Returns the problem of a point.
-    pub fn problem(&self, index: usize) -> Result<Problem, ProblemError> {
-        let values = self.axes.iter().zip(self.values(index));
-        values
-            .fold(self.problem.to_builder().from_scene(), |builder, (axis, value)| builder.set(axis.parameter, value))
-            .build()
+    /// Returns the problem of a point: `start` with the values of the point in place of its own.
+    ///
+    /// **Errors**: [`ProblemError`] for values that no problem has together.
+    pub fn problem(&self, start: &Problem, index: usize) -> Result<Problem, ProblemError> {
+        let set = |builder: Builder, (parameter, value)| builder.set(parameter, value);
+        self.values(index).into_iter().fold(start.to_builder().from_scene(), set).build()
     }
 }
 

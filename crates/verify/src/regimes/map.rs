@@ -67,8 +67,7 @@ impl Map {
     pub fn new(damping: &str, speed: &str, done: &(dyn Fn() + Sync)) -> Result<Self, GridError> {
         let rod = unit_rod();
         let axis = |parameter, text| Ok::<_, GridError>(Axis { parameter, values: values(text)? });
-        let grid =
-            Grid::new(rod.clone(), vec![axis(Parameter::ImpactSpeed, speed)?, axis(Parameter::Damping, damping)?])?;
+        let grid = Grid::new(vec![axis(Parameter::ImpactSpeed, speed)?, axis(Parameter::Damping, damping)?])?;
         for (axis, least) in grid.axes.iter().zip([f64::MIN_POSITIVE, 0.0]) {
             let values: Vec<f64> = axis.values.iter().map(Number::to_f64).collect();
             if values.len() < 2 || values[0] < least || !values.is_sorted_by(|a, b| a < b) {

@@ -27,9 +27,10 @@ fn what_is_no_axis_is_said() {
 #[test]
 fn the_last_axis_varies_fastest() {
     let axes = ["rod.damping=1,2", "impact.speed=3,4,5"].map(|text| text.parse().unwrap());
-    let grid = Grid::new(Problem::uniform(1.into(), 1.into(), 1.into(), 1.into()), axes.into()).unwrap();
+    let rod = Problem::uniform(1.into(), 1.into(), 1.into(), 1.into());
+    let grid = Grid::new(axes.into()).unwrap();
     assert_eq!(grid.len(), 6);
-    let values = |k| grid.values(k).iter().map(|x| x.to_f64()).collect();
+    let values = |k| grid.values(k).iter().map(|(_, x)| x.to_f64()).collect();
     assert_eq!((values(0), values(2), values(3)), (vec![1.0, 3.0], vec![1.0, 5.0], vec![2.0, 3.0]));
-    assert_eq!(grid.problem(5).unwrap().damping().unwrap().to_f64(), 2.0);
+    assert_eq!(grid.problem(&rod, 5).unwrap().damping().unwrap().to_f64(), 2.0);
 }
