@@ -18,6 +18,7 @@ use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
+use crate::solve::LONG;
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]
@@ -56,7 +57,7 @@ pub(super) struct Cluster<N> {
     /// States of the step before, their unit of time, and its width in that unit.
     pub(super) before: Option<(Vec<Vec<N>>, N, N)>,
     /// Latest events of the interfaces.
-    latest: Vec<Option<Latest<N>>>,
+    latest: Vec<Option<Moment<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
     jumps: Vec<usize>,
     /// Number of events without a step between them.
@@ -73,14 +74,6 @@ struct Output<N> {
     force: Curve<N>,
     leaving: [Curve<N>; 2],
     softness: Option<Softness<N>>,
-}
-
-/// The latest change of a contact.
-#[derive(Clone, Debug)]
-struct Latest<N> {
-    moment: Moment<N>,
-    /// Whether it is an impact or a release.
-    is_event: bool,
 }
 
 /// Changes of a contact that a step ends with.
@@ -248,7 +241,8 @@ impl<N: Bounded> Cluster<N> {
         };
         let is_at_once = next.at.alike(&origin);
         // An event at once is as late as the breaks that it follows.
-        let late = if is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
+        let late =
+            if LONG && is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
         let at = if is_exact_zero(&late) { width.clone() } else { width.clone().widened(&late) };
         let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         if is_at_once {
@@ -326,11 +320,12 @@ impl<N: Bounded> Cluster<N> {
                 self.check_sliver(j, &passed);
             }
             if !passed.is_empty()
-                && let Some(Latest { moment: event, is_event }) = &self.latest[j]
+                && let Some(event) = &self.latest[j]
                 && event.meets(&self.reached)
                 && !passed.iter().all(|(moment, _)| moment.is(event))
             {
-                if *is_event {
+                // The page, which has no long numbers, shows no rates.
+                if LONG {
                     let drive = self.arriving(j, 1) - self.arriving(j, 0);
                     let t = self.reached.time.clone();
                     occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
@@ -476,7 +471,7 @@ impl<N: Bounded> Cluster<N> {
         if at_once && self.jumps[j] > 1 {
             self.doubts();
         }
-        self.latest[j] = Some(Latest { moment: self.reached.clone(), is_event: change != Change::Return });
+        self.latest[j] = Some(self.reached.clone());
         let was_sprung = self.interfaces[j].is_sprung();
         let root = self.linear.root(masses + j).cloned();
         let interface = &mut self.interfaces[j];

@@ -7,6 +7,7 @@ use super::curve::{Curve, Signal};
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open};
+use crate::solve::LONG;
 
 /// A stretch of a wave without a break.
 #[derive(Clone, Debug)]
@@ -286,7 +287,8 @@ pub(super) fn smooth_value<'a, N: Bounded + 'a>(
 ) -> Result<N, Open> {
     // Signals that continue each other at the true beginning differ at the stored one, by their slopes.
     for ((_, before), (from, after)) in signals.clone().zip(signals.clone().skip(1)) {
-        if before.value_at(from).compare(&after.value_at(from)).is_ok_and(Ordering::is_ne) {
+        let at = if LONG { from.clone() } else { from.clone().nominal() };
+        if before.value_at(&at).compare(&after.value_at(&at)).is_ok_and(Ordering::is_ne) {
             return Err(Open);
         }
     }

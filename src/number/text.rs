@@ -1,6 +1,6 @@
 //! Printed forms of numbers, as text and as JSON.
 
-use super::Scalar;
+use super::{Number, Scalar};
 
 /// Number of digits that determine every double.
 pub const DOUBLE_DIGITS: u32 = 17;
@@ -59,6 +59,15 @@ pub fn double_bound<S: Scalar>(x: &S) -> f64 {
     with_rounding(x, x.to_f64().abs().log2() - f64::from(f64::MANTISSA_DIGITS))
 }
 
+/// Returns whether two texts spell one number; without long numbers, one double.
+fn is_same(a: &str, b: &str) -> bool {
+    if !cfg!(feature = "long") {
+        return a.parse::<f64>() == b.parse::<f64>();
+    }
+    let numbers = a.parse::<Number>().ok().zip(b.parse::<Number>().ok());
+    numbers.is_some_and(|(a, b)| a.compare(&b).is_eq())
+}
+
 /// Digits beyond those of a text that tell whether it is rounded.
 const MORE_DIGITS: u32 = 60;
 
@@ -70,9 +79,7 @@ pub fn shown_bound<S: Scalar>(x: &S, digits: u32) -> f64 {
         let last = (size.log10() + 1e-9).floor() + 1.0 - f64::from(digits);
         last / std::f64::consts::LOG10_2 - 1.0
     });
-    // More digits of a number that is not rounded are zeros.
-    let rounded =
-        || show(x, digits.saturating_add(MORE_DIGITS)).trim_end_matches('0') != show(x, digits).trim_end_matches('0');
+    let rounded = || !is_same(&show(x, digits), &show(x, digits.saturating_add(MORE_DIGITS)));
     if x.log2_error() == f64::NEG_INFINITY && rounded() { rounding } else { with_rounding(x, rounding) }
 }
 

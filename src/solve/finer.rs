@@ -6,7 +6,8 @@
 use std::sync::{Arc, Mutex};
 
 use super::ladder::Target;
-use super::plan::{Engine, LONG, Plan};
+use super::places::Places;
+use super::plan::{Engine, Plan};
 use super::question::{Numbers, Observer};
 use super::typed::TypedHistory;
 use crate::error::Error;
@@ -21,59 +22,87 @@ const MORE_DIGITS: u32 = 17;
 
 /// Digits of a proved run for answers in doubles.
 const PROVED_DIGITS: u32 = 17;
+/// Digits of numbers that the shortest enclosures hold: a time within some of their roundings of a ray counts as that of
+/// the ray.
+const ENCLOSED_DIGITS: u32 = 28;
 
-/// A run that is kept; `None` if it failed.
-type Kept<S> = Option<Arc<TypedHistory<S>>>;
+/// A run that is kept with its digits; `None` if it failed.
+type Kept<S> = Mutex<Option<(u32, Option<Arc<TypedHistory<S>>>)>>;
 
-/// The longer runs of a history.
+/// The longest runs of a history so far.
 #[derive(Debug, Default)]
 pub(super) struct Finer {
-    proved: Mutex<Option<Kept<Interval>>>,
-    /// The longest run in digits so far, and its digits.
-    digits: Mutex<Option<(u32, Kept<Float>)>>,
+    proved: Kept<Interval>,
+    digits: Kept<Float>,
 }
 
-/// Returns the greatest number of digits of `numbers` that those of `plan` do not hold; `None` if they hold all.
-pub(super) fn digits_beyond<'a>(plan: &Plan, numbers: impl Iterator<Item = &'a Number>) -> Option<u32> {
-    let longer = numbers.filter(|number| !holds(plan, number));
-    longer.map(Number::written_digits).max().filter(|_| LONG && plan.may_climb())
-}
-
-/// Returns whether the numbers of `plan` hold a number.
-pub(super) fn holds(plan: &Plan, number: &Number) -> bool {
-    match plan.numbers {
+/// Returns the greatest number of digits in `places` that the numbers of `plan` do not hold; `None` if they hold all.
+pub(super) fn digits_beyond(plan: &Plan, places: &[&Places<'_>]) -> Option<u32> {
+    let held = |number: &&Number| match plan.numbers {
         Numbers::Double(_) => Estimate::<f64>::spelling(number, &()).spelled_as() != Some(Spelling::Near),
         Numbers::Digits(digits) => number.written_digits() <= digits,
-        // Fractions hold every number, and enclosures decide or are made longer.
-        Numbers::Exact | Numbers::ExactThenDigits(_) | Numbers::Certified(_) => true,
-    }
+        Numbers::Certified(digits) => plan.engine != Engine::Cells || is_enclosed(number.written_digits(), digits),
+        // Fractions hold every number.
+        Numbers::Exact | Numbers::ExactThenDigits(_) => true,
+    };
+    let longer = places.iter().flat_map(|places| places.spelled()).filter(|number| !held(number));
+    longer.map(Number::written_digits).max().filter(|_| plan.may_climb())
 }
 
-/// Makes a run; `None` if it fails.
+/// Returns whether enclosures to `digits` digits hold a number of `written` digits.
+fn is_enclosed(written: u32, digits: u32) -> bool {
+    written <= digits.max(ENCLOSED_DIGITS)
+}
+
+/// Returns the digits of a run for numbers of this many digits: few lengths, so that few runs are made.
+fn rounded_up(written: u32) -> u32 {
+    (written + MORE_DIGITS).next_multiple_of(40).min(MAX_RUN_DIGITS)
+}
+
+/// Returns the kept run if it has enough digits, or makes one.
 ///
 /// **Errors**: [`Error::Interrupted`] by `observe`.
-fn run<S: Target>(problem: &Problem, plan: &Plan, numbers: Numbers, observe: &Observer) -> Result<Kept<S>, Error> {
-    match TypedHistory::solve(problem, &plan.in_numbers(problem, numbers), observe.clone()) {
-        Err(Error::Interrupted) => Err(Error::Interrupted),
-        run => Ok(run.ok().map(Arc::new)),
+fn run<S: Target>(
+    kept: &Kept<S>,
+    (problem, plan): (&Problem, &Plan),
+    (digits, numbers): (u32, fn(u32) -> Numbers),
+    observe: &Observer,
+) -> Result<Option<Arc<TypedHistory<S>>>, Error> {
+    let mut kept = locked(kept);
+    match &*kept {
+        Some((known, run)) if *known >= digits => Ok(run.clone()),
+        _ => {
+            let plan = plan.in_numbers(problem, numbers(digits));
+            let run = match TypedHistory::solve(problem, &plan, observe.clone()) {
+                Err(Error::Interrupted) => return Err(Error::Interrupted),
+                run => run.ok().map(Arc::new),
+            };
+            Ok(kept.insert((digits, run)).1.clone())
+        }
     }
 }
 
 impl Finer {
-    /// Returns the proved run of a damped rod, which takes more bits only where those that it has do not tell a time
-    /// from an event: most times of many digits are told by few.
+    /// Returns a proved run of a damped rod that holds numbers of this many digits. It takes more bits only where those
+    /// that it has do not tell a time from an event, and is many times as fast as a run in as many digits.
     ///
     /// **Errors**: [`Error::Interrupted`] by `observe`.
-    pub(super) fn proved(&self, problem: &Problem, plan: &Plan, observe: &Observer) -> Result<Kept<Interval>, Error> {
+    pub(super) fn proved(
+        &self,
+        problem: &Problem,
+        plan: &Plan,
+        observe: &Observer,
+        written: u32,
+    ) -> Result<Option<Arc<TypedHistory<Interval>>>, Error> {
         if plan.engine != Engine::Cells {
             return Ok(None);
         }
-        let mut kept = locked(&self.proved);
-        if kept.is_none() {
-            let digits = if let Numbers::Digits(digits) = plan.numbers { digits } else { PROVED_DIGITS };
-            *kept = Some(run(problem, plan, Numbers::Certified(digits), observe)?);
-        }
-        Ok(kept.clone().flatten())
+        let asked = match plan.numbers {
+            Numbers::Digits(digits) | Numbers::Certified(digits) => digits,
+            _ => PROVED_DIGITS,
+        };
+        let digits = if is_enclosed(written, asked) { asked } else { rounded_up(written).max(asked) };
+        run(&self.proved, (problem, plan), (digits, Numbers::Certified), observe)
     }
 
     /// Returns a run that holds numbers of this many digits.
@@ -84,17 +113,11 @@ impl Finer {
         problem: &Problem,
         plan: &Plan,
         observe: &Observer,
-        digits: u32,
-    ) -> Result<Kept<Float>, Error> {
-        // Few lengths, so that few runs are made.
-        let digits = (digits + MORE_DIGITS).next_multiple_of(40).min(MAX_RUN_DIGITS);
-        let mut kept = locked(&self.digits);
-        match &*kept {
-            Some((known, run)) if *known >= digits => Ok(run.clone()),
-            _ => {
-                let run = run(problem, plan, Numbers::Digits(digits), observe)?;
-                Ok(kept.insert((digits, run)).1.clone())
-            }
+        written: u32,
+    ) -> Result<Option<Arc<TypedHistory<Float>>>, Error> {
+        if matches!(plan.numbers, Numbers::Certified(_)) {
+            return Ok(None);
         }
+        run(&self.digits, (problem, plan), (rounded_up(written), Numbers::Digits), observe)
     }
 }

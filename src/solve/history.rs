@@ -1,16 +1,16 @@
 //! The answer in `Value`s, for every number system.
 
 use super::derivative::{Derivative, Derivatives};
-use super::finer::{Finer, digits_beyond, holds};
+use super::finer::{Finer, digits_beyond};
 use super::ladder::Target;
 use super::places::Places;
-use super::plan::Plan;
+use super::plan::{LONG, Plan};
 use super::question::{Numbers, Observer, Question, unobserved};
 use super::solution::{ExactnessEnd, Solution};
 use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::motion::{Contact, Ending, Energy, Event, EventKind, Field, Scales, Side, StressPiece, Waves, straight};
-use crate::number::{Estimate, IntoValue, List, Number, Scalar, Value};
+use crate::number::{IntoValue, List, Number, Scalar, Value};
 use crate::problem::{Parameter, Problem, Written};
 use crate::quantity::{
     self, Flight, Measure, Missing, Quantity, Restitution, SLICE, Slice, Table, Undefined, UnitSystem, Units,
@@ -64,12 +64,11 @@ macro_rules! typed {
 /// history inside `$history`.
 macro_rules! typed_at {
     ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
-        let beyond = $history.digits_beyond(&$places);
+        let (problem, plan) = ($history.problem(), $history.plan());
         let mut found = None;
-        if let Some(digits) = beyond {
-            let (problem, plan) = ($history.problem(), $history.plan());
+        if LONG && let Some(digits) = digits_beyond(plan, &$places) {
             let observe = typed!($history, history => &history.observe);
-            if let Some($typed) = $history.finer.proved(problem, plan, observe)? {
+            if let Some($typed) = $history.finer.proved(problem, plan, observe, digits)? {
                 found = answered((|| -> Result<_, Error> { $body })());
             }
             if found.is_none()
@@ -491,23 +490,6 @@ impl History {
             Solution::Exact(_) | Solution::Certified(_) => value,
         };
         value.printed_in(self.digits(), unit)
-    }
-
-    /// Returns the greatest number of digits in `places` that the numbers of this history do not hold, if these leave
-    /// an answer open: `places` are times, or points and times.
-    fn digits_beyond(&self, places: &[&Places<'_>]) -> Option<u32> {
-        let plan = self.plan();
-        let numbers = || places.iter().flat_map(|places| places.spelled()).filter(|number| !holds(plan, number));
-        let digits = digits_beyond(plan, numbers())?;
-        // Doubles answer a time that they tell from every event, and from the rays at both ends.
-        if let (Solution::Double(history), [_]) = (&self.solution, places) {
-            let is_open = |time: &Number| {
-                let time = Estimate::<f64>::spelling(time, &());
-                history.ask(|motion| motion.may_jump(&time), |_| Vec::new()).unwrap_or(true)
-            };
-            return numbers().any(is_open).then_some(digits);
-        }
-        Some(digits)
     }
 
     /// Returns the value of a quantity from its `number` without a unit.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::derivative::{Asked, Computed};
-use super::plan::{Engine, Goal, Lacks, Plan, Rung};
+use super::plan::{Engine, Goal, LONG, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer, UNOBSERVED};
 use crate::error::Error;
 use crate::motion::{Ending, Motion, Scales};
@@ -212,7 +212,7 @@ impl Ladder<'_> {
                 }
                 Err(Error::NotDecided { .. } | Error::Open(_)) => Lacks::Bits(f64::INFINITY),
                 // Longer numbers have reached their limit of effort before the time that doubles answer.
-                Err(error @ Error::TimeOutside { .. }) => {
+                Err(error @ Error::TimeOutside { .. }) if LONG => {
                     let kept = kept.map(|(kept, answer, _)| (Attempt { tried: true, ..kept }, answer));
                     return kept.ok_or(error);
                 }

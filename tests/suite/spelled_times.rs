@@ -37,7 +37,7 @@ fn times_beside_events_are_told_apart() {
     ] {
         let problem = problem(&format!("{scene}[run]\nimpacts = 3\n"));
         let exact = problem.solve_in(Numbers::Digits(120)).unwrap();
-        for numbers in [Numbers::default(), Numbers::Digits(12)] {
+        for numbers in [Numbers::default(), Numbers::Digits(12), Numbers::Certified(15)] {
             let history = problem.solve_in(numbers).unwrap();
             for event in &exact.events().unwrap()[1..] {
                 for places in [28, 44] {

@@ -34,7 +34,7 @@ fn main() -> Result<()> {
         html = html.replace(&place, text);
         Ok(())
     };
-    fill("style", &format!("<style>\n{}</style>", read("style.css")?))?;
+    fill("style", &format!("<style>\n{}</style>", code(&read("style.css")?)))?;
     let ends = format!("{} {} {}", glue.len(), glue.len() + script.len(), whole.len());
     let text = encoded(&packed);
     fill("packed", &format!("<script type=\"text/plain\" id=\"packed\" data-ends=\"{ends}\">{text}</script>"))?;
@@ -89,7 +89,8 @@ fn modules(read: &impl Fn(&str) -> Result<String>) -> Result<String> {
     Ok(code(&whole))
 }
 
-/// Returns the lines of code of a script, without imports, indents and comments that have lines of their own.
+/// Returns the lines of code of a script or a style sheet, without imports, indents and comments that have lines of
+/// their own.
 fn code(script: &str) -> String {
     let mut in_comment = false;
     let is_code = |line: &&str| {

@@ -138,7 +138,7 @@ impl Sweep {
         sweep::check_time(&quantities, self.time.as_ref()).map_err(|error| failure!("{error}"))?;
         let numbers = self.scene.numbers.numbers(scene);
         let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
-        Ok(Subject::Rod(scene.problem.clone(), request))
+        Ok(Subject::Rod(Box::new(scene.problem.clone()), request))
     }
 
     /// Returns the numbers that are asked for at each point of a whole chain.

@@ -214,7 +214,7 @@ pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), 
 #[derive(Debug)]
 pub(crate) enum Subject {
     /// A rod by itself, or a body of a chain.
-    Rod(Problem, Request),
+    Rod(Box<Problem>, Request),
     /// A whole chain.
     Chain(Box<ChainScene>, ChainRequest),
 }

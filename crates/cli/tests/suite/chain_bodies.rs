@@ -150,7 +150,7 @@ fn values_of_other_bodies_are_swept() {
 #[test]
 fn whole_chains_are_swept() {
     let swept = |args: &[&str], scene: &str| run_with(&[&["sweep", "-", "--format", "json"][..], args].concat(), scene);
-    let mass = "[[body]]\nmass = 4\nvelocity = -3\n[ground]\nstiffness = 1\n[run]\ntime = 9\n";
+    let mass = "[[body]]\nmass = 4\nvelocity = -3\n[ground]\nstiffness = 1\n[run]\ntime = 10\n";
     let asked = ["--quantity", "peak_force.bottom,release.bottom,impulse.bottom,v_end.1"];
     let vary = ["--vary", "ground.stiffness=1,4", "--vary", "body.1.velocity=-3,3", "--vary", "body.1.mass=4,9"];
     let Run { out, err, .. } = swept(&[&asked[..], &vary].concat(), mass);
@@ -178,7 +178,7 @@ fn whole_chains_are_swept() {
     let values = |k: usize| ["force.1", "impact.1"].map(|name| bars["points"][k]["values"][name].clone());
     assert_eq!(values(0), [serde_json::json!("7/170"), serde_json::json!("1/10")]);
     assert_eq!(values(1), [serde_json::json!("7/85"), serde_json::json!("1/20")]);
-    assert_eq!((&bars["units"]["force.1"], &bars["time"]), (&"N".into(), &"0.2".into()));
+    assert_eq!((&bars["units"]["force.1"], &bars["time"]), (&"".into(), &"0.2".into()));
     for (args, part) in [
         ("--vary body.3.length=1 --quantity force.1", "expected one that the chain has: body.1.length"),
         ("--vary rod.length=1 --quantity force.1", "found the value rod.length"),
@@ -338,4 +338,108 @@ fn soft_chains_in_doubt_are_drawn() {
     assert_eq!(svg.matches("class=\"panel\"").count(), 4);
     // The whole of both bars has colours.
     assert!(!svg.contains("NaN"));
+}
+
+/// The bar falls with 1/2 + t/2 and is 3/4 lower at t = 1, where the gap above the stop is zero for an instant: there
+/// the stop turns from −1 to −0.3, and the end goes on with −1.
+const GRAZING: &str = "[[body]]\nlength = \"1/2\"\nwave_speed = 1\nimpedance = 1\nvelocity = -0.5\n\
+    [ends]\nbottom = { velocity = [[0, -0.3], [1, -1], [1, -0.3], [\"5/2\", 0]], gap = 0.1 }\n\
+    top = { infinite = 5, gap = 0.1, stiffness = 100, damping = 0 }\n\
+    [gravity]\nacceleration = 0.5\n[run]\ntime = 2\n";
+
+/// The break that counts as one with an impact decides the rate after it, and the time of a rate that is exactly zero
+/// belongs to its bound.
+#[test]
+fn rates_after_an_event_are_those_after_its_break() {
+    for numbers in [&[][..], &["--digits", "25"], &["--certified"]] {
+        let json = run_with(&[&["solve", "-", "--format", "json"], numbers].concat(), GRAZING).out;
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let number = |cell: &serde_json::Value| {
+            let text = cell.get("value").unwrap_or(cell).to_string();
+            text.trim_matches('"').parse::<f64>().unwrap()
+        };
+        let bound = |event: &serde_json::Value| {
+            let cell = &event["gap_rate_after"];
+            match cell.get("lo").zip(cell.get("hi")) {
+                Some((lo, hi)) => number(hi) - number(lo),
+                None => number(&event["uncertainty"]["gap_rate_after"]),
+            }
+        };
+        let [impact, release] = [0, 1].map(|k| &json["events"][k]);
+        for (event, truth) in [(impact, -0.7), (release, 0.0)] {
+            let (found, bound) = (number(&event["gap_rate_after"]), bound(event));
+            assert!((found - truth).abs() <= bound + 1e-16 && bound < 1e-14, "{event}");
+        }
+    }
+}
+
+/// A displacement does not jump, and a velocity that jumps at a time which nothing tells from that of the impact has a
+/// bound that covers both limits.
+#[test]
+fn values_at_a_jump_that_is_not_told_cover_both_limits() {
+    for numbers in [&[][..], &["--certified"]] {
+        let asked =
+            ["sample", "-", "--times", "1", "--quantity", "u_end.1,v_end.1", "--format", "json", "--uncertainty"];
+        let Run { out, err, .. } = run_with(&[&asked[..], numbers].concat(), GRAZING);
+        let json: serde_json::Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+        let row = json["rows"][0].as_array().unwrap();
+        let names: Vec<&str> =
+            json["columns"].as_array().unwrap().iter().map(|it| it["name"].as_str().unwrap()).collect();
+        let cell = |name: &str| &row[names.iter().position(|known| *known == name).unwrap()];
+        let ends = |name: &str| {
+            let number = |cell: &serde_json::Value| cell.to_string().trim_matches('"').parse::<f64>().unwrap();
+            match (cell(name).get("lo"), cell(name).get("hi")) {
+                (Some(lo), Some(hi)) => [number(lo), number(hi)],
+                _ => {
+                    let (value, bound) = (number(cell(name)), number(cell(&format!("{name}_uncertainty"))));
+                    [value - bound, value + bound]
+                }
+            }
+        };
+        let [low, high] = ends("u_end.1");
+        assert!(low <= -0.75 && high >= -0.75 && high - low < 1e-12, "{out}");
+        let [low, high] = ends("v_end.1");
+        assert!(low <= -1.0 && high >= -0.3, "{out}");
+    }
+}
+
+/// **Source**: with k = Z = c = μ = 1 and a dashpot of 5 the depth is δ = 2(1 − e^(−t/6)) until the wave is back at
+/// t = 2, and the contact ends there.
+#[test]
+fn energies_of_a_spring_that_is_let_go_have_two_limits() {
+    let scene = "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = -1\n\
+                 [ends]\nbottom = { gap = 0, stiffness = 1, damping = 5 }\n[run]\ntime = 3\n";
+    let energies = |side: &str| -> [f64; 2] {
+        let asked =
+            ["--times", "2", "--quantity", "spring_energy.bottom,dissipated.bottom", "--format", "csv", "--bare"];
+        let out = run_with(&[&["sample", "-", "--side", side][..], &asked].concat(), scene).out;
+        let cells: Vec<f64> = out.lines().last().unwrap().split(',').skip(2).map(|it| it.parse().unwrap()).collect();
+        [cells[0], cells[1]]
+    };
+    let ([stored, lost], [after, all]) = (energies("left"), energies("right"));
+    let depth = 1.0 - (-1.0 / 3.0f64).exp();
+    assert!((stored - depth * depth / 2.0).abs() < 1e-13 && after == 0.0, "{stored} {after}");
+    assert!((stored + lost - all).abs() < 1e-13, "{lost} {all}");
+}
+
+/// The impulse of a contact that goes on beyond the end of a history that stops early is not known.
+#[test]
+fn contacts_beyond_an_early_end_have_no_impulse() {
+    let scene = "[[body]]\nlength = \"8/3\"\nwave_speed = \"7/6\"\nimpedance = 7\nvelocity = \"3/4\"\n\
+        [[body]]\nlength = \"1/3\"\nwave_speed = \"12/5\"\nimpedance = 3\n\
+        velocity = [[0, -1], [\"1/9\", -1], [\"1/9\", 1], [\"1/3\", 2]]\n\
+        [[body]]\nlength = \"9/2\"\nwave_speed = \"5/2\"\nimpedance = \"1/2\"\nvelocity = 0\njoint = \"bonded\"\n\
+        [ends]\nbottom = \"free\"\ntop = { infinite = 8, gap = 7 }\n[run]\ntime = 17.3\n";
+    let contacts = |numbers: &[&str]| {
+        let out = run_with(&[&["solve", "-", "--format", "json"], numbers].concat(), scene).out;
+        let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let contacts = json["contacts"].as_array().unwrap();
+        let lasting = contacts.iter().find(|contact| contact["node"] == "top" && contact["release"].is_null());
+        (json["ending"].as_str().unwrap().to_string(), lasting.unwrap().clone())
+    };
+    let (ending, last) = contacts(&["--certified"]);
+    assert!(ending.contains("undecided"), "{ending}");
+    assert!(["impulse", "peak_force", "peak_time"].iter().all(|name| last[name].is_null()), "{last}");
+    let (_, last) = contacts(&[]);
+    assert!(last["impulse"].is_f64(), "{last}");
 }

@@ -240,3 +240,14 @@ fn a_sweep_over_a_value_that_is_not_there_is_refused() {
         refused(&[&args[..], &["--vary", &format!("{value}=1")]].concat(), &[value, "one that the chain has"]);
     }
 }
+
+/// More digits do not tell what a rod does that nothing moves.
+#[test]
+fn a_damped_rod_at_rest_stays_where_it_is() {
+    let scene = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.1\n[start]\nvelocity = [[0, 0], [1, 0]]\n\
+                 [run]\nimpacts = 2\n";
+    for numbers in [&[][..], &["--digits", "30"]] {
+        let Run { out, .. } = run_with(&[&["solve", "-"], numbers].concat(), scene);
+        assert!(out.contains("no bounce: neither speed nor gravity: nothing moves"), "{out}");
+    }
+}
