@@ -110,7 +110,7 @@ impl Destination {
     /// Writes what `fill` writes: to the file when it is complete, or to standard output.
     pub(crate) fn write_with(&self, fill: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
         let write = || match &self.path {
-            Some(path) => Ok(stage(path, fill)?.persist(path).map(drop)?),
+            Some(path) => put(stage(path, fill)?, path),
             None => {
                 let mut file = tempfile::tempfile()?;
                 fill(&mut file)?;
@@ -137,7 +137,7 @@ pub(crate) fn write_all(
         }
     }
     for (destination, path, file) in staged {
-        file.persist(path).map_err(|error| cannot_write(destination)(error.into()))?;
+        put(file, path).map_err(cannot_write(destination))?;
     }
     for (destination, bytes) in destinations.iter().zip(&contents).filter(|(destination, _)| destination.path.is_none())
     {
@@ -172,12 +172,28 @@ fn to_stdout(write: impl FnOnce(&mut io::StdoutLock<'_>) -> io::Result<()>) -> i
     }
 }
 
+/// Returns whether a path is there, and neither a file nor a folder: a device or a pipe.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+/// Puts a complete file in its place. What is written to a device or a pipe goes into it and does not replace it.
+fn put(file: NamedTempFile, path: &Path) -> io::Result<()> {
+    if !is_special(path) {
+        return Ok(file.persist(path).map(drop)?);
+    }
+    let mut device = File::options().write(true).open(path)?;
+    io::copy(&mut file.reopen()?, &mut device).map(drop)
+}
+
 /// Returns a temporary file beside `path` that `fill` has written.
 fn stage(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
     if path.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
     }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let temporary = std::env::temp_dir();
+    let folder = if is_special(path) { &temporary } else { beside };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".dalembert-");
     // The permissions of a plain new file, not those of a private temporary one.
@@ -216,7 +232,7 @@ pub(crate) fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) -> Result
         staged.push((file.map_err(failure::cannot(&format!("write {}", folder.display())))?, path));
     }
     for (file, path) in staged {
-        file.persist(&path).map_err(|error| failure::cannot(&format!("write {}", path.display()))(error.into()))?;
+        put(file, &path).map_err(failure::cannot(&format!("write {}", path.display())))?;
     }
     Ok(())
 }

@@ -151,6 +151,7 @@ impl Sweep {
             query.ok_or_else(|| unknown_quantity(name, &ChainQuery::names(chain)))
         };
         let quantities = self.quantity.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        sweep::check_time(&[], self.time.as_ref()).map_err(|error| failure!("{error}"))?;
         let numbers = self.scene.numbers.numbers_to(scene.accuracy);
         Ok(Subject::Chain(scene, ChainRequest { quantities, time: self.time.clone(), numbers }))
     }

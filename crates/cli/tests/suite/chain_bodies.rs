@@ -184,6 +184,7 @@ fn whole_chains_are_swept() {
         ("--vary rod.length=1 --quantity force.1", "found the value rod.length"),
         ("--vary body.1.length=1 --quantity force.3", "did you mean force.1?"),
         ("--vary body.1.length=1 --quantity force.1,u_end", "found the quantity u_end of a chain"),
+        ("--vary body.1.length=1 --quantity force.1 --time -1", "expected one from 0 on"),
     ] {
         let args = args.split_whitespace();
         refused(&["sweep", "openfoam-7-1-2"].into_iter().chain(args).collect::<Vec<_>>(), &[part]);

@@ -23,3 +23,18 @@ fn a_file_holds_what_its_ending_says() {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }
+
+/// A pipe is written to; no file takes its place.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let path = pipe.clone();
+    let reader = std::thread::spawn(move || std::fs::read_to_string(path).unwrap());
+    let found = run(&["reference", "figure-4-r02", "--times", "1", "-o", pipe.to_str().unwrap()]);
+    assert_eq!(found.code, Some(0), "{}", found.err);
+    assert!(reader.join().unwrap().contains("u_end"));
+    assert!(!pipe.is_file() && pipe.exists());
+}
