@@ -18,7 +18,6 @@ use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
-use crate::solve::LONG;
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]
@@ -241,8 +240,7 @@ impl<N: Bounded> Cluster<N> {
         };
         let is_at_once = next.at.alike(&origin);
         // An event at once is as late as the breaks that it follows.
-        let late =
-            if LONG && is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
+        let late = if is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
         let at = if is_exact_zero(&late) { width.clone() } else { width.clone().widened(&late) };
         let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         if is_at_once {
@@ -324,12 +322,9 @@ impl<N: Bounded> Cluster<N> {
                 && event.meets(&self.reached)
                 && !passed.iter().all(|(moment, _)| moment.is(event))
             {
-                // The page, which has no long numbers, shows no rates.
-                if LONG {
-                    let drive = self.arriving(j, 1) - self.arriving(j, 0);
-                    let t = self.reached.time.clone();
-                    occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
-                }
+                let drive = self.arriving(j, 1) - self.arriving(j, 0);
+                let t = self.reached.time.clone();
+                occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
                 self.doubts();
             }
         }

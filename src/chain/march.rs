@@ -14,7 +14,6 @@ use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Bounded, Open};
 use crate::reason::Reason;
-use crate::solve::LONG;
 
 impl<N: Bounded> ChainRun<N> {
     /// Runs `chain`; `observe` receives the number of events and of wave pieces, and may end the run.
@@ -176,7 +175,6 @@ fn march<N: Bounded>(
         match kind {
             Some(kind) => events.push(ChainEvent { kind, node, t, before, after }),
             // A break that counts as one with the latest event of the node.
-            None if !LONG => {}
             None => {
                 let latest = events.iter_mut().rfind(|event| event.node == node);
                 let latest = latest.filter(|latest| (latest.t.clone() - &t).vanishes() != Ok(false));

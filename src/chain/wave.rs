@@ -287,6 +287,7 @@ pub(super) fn smooth_value<'a, N: Bounded + 'a>(
 ) -> Result<N, Open> {
     // Signals that continue each other at the true beginning differ at the stored one, by their slopes.
     for ((_, before), (from, after)) in signals.clone().zip(signals.clone().skip(1)) {
+        // The stored beginning is close enough for the page, which refuses such a time.
         let at = if LONG { from.clone() } else { from.clone().nominal() };
         if before.value_at(&at).compare(&after.value_at(&at)).is_ok_and(Ordering::is_ne) {
             return Err(Open);

@@ -25,7 +25,8 @@ fn main() -> Result<()> {
     let whole = [glue.as_bytes(), script.as_bytes(), &module].concat();
     let packed = compressed(&whole)?;
 
-    let mut html = read("index.html")?;
+    // Spaces at the beginning of a line are nothing to HTML without preformatted text.
+    let mut html = code(&read("index.html")?);
     let mut fill = |mark: &str, text: &str| {
         let place = format!("<!-- {mark} -->");
         if html.matches(&place).count() != 1 {
@@ -34,7 +35,7 @@ fn main() -> Result<()> {
         html = html.replace(&place, text);
         Ok(())
     };
-    fill("style", &format!("<style>\n{}</style>", code(&read("style.css")?)))?;
+    fill("style", &format!("<style>\n{}</style>", code(&read("style.css")?).replace(" {", "{")))?;
     let ends = format!("{} {} {}", glue.len(), glue.len() + script.len(), whole.len());
     let text = encoded(&packed);
     fill("packed", &format!("<script type=\"text/plain\" id=\"packed\" data-ends=\"{ends}\">{text}</script>"))?;
