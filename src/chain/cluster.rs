@@ -10,14 +10,18 @@
 //! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A
 //! single state is bounded by the greater of its error before and that of its input.
 
+use std::sync::Arc;
+
 use super::curve::{Curve, Fall, Signal, first_fall, greater, upper, value};
+use super::exact::ExactTime;
 use super::interface::{Interface, Mode, Moment, Softness};
 use super::law::Law;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
+use super::onset::{Onset, Series};
 use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, Rational};
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]
@@ -28,6 +32,8 @@ pub(super) struct Mass<N> {
     pub(super) velocity: N,
     /// Bound of the error of the velocity at the start.
     error: N,
+    /// Whether the velocity is exactly that of the start.
+    pub(super) is_still: bool,
     /// `1/m` and `√m`.
     pub(super) inverse: N,
     pub(super) root: N,
@@ -83,13 +89,14 @@ enum Change {
     Return,
 }
 
-/// Events at one time after which a cluster is given up.
+/// Events at one time, beside two of each interface, after which a cluster is given up.
 const MOST_REPEATED: usize = 16;
 
 impl<N: Bounded> Mass<N> {
     pub(super) fn new(body: usize, velocity: N, inverse: N, root: N) -> Self {
         let (velocity, error) = velocity.centred();
-        Mass { body, velocity, error, inverse, root }
+        let is_still = is_exact_zero(&error);
+        Mass { body, velocity, error, is_still, inverse, root }
     }
 }
 
@@ -111,7 +118,10 @@ impl<N: Bounded> Cluster<N> {
             interfaces,
             masses,
             linear: Linear::default(),
-            reached: Moment::new(zero.clone()),
+            reached: Moment {
+                exact: Some(Arc::new(ExactTime::rational(Rational::default()))),
+                ..Moment::new(zero.clone())
+            },
             until: Moment::new(until.clone()),
             norm: upper(norm),
             fading: None,
@@ -134,55 +144,37 @@ impl<N: Bounded> Cluster<N> {
             }
         }
         for j in 0..self.interfaces.len() {
-            // A contact that has closed pushes the masses beside it.
-            let lines = self.first_lines();
-            let [y, slope] = [0, 1].map(|k| lines[j][1][k].clone() - &lines[j][0][k]);
-            let interface = &mut self.interfaces[j];
-            interface.drive = y.clone();
-            if interface.law != Law::Contact || interface.soft.is_none() && interface.mode == Mode::Closed {
-                continue;
-            }
-            if is_exact_zero(&interface.gap) && is_exact_zero(&interface.gap_error) {
-                let closes = y.negative()? || y.vanishes()? && slope.negative()?;
-                if closes {
-                    interface.mode = Mode::Closed;
-                    impacts.push((j, y));
-                }
-            }
+            self.interfaces[j].drive = self.arriving(j, 1) - self.arriving(j, 0);
         }
         self.linear = self.linear();
+        let inputs = self.inputs(&zero, &self.until.at);
+        // A contact that has closed pushes the masses beside it.
+        loop {
+            let Some(series) = self.series(&inputs) else { break };
+            let mut falls = Vec::new();
+            for (j, interface) in self.interfaces.iter().enumerate() {
+                if !interface.touches || interface.mode != Mode::Open {
+                    continue;
+                }
+                let (onset, doubt) = self.onset_of_gap(&series, j)?;
+                falls.extend(onset.order().map(|order| (order, j, doubt)));
+            }
+            let Some(least) = falls.iter().map(|(order, ..)| *order).min() else { break };
+            for (_, j, doubt) in falls.into_iter().filter(|(order, ..)| *order == least) {
+                if doubt {
+                    self.doubts();
+                }
+                let interface = &mut self.interfaces[j];
+                interface.mode = Mode::Closed;
+                impacts.push((j, interface.drive.clone()));
+            }
+            self.linear = self.linear();
+        }
         let occurrence = |(j, y): (usize, N)| {
             let kind = Some(EventKind::Impact);
             (self.first + j, Occurrence { kind, t: zero.clone(), drive: [y.clone(), y] })
         };
         Ok(impacts.into_iter().map(occurrence).collect())
-    }
-
-    /// Returns value and slope of the signals that arrive at each side at the start; the slope of a mass is its
-    /// acceleration.
-    fn first_lines(&self) -> Vec<[[N; 2]; 2]> {
-        let zero = self.norm.zero();
-        let mut lines: Vec<[[N; 2]; 2]> = Vec::with_capacity(self.interfaces.len());
-        for interface in &self.interfaces {
-            lines.push(interface.sides.each_ref().map(|input| match (&input.source, &input.signal) {
-                (Source::Mass(mass), _) => [self.masses[*mass].velocity.clone(), zero.clone()],
-                (_, Signal::Line(line)) => [line.intercept.clone(), line.slope.clone()],
-                (_, Signal::Curve(_)) => [zero.clone(), zero.clone()],
-            }));
-        }
-        let values = lines
-            .iter()
-            .zip(&self.interfaces)
-            .map(|([below, above], interface)| [below[0].clone(), above[0].clone(), interface.gap.clone()]);
-        let rates = self.rates(&values.collect::<Vec<_>>(), false);
-        for (line, interface) in lines.iter_mut().zip(&self.interfaces) {
-            for (side, input) in line.iter_mut().zip(&interface.sides) {
-                if let Source::Mass(mass) = &input.source {
-                    side[1] = rates[*mass].clone();
-                }
-            }
-        }
-        lines
     }
 
     /// Looks up the breaks that have left the neighbours since.
@@ -202,7 +194,7 @@ impl<N: Bounded> Cluster<N> {
     /// Goes on to the next break, event, or end of a step. Signals are known up to `horizon`.
     pub(super) fn advance(
         &mut self,
-        horizon: Option<N>,
+        horizon: Option<Moment<N>>,
         waves: &mut [[Wave<N>; 2]],
     ) -> Result<Vec<(usize, Occurrence<N>)>, Stop> {
         self.look_up(waves);
@@ -221,13 +213,15 @@ impl<N: Bounded> Cluster<N> {
         let errors = self.step_errors(&inputs, &step);
         let solved = (&inputs[..], &step, &errors[..]);
         let outputs: Vec<Output<N>> = (0..self.interfaces.len()).map(|j| self.output(j, solved)).collect();
-        let found = self.events(&outputs, solved)?;
+        let series = self.series(&inputs);
+        let found = self.events(&outputs, solved, series.as_ref())?;
         let earlier = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
         let first = found.iter().map(|(_, _, at)| at.clone()).reduce(earlier);
         let (width, next) = match &first {
             Some(at) => {
                 let (stored, rounding) = (origin.clone() + &at.at).centred();
-                (at.at.clone(), Moment::beside(stored, at.late.clone() + rounding))
+                let exact = Some(Arc::new(ExactTime::named()));
+                (at.at.clone(), Moment::beside(stored, at.late.clone() + rounding, exact))
             }
             None if is_short => {
                 let stored = (origin.clone() + &step.width).centred().0;
@@ -245,13 +239,13 @@ impl<N: Bounded> Cluster<N> {
         let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
         if is_at_once {
             self.repeated += 1;
-            if self.repeated > MOST_REPEATED {
+            if self.repeated > MOST_REPEATED + 2 * self.interfaces.len() {
                 return Err(Stop::Open);
             }
             self.norm = norm;
         } else {
             self.emit(outputs, solved, &width, waves);
-            self.take(&step, &errors, &width);
+            self.take(&step, &errors, &width, series.as_ref());
             self.before = Some((step.states, step.unit.clone(), width.clone() / &step.unit));
             self.repeated = 0;
         }
@@ -259,7 +253,10 @@ impl<N: Bounded> Cluster<N> {
         if !is_at_once {
             self.reached = next;
         } else if self.reached.late.below(&next.late) != Ok(false) {
-            self.reached = Moment::beside(self.reached.at.clone(), late);
+            // An event that a break causes is at the time of the break.
+            let is_told = is_exact_zero(&next.late) && is_exact_zero(&width);
+            let exact = if is_told { &self.reached } else { &next }.exact.clone();
+            self.reached = Moment::beside(self.reached.at.clone(), late, exact);
         }
         for (j, change, at) in found {
             if !first.as_ref().is_some_and(|first| at.meets(first)) {
@@ -268,7 +265,9 @@ impl<N: Bounded> Cluster<N> {
             // A gap of zero within its error may close at a break, or just after it.
             let jump = drives_after[j].clone() - &drives_before[j];
             let jumps = jump.positive() == Ok(true) || jump.negative() == Ok(true);
-            if is_at_once && jumps && change == Change::Close && !is_exact_zero(&self.interfaces[j].gap_error) {
+            let interface = &self.interfaces[j];
+            let lands = change == Change::Close && interface.mode == Mode::Open;
+            if is_at_once && jumps && lands && !is_exact_zero(&interface.gap_error) {
                 self.doubts();
             }
             let kind = self.change(j, change, is_at_once);
@@ -311,6 +310,9 @@ impl<N: Bounded> Cluster<N> {
                     }
                 }
             }
+            if !passed.iter().all(|(moment, _)| moment.is(&self.reached)) {
+                self.reached.exact = None;
+            }
             self.jumps[j] = 0;
             let told = passed.iter().all(|(moment, _)| moment.is(&passed[0].0));
             if !told {
@@ -333,7 +335,7 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Returns the signal that arrives at a side of an interface at the time that is reached.
-    fn arriving(&self, j: usize, side: usize) -> N {
+    pub(super) fn arriving(&self, j: usize, side: usize) -> N {
         let side = &self.interfaces[j].sides[side];
         match &side.source {
             Source::Mass(mass) => {
@@ -363,8 +365,7 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Returns the next time at which a signal changes, or up to which signals are known.
-    fn end(&self, horizon: Option<N>) -> Moment<N> {
-        let horizon = horizon.map(|time| Moment { late: time.zero(), ..Moment::new(time) });
+    fn end(&self, horizon: Option<Moment<N>>) -> Moment<N> {
         let fronts = self.interfaces.iter().flat_map(|interface| &interface.sides).filter_map(|side| side.next.clone());
         let first = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
         let end = horizon.into_iter().fold(self.until.clone(), first);
@@ -407,8 +408,9 @@ impl<N: Bounded> Cluster<N> {
         &mut self,
         outputs: &[Output<N>],
         solved: Solved<'_, N>,
+        series: Option<&Series<N>>,
     ) -> Result<Vec<(usize, Change, Moment<N>)>, Stop> {
-        let mut found = Vec::new();
+        let (mut found, mut falls) = (Vec::new(), Vec::new());
         let step = solved.1;
         for (j, output) in outputs.iter().enumerate() {
             if self.interfaces[j].law != Law::Contact {
@@ -416,31 +418,42 @@ impl<N: Bounded> Cluster<N> {
             }
             let interface = &self.interfaces[j];
             let Output { force, softness: Some(Softness { gap, .. }), .. } = output else { continue };
-            let mut skipped = self.norm.zero();
+            let onset = series.filter(|_| interface.touches).map(|series| match interface.mode {
+                Mode::Closed => series.onset(interface.closed_force(), j),
+                _ => self.onset_of_gap(series, j),
+            });
+            let onset = onset.and_then(|onset| onset.ok().filter(|(_, doubt)| !doubt)).map(|(onset, _)| onset);
+            // A function that is exactly zero and rises is watched once it has risen.
+            let risen = |curve: &Curve<N>, rise: Option<N>| {
+                let Some(width) = rise else { return Some((curve.clone(), self.norm.zero())) };
+                let left = (step.width.clone() - &width).centred().0;
+                let origin = (curve.origin.clone() + &width).centred().0;
+                (left.positive() == Ok(true)).then(|| (curve.about(&origin, &left), width))
+            };
+            let rising = |curve: &Curve<N>| if onset == Some(Onset::Rise) { curve.rising_width() } else { None };
             let watched = match interface.mode {
+                _ if onset == Some(Onset::Zero) => Vec::new(),
                 Mode::Open if interface.is_fresh => {
                     // The force fell to zero, so that y rises from zero, and the gap with it.
                     let [drive] = self.curves([interface.drive_row()], j, solved);
-                    match drive.rising_width() {
-                        Some(width) if width.below(&step.width) == Ok(true) => {
-                            let origin = (gap.origin.clone() + &width).centred().0;
-                            let left = (step.width.clone() - &width).centred().0;
-                            skipped = width;
-                            vec![(Change::Close, gap.about(&origin, &left))]
-                        }
-                        Some(_) => Vec::new(),
-                        None => vec![(Change::Close, gap.clone())],
-                    }
+                    risen(gap, drive.rising_width()).map(|rest| (Change::Close, rest)).into_iter().collect()
                 }
-                Mode::Open => vec![(Change::Close, gap.clone())],
-                Mode::Closed => vec![(Change::Release, force.clone())],
+                Mode::Open => match onset {
+                    Some(Onset::Fall(order)) => {
+                        falls.push((order, j));
+                        Vec::new()
+                    }
+                    _ => risen(gap, rising(gap)).map(|rest| (Change::Close, rest)).into_iter().collect(),
+                },
+                Mode::Closed => risen(force, rising(force)).map(|rest| (Change::Release, rest)).into_iter().collect(),
                 Mode::Released => {
                     let [pull] = self.curves([interface.closed_force()], j, solved);
-                    vec![(Change::Return, gap.negated()), (Change::Close, pull.negated())]
+                    let whole = |curve: Curve<N>| (curve.negated(), self.norm.zero());
+                    vec![(Change::Return, whole(gap.clone())), (Change::Close, whole(pull))]
                 }
             };
             let (mut ends_at_zero, before) = (false, found.len());
-            for (change, curve) in watched {
+            for (change, (curve, skipped)) in watched {
                 let (fall, doubt) = first_fall(&curve).map_err(|Open| Stop::Open)?;
                 if doubt {
                     self.doubts();
@@ -456,6 +469,10 @@ impl<N: Bounded> Cluster<N> {
                 self.doubts();
             }
         }
+        // Of contacts that close at once, the first pushes the others.
+        let least = falls.iter().map(|(order, _)| *order).min();
+        let first = falls.into_iter().filter(|(order, _)| Some(*order) == least);
+        found.extend(first.map(|(_, j)| (j, Change::Close, Moment::new(self.norm.zero()))));
         Ok(found)
     }
 
@@ -471,6 +488,7 @@ impl<N: Bounded> Cluster<N> {
         let root = self.linear.root(masses + j).cloned();
         let interface = &mut self.interfaces[j];
         let rest = interface.gap.magnitude();
+        interface.touches = change == Change::Close && interface.mode == Mode::Open;
         let kind = match change {
             Change::Close => {
                 match &interface.soft {
@@ -530,19 +548,19 @@ impl<N: Bounded> Cluster<N> {
 
     /// Sends out the signals of a step, and records its states.
     fn emit(&mut self, outputs: Vec<Output<N>>, solved: Solved<'_, N>, width: &N, waves: &mut [[Wave<N>; 2]]) {
-        let (from, late) = (self.reached.time.clone(), self.reached.late.clone());
+        let Moment { time: from, late, .. } = self.reached.clone();
         let cut = |curve: Curve<N>| Curve { width: width.clone(), ..curve };
         for (i, mass) in self.masses.iter().enumerate() {
             let curve = cut(self.state_curve(i, solved));
             for wave in &mut waves[mass.body] {
-                wave.push_curve(&from, &late, curve.clone());
+                wave.push_curve(&self.reached, curve.clone());
             }
         }
         for (interface, output) in self.interfaces.iter_mut().zip(outputs) {
             let Output { force, leaving, mut softness } = output;
             for (side, curve) in leaving.into_iter().enumerate() {
                 if let Source::Wave(body) = &interface.sides[side].source {
-                    waves[*body][1 - side].push_curve(&from, &late, cut(curve));
+                    waves[*body][1 - side].push_curve(&self.reached, cut(curve));
                 }
             }
             if let (Some(soft), Some(softness)) = (&interface.soft, &mut softness)
@@ -568,17 +586,21 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Takes over the states at the end of a step.
-    fn take(&mut self, step: &Step<N>, errors: &[N], width: &N) {
+    fn take(&mut self, step: &Step<N>, errors: &[N], width: &N, series: Option<&Series<N>>) {
         self.fade(width);
         let masses = self.masses.len();
+        let is_constant = |state: usize| series.is_some_and(|series| series.is_constant(state));
         for (state, terms) in step.states.iter().enumerate() {
             let (found, radius) = value(terms, &(width.clone() / &step.unit)).centred();
             match self.linear.root(state) {
                 Some(root) => self.norm = self.norm.clone() + radius * root,
                 None => self.interfaces[state - masses].gap_error = upper(errors[state].clone() + radius),
             }
+            if let Some(interface) = state.checked_sub(masses).map(|j| &mut self.interfaces[j]) {
+                interface.touches = interface.touches && interface.mode == Mode::Open && is_constant(state);
+            }
             match self.masses.get_mut(state) {
-                Some(mass) => mass.velocity = found,
+                Some(mass) => (mass.velocity, mass.is_still) = (found, mass.is_still && is_constant(state)),
                 None => self.interfaces[state - masses].gap = found,
             }
         }

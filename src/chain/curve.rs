@@ -296,10 +296,11 @@ impl<N: Bounded> Curve<N> {
         (value(&primitive(&square), &reach) * &self.unit).widened(&(most * &self.error * width))
     }
 
-    /// Returns a width over which the polynomial rises; `None` if it does not rise at its origin.
+    /// Returns a width over which the polynomial rises; `None` if it does not rise from its origin on.
     pub(super) fn rising_width(&self) -> Option<N> {
         let slopes = derivative(&self.terms);
-        let (first, rest) = slopes.split_first()?;
+        let (first, rest) =
+            slopes.iter().position(|slope| !is_exact_zero(slope)).and_then(|k| slopes[k..].split_first())?;
         let mut reach = self.reach().centred().0;
         for _ in 0..64 {
             if (first.clone() - rough_bound(rest, &reach) * &reach).positive() == Ok(true) {

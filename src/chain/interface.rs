@@ -1,6 +1,7 @@
 //! An interface of a chain with springs, dashpots or masses: the signals that arrive at it, and its linear law.
 
 use super::curve::{Curve, Signal, upper};
+use super::exact::{Exact, exact_sum};
 use super::law::{Law, Mix};
 use super::node::{Gap, Source, Stage};
 use super::wave::{Wave, is_exact_zero};
@@ -16,25 +17,26 @@ pub(super) struct Soft<N> {
     pub(super) damping: N,
 }
 
-/// A time: its exact form where there is one, and a stored value with a bound of its distance from the true time.
+/// A time, and a stored value with a bound of its distance from the true time.
 #[derive(Clone, Debug)]
 pub(super) struct Moment<N> {
     pub(super) time: N,
     pub(super) at: N,
     pub(super) late: N,
+    pub(super) exact: Exact,
 }
 
 impl<N: Bounded> Moment<N> {
     pub(super) fn new(time: N) -> Self {
         let (at, late) = time.centred();
-        Moment { time, at, late }
+        Moment { time, at, late, exact: None }
     }
 
     /// Returns the time within `late` of a stored one.
-    pub(super) fn beside(at: N, late: N) -> Self {
+    pub(super) fn beside(at: N, late: N, exact: Exact) -> Self {
         let late = upper(late);
-        let time = if is_exact_zero(&late) { at.clone() } else { at.clone().widened(&late).with_identity() };
-        Moment { time, at, late }
+        let time = if is_exact_zero(&late) { at.clone() } else { at.clone().widened(&late) };
+        Moment { time, at, late, exact }
     }
 
     /// Returns whether both times agree within their bounds.
@@ -45,7 +47,7 @@ impl<N: Bounded> Moment<N> {
 
     /// Returns whether both times are known to be one.
     pub(super) fn is(&self, other: &Self) -> bool {
-        is_exact_zero(&(self.time.clone() - &other.time))
+        self.exact.is_some() && self.exact == other.exact
     }
 }
 
@@ -222,6 +224,8 @@ pub(super) enum Mode {
 pub(super) struct Input<N> {
     pub(super) source: Source<N>,
     pub(super) delay: Option<N>,
+    /// Exact form of the delay.
+    exact_delay: Exact,
     cursor: usize,
     pub(super) signal: Signal<N>,
     /// Arrival of the next piece, as far as it is known.
@@ -229,9 +233,9 @@ pub(super) struct Input<N> {
 }
 
 impl<N: Bounded> Input<N> {
-    pub(super) fn new(source: Source<N>, delay: Option<N>, zero: &N) -> Self {
+    pub(super) fn new(source: Source<N>, (delay, exact_delay): (Option<N>, Exact), zero: &N) -> Self {
         let signal = Signal::Line(Line { intercept: zero.zero(), slope: zero.zero() });
-        Input { source, delay, cursor: 0, signal, next: None }
+        Input { source, delay, exact_delay, cursor: 0, signal, next: None }
     }
 
     /// Receives the first piece.
@@ -244,9 +248,17 @@ impl<N: Bounded> Input<N> {
     /// Looks up the arrival of the next piece, if it has left its origin.
     pub(super) fn look_up(&mut self, waves: &[[Wave<N>; 2]], side: usize) {
         if self.next.is_none() {
-            let next = self.source.beginning(self.delay.as_ref(), self.cursor + 1, waves, side);
-            self.next = next.map(Moment::new);
+            let piece = self.cursor + 1;
+            let next = self.source.beginning(self.delay.as_ref(), piece, waves, side);
+            let exact = || self.source.exact_beginning(&self.exact_delay, piece, waves, side);
+            self.next = next.map(|time| Moment { exact: exact(), ..Moment::new(time) });
         }
+    }
+
+    /// Returns the arrival of what leaves the origin of the signal at a time; its bound is left to the break there.
+    pub(super) fn after(&self, Moment { time, exact, .. }: &Moment<N>) -> Option<Moment<N>> {
+        let time = time.clone() + self.delay.as_ref()?;
+        Some(Moment { late: time.zero(), exact: exact_sum(exact, &self.exact_delay), ..Moment::new(time) })
     }
 
     /// Passes on to the next piece.
@@ -277,6 +289,8 @@ pub(super) struct Interface<N> {
     pub(super) gap_error: N,
     /// Whether the contact has just opened at a gap of zero, from a force that fell to zero.
     pub(super) is_fresh: bool,
+    /// Whether the gap of the contact is exactly zero: it has touched since the start, or has just closed.
+    pub(super) touches: bool,
     /// Whether the function that is watched for an event was zero within its bound at the end of the step before.
     pub(super) grazes: bool,
     /// Energy that the dashpot has taken up.
@@ -296,6 +310,7 @@ impl<N: Bounded> Interface<N> {
         let zero = gap.zero();
         let mode = if law == Law::Contact { Mode::Open } else { Mode::Closed };
         let (gap, gap_error) = gap.centred();
+        let touches = law == Law::Contact && is_exact_zero(&gap) && is_exact_zero(&gap_error);
         Interface {
             open: Rows::open(&zero),
             closed: Rows::closed((law, outer), mix, soft.as_ref()),
@@ -307,6 +322,7 @@ impl<N: Bounded> Interface<N> {
             gap,
             gap_error,
             is_fresh: false,
+            touches,
             grazes: false,
             dissipated: zero.zero(),
             drive: zero,

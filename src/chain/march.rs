@@ -63,10 +63,8 @@ impl<N: Bounded> ChainRun<N> {
         let mut nodes = match nodes {
             Nodes::Rigid(nodes) => nodes,
             Nodes::Soft(clusters) => {
-                let travels = bars.iter().map(|bar| bar.travel.clone()).collect();
                 let limits = (chain.max_pieces(), observe);
-                let Marched { nodes, events, end, ending, doubt } =
-                    march(clusters, &mut waves, (travels, until), limits)?;
+                let Marched { nodes, events, end, ending, doubt } = march(clusters, &mut waves, until, limits)?;
                 return Ok(ChainRun {
                     bars,
                     nodes,
@@ -160,11 +158,11 @@ struct Marched<N> {
     doubt: Option<f64>,
 }
 
-/// Runs clusters of nodes up to the end; `travels` has the travel times of the bodies.
+/// Runs clusters of nodes up to the end.
 fn march<N: Bounded>(
     mut clusters: Vec<Cluster<N>>,
     waves: &mut [[Wave<N>; 2]],
-    (travels, until): (Vec<N>, N),
+    until: N,
     (limit, observe): (usize, &dyn Fn(usize, usize) -> ControlFlow<()>),
 ) -> Result<Marched<N>, Error> {
     let owner = |clusters: &[Cluster<N>], node: usize| clusters.partition_point(|cluster| cluster.first <= node) - 1;
@@ -198,16 +196,12 @@ fn march<N: Bounded>(
             break;
         }
         // A signal is known up to the time that its origin has reached, and the travel time after it.
-        let known = |body: usize, side: usize| {
-            let origin = &clusters[owner(&clusters, body + side)];
-            origin.reached.time.clone() + &travels[body]
-        };
         let sides = clusters[at].interfaces.iter().flat_map(|interface| interface.sides.iter().enumerate());
         let known = sides.filter_map(|(side, input)| match input.source {
-            Source::Wave(body) => Some(known(body, side)),
+            Source::Wave(body) => input.after(&clusters[owner(&clusters, body + side)].reached),
             _ => None,
         });
-        let horizon = known.reduce(|a, b| if b.below(&a) == Ok(true) { b } else { a });
+        let horizon = known.reduce(|a, b| if b.time.below(&a.time) == Ok(true) { b } else { a });
         match clusters[at].advance(horizon, waves) {
             Ok(found) => found.into_iter().for_each(|occurrence| record(occurrence, &mut events)),
             Err(_) if until.below(&clusters[at].reached.time) == Ok(true) => break,

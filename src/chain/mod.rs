@@ -19,9 +19,9 @@
 //! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
 //! (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
 //! chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
-//! masses have, in place of `node`, `curve` (signals that are polynomials), `interface` (a node with its signals),
-//! `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that act on each other at
-//! once), `peak` (greatest values).
+//! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
+//! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that
+//! act on each other at once), `onset` (the start of the motion of contacts that touch), `peak` (greatest values).
 
 mod answers;
 mod body;
@@ -31,6 +31,7 @@ mod column;
 mod confirm;
 mod curve;
 mod definition;
+mod exact;
 mod field;
 mod foresee;
 mod history;
@@ -39,6 +40,7 @@ mod law;
 mod march;
 mod node;
 mod norm;
+mod onset;
 mod parameter;
 mod peak;
 mod run;

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use super::curve::Signal;
+use super::exact::{Exact, exact_sum};
 use super::interface::Softness;
 use super::law::{Law, Leaving, Mix};
 use super::wave::{Wave, is_exact_zero};
@@ -17,8 +18,8 @@ pub(super) enum Source<N> {
     Nothing,
     /// The wave through the body with this index.
     Wave(usize),
-    /// Given lines, each with its beginning.
-    Data(Vec<(N, Line<N>)>),
+    /// Given lines, each with its beginning and the exact form of that.
+    Data(Vec<(N, Line<N>, Exact)>),
     /// The velocity of the mass with this index in its cluster.
     Mass(usize),
 }
@@ -30,7 +31,16 @@ impl<N: Bounded> Source<N> {
             (Source::Wave(body), Some(delay)) => {
                 waves[*body][side].pieces.get(piece).map(|piece| piece.from.clone() + delay)
             }
-            (Source::Data(lines), _) => lines.get(piece).map(|(from, _)| from.clone()),
+            (Source::Data(lines), _) => lines.get(piece).map(|(from, ..)| from.clone()),
+            _ => None,
+        }
+    }
+
+    /// Returns the exact form of [`Source::beginning`].
+    pub(super) fn exact_beginning(&self, delay: &Exact, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Exact {
+        match self {
+            Source::Wave(body) => exact_sum(&waves[*body][side].pieces.get(piece)?.exact, delay),
+            Source::Data(lines) => lines.get(piece)?.2.clone(),
             _ => None,
         }
     }
@@ -47,7 +57,7 @@ impl<N: Bounded> Source<N> {
             (Source::Wave(body), Some(delay)) => {
                 waves[*body][side].pieces.get(piece).map(|piece| piece.signal.delayed(delay))
             }
-            (Source::Data(lines), _) => lines.get(piece).map(|(_, line)| Signal::Line(line.clone())),
+            (Source::Data(lines), _) => lines.get(piece).map(|(_, line, _)| Signal::Line(line.clone())),
             _ => None,
         }
     }

@@ -1,9 +1,12 @@
 //! The numbers of a chain in one number system, its nodes, and the waves that are in the bodies at the start.
 
+use std::sync::Arc;
+
 use super::body::{Body, Points};
 use super::cluster::{Cluster, Mass};
 use super::curve::Signal;
 use super::definition::{Chain, End, Joint, Spring};
+use super::exact::{Exact, Travels, exact, fixed};
 use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
 use super::march::SOFT;
@@ -58,7 +61,8 @@ impl<N: Bounded> Start<N> {
         let number = |x: Varied<'_, Number>| lift::<N>(&x.given(), precision);
         let gravity = number(varied.part(|chain| &chain.gravity))?;
         let mut squares = Vec::new();
-        let mut bars = Vec::new();
+        let (mut bars, mut exact_travels, mut travels) = (Vec::new(), Vec::new(), Travels::default());
+        let is_soft = SOFT && chain.is_soft();
         let bodies: Vec<Varied<'_, Body>> =
             (0..chain.bodies.len()).map(|k| varied.part(|chain| &chain.bodies[k])).collect();
         for body in &bodies {
@@ -67,12 +71,14 @@ impl<N: Bounded> Start<N> {
                 let [zero, one] = [gravity.zero(), gravity.one()];
                 let [length, travel, force] = [zero.clone(), zero.clone(), zero];
                 bars.push(Bar { length, wave_speed: one, impedance: force, travel, mass: Some(number(mass)?) });
+                exact_travels.push(None);
                 squares.push(impedance);
                 continue;
             }
             let speed: N = root("wave speed", &wave_speed, precision)?;
             let own = body.part(|body| &body.length).given();
             let length: N = lift(&own, precision)?;
+            exact_travels.push(if is_soft { travels.exact(&own, &wave_speed) } else { None });
             let travel = match wave_speed.try_sqrt() {
                 Some(speed) => lift(&(own / speed), precision)?,
                 None => length.clone() / &speed,
@@ -81,13 +87,13 @@ impl<N: Bounded> Start<N> {
             bars.push(Bar { length, wave_speed: speed, impedance: force, travel, mass: None });
             squares.push(impedance);
         }
-        let waves = bodies.iter().zip(&bars).map(|(body, bar)| waves(*body, bar, precision));
+        let parts = bodies.iter().zip(&bars).zip(&exact_travels);
+        let waves = parts.map(|((body, bar), exact)| waves(*body, (bar, exact), precision));
         let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
         let spring = |node: usize| varied.some(|chain| chain.spring(node));
         let springs = (0..=top).map(|node| spring(node).map(|spring| soft(spring, precision)).transpose());
         let springs: Vec<Option<Soft<N>>> = springs.collect::<Result<_, _>>()?;
-        let is_soft = SOFT && chain.is_soft();
         let until = number(varied.part(|chain| &chain.until))?;
         // Clusters go on for a short time, so that events at the end are found whatever the roundings.
         let last = until.to_f64();
@@ -174,7 +180,9 @@ impl<N: Bounded> Start<N> {
                 continue;
             }
             let [first, second] = delays;
-            let sides = [Input::new(lower, first, &gap), Input::new(upper, second, &gap)];
+            let exact = |body: Option<usize>| exact_travels.get(body?)?.clone();
+            let sides =
+                [Input::new(lower, (first, exact(below)), &gap), Input::new(upper, (second, exact(above)), &gap)];
             let outer = usize::from(at == top && at > 0);
             parts.0.push(Interface::new((law, springs[at].clone()), (sides, impedances), (&mix, outer), &gap));
             if let (Some(body), true) = (above, is_mass(above)) {
@@ -223,11 +231,11 @@ fn signal<N: Bounded>(
     points: &[(Given, Given)],
     fall: &N,
     precision: &N::Precision,
-) -> Result<Vec<(N, Line<N>)>, Error> {
+) -> Result<Vec<(N, Line<N>, Exact)>, Error> {
     let number = |x: &Given| lift::<N>(x, precision);
     let constant = |value: N| Line { intercept: value, slope: fall.clone() };
     let Some((last_time, last)) = points.last() else {
-        return Ok(vec![(fall.zero(), constant(fall.zero()))]);
+        return Ok(vec![(fall.zero(), constant(fall.zero()), None)]);
     };
     let mut lines = Vec::new();
     for pair in points.windows(2) {
@@ -236,10 +244,10 @@ fn signal<N: Bounded>(
             let [time, a, b] = [number(from)?, number(a)?, number(b)?];
             let slope = (b - &a) / (number(to)? - &time);
             let intercept = a - slope.clone() * &time;
-            lines.push((time, Line { intercept, slope: slope + fall }));
+            lines.push((time, Line { intercept, slope: slope + fall }, exact(from)));
         }
     }
-    lines.push((number(last_time)?, constant(number(last)?)));
+    lines.push((number(last_time)?, constant(number(last)?), exact(last_time)));
     Ok(lines)
 }
 
@@ -248,12 +256,16 @@ fn signal<N: Bounded>(
 /// **Source**: the upward wave leaves the bottom at `s` with `p(−cs, 0)`, the downward one the top with `q(L + cs, 0)`,
 /// for `−L/c ≤ s < 0`. Their integrals are 0 and `2v(0,0)` where the bottom is at the start, so that
 /// `v(x,t) = (∫p(t − x/c) + ∫q(t − (L − x)/c) − g t²)/2`.
-fn waves<N: Bounded>(body: Varied<'_, Body>, bar: &Bar<N>, precision: &N::Precision) -> Result<[Wave<N>; 2], Error> {
+fn waves<N: Bounded>(
+    body: Varied<'_, Body>,
+    (bar, exact_travel): (&Bar<N>, &Exact),
+    precision: &N::Precision,
+) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
     if bar.mass.is_some() {
         let zero = length.zero();
         let line = Line { intercept: velocity(body, &zero, precision)?, slope: zero.clone() };
-        let still = || wave(vec![(zero.clone(), line.clone())], N::clone, &zero);
+        let still = || wave(vec![(zero.clone(), line.clone(), None)], N::clone, &zero);
         return Ok([still(), still()]);
     }
     let top = body.part(|body| &body.length).given();
@@ -285,6 +297,8 @@ fn waves<N: Bounded>(body: Varied<'_, Body>, bar: &Bar<N>, precision: &N::Precis
                 },
             )
         });
+        let exact_before = |way: Given| Some(Arc::new(exact_travel.as_deref()?.scaled(&fixed(&-(way / &top))?)));
+        let exact = [exact_before(to.clone()), exact_before(top.clone() - from)];
         // v_t = speed + rise·x and v_x = strain + bend·x, each extrapolated to either end.
         let strain = strain + stretch;
         let numbers = [
@@ -306,8 +320,9 @@ fn waves<N: Bounded>(body: Varied<'_, Body>, bar: &Bar<N>, precision: &N::Precis
         // A piece begins where its stretch of the body ends: at −to/c upward, at −(L − from)/c downward.
         let up_from = if to.vanishes() == Ok(true) { -travel.clone() } else { (to - length) / wave_speed };
         let down_from = if from.vanishes() == Ok(true) { -travel.clone() } else { (from - length) / wave_speed };
-        up.push((up_from, up_line));
-        down.push((down_from, down_line));
+        let [up_exact, down_exact] = exact;
+        up.push((up_from, up_line, up_exact));
+        down.push((down_from, down_line, down_exact));
     }
     up.reverse();
     let start = displacement.first().map_or_else(|| Ok(length.zero()), |(_, v)| lift(v, precision))?;
@@ -317,16 +332,20 @@ fn waves<N: Bounded>(body: Varied<'_, Body>, bar: &Bar<N>, precision: &N::Precis
 }
 
 /// Builds a wave from its pieces before the start; `first` returns its integral at the first one, given that of all.
-fn wave<N: Bounded>(lines: Vec<(N, Line<N>)>, first: impl FnOnce(&N) -> N, zero: &N) -> Wave<N> {
+fn wave<N: Bounded>(lines: Vec<(N, Line<N>, Exact)>, first: impl FnOnce(&N) -> N, zero: &N) -> Wave<N> {
     let mut sums = vec![zero.clone()];
-    let ends = lines.iter().skip(1).map(|(from, _)| from).chain([zero]);
-    for ((from, line), to) in lines.iter().zip(ends) {
+    let ends = lines.iter().skip(1).map(|(from, ..)| from).chain([zero]);
+    for ((from, line, _), to) in lines.iter().zip(ends) {
         let last = &sums[sums.len() - 1];
         sums.push(line.integral(from, to) + last);
     }
     let first = first(&sums[sums.len() - 1]);
     let given = lines.len();
-    let piece = |((from, line), sum): ((N, Line<N>), N)| Piece { from, signal: Signal::Line(line), sum: sum + &first };
-    let pieces = lines.into_iter().zip(sums).map(piece);
+    let pieces = lines.into_iter().zip(sums).map(|((from, line, exact), sum)| Piece {
+        from,
+        signal: Signal::Line(line),
+        sum: sum + &first,
+        exact,
+    });
     Wave { pieces: pieces.collect(), given }
 }

@@ -94,7 +94,8 @@ impl<'a> Varied<'a, Body> {
     }
 }
 
-/// Converts an exact number with its rate; each of both is rounded once if it is short enough for a [`Number`].
+/// Converts an exact number with its rate; each of both is exact if it is a double, and rounded once if it is short enough for a
+/// [`Number`].
 ///
 /// **Errors**: [`Kind::OutOfRange`] if one of both is below 1e-300 or above 1e300.
 pub(super) fn lift<N: Bounded>(x: &Given, precision: &N::Precision) -> Result<N, Error> {
@@ -107,7 +108,10 @@ pub(super) fn lift<N: Bounded>(x: &Given, precision: &N::Precision) -> Result<N,
 
 fn lifted<N: Bounded>(x: &Rational, precision: &N::Precision) -> Result<N, Error> {
     if let Some(number) = Number::of_rational(x) {
-        return Ok(N::from_number(&number, precision));
+        let near = N::from_number(&number, precision);
+        let double = Scalar::to_f64(x);
+        let is_exact = near.roundoffs() > 0.0 && Scalar::double(x, double) == *x;
+        return Ok(if is_exact { near.double(double) } else { near });
     }
     // p/q = (P/Q) 10ᵏ, where P and Q have the digits of p and q with a point after the first.
     let text = x.to_string();

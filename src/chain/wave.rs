@@ -4,6 +4,8 @@ use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
 use super::curve::{Curve, Signal};
+use super::exact::Exact;
+use super::interface::Moment;
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open};
@@ -18,6 +20,8 @@ pub(super) struct Piece<N> {
     pub(super) signal: Signal<N>,
     /// Integral of the wave up to the stored beginning.
     pub(super) sum: N,
+    /// Exact form of the beginning, if it is known. In chains with springs, dashpots or masses.
+    pub(super) exact: Exact,
 }
 
 impl<N> Piece<N> {
@@ -114,11 +118,11 @@ impl<N: Bounded> Wave<N> {
             return;
         }
         let sum = (last.signal.integral(&last.from, time) + &last.sum + off).without_exact();
-        self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum });
+        self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum, exact: None });
     }
 
-    /// Continues the wave with `curve` from `time` on, whose stored value is within `late` of the true time.
-    pub(super) fn push_curve(&mut self, time: &N, late: &N, curve: Curve<N>) {
+    /// Continues the wave with `curve` from a time on.
+    pub(super) fn push_curve(&mut self, Moment { time, late, exact, .. }: &Moment<N>, curve: Curve<N>) {
         let last = &self.pieces[self.pieces.len() - 1];
         let is_same = |old: &N| is_exact_zero(&(old.clone() - &curve.terms[0]));
         if curve.terms.len() == 1 && is_exact_zero(&curve.error) {
@@ -145,6 +149,7 @@ impl<N: Bounded> Wave<N> {
             from: time.clone(),
             signal: Signal::Curve(Box::new(curve)),
             sum: sum.without_exact(),
+            exact: exact.clone(),
         });
     }
 
@@ -203,7 +208,7 @@ impl<N: Bounded> Wave<N> {
 
     /// Returns the integral of the wave up to a time in the piece with this index.
     pub(super) fn sum_at(&self, piece: usize, time: &N) -> N {
-        let Piece { from, signal, sum } = &self.pieces[piece];
+        let Piece { from, signal, sum, .. } = &self.pieces[piece];
         match signal {
             Signal::Line(line) => {
                 let width = time.clone() - from.clone().nominal();

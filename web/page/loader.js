@@ -1,4 +1,5 @@
-// Unpacks what `pack` has compressed, and starts the page: the glue of the engine, the script, and the engine itself.
+// Unpacks what `pack` has compressed, and starts the page: its body with its style, the glue of the engine, the script,
+// and the engine itself.
 
 /** Decodes characters of seven bits each to bytes; `pack` writes them. */
 function decoded(text) {
@@ -120,20 +121,19 @@ function decompressed(data, size) {
 }
 
 /** Adds a script to the page, which runs it. */
-function run(type, text) {
-  const script = document.createElement("script");
-  document.body.append(Object.assign(script, { type, textContent: text }));
+function run(type, textContent) {
+  document.body.append(Object.assign(document.createElement("script"), { type, textContent }));
 }
 
 try {
   const { textContent, dataset } = document.getElementById("packed");
   const ends = dataset.ends.split(" ").map(Number);
-  const bytes = decompressed(decoded(textContent), ends[2]);
-  const [glue, script] = [bytes.slice(0, ends[0]), bytes.slice(...ends.slice(0, 2))].map((part) => new TextDecoder().decode(part));
-  globalThis.unpacked = { glue, module: bytes.slice(ends[1]).buffer };
+  const bytes = decompressed(decoded(textContent), ends[3]);
+  const [body, glue, script] = [0, ...ends].slice(0, 3).map((from, k) => new TextDecoder().decode(bytes.slice(from, ends[k])));
+  globalThis.unpacked = { glue, module: bytes.slice(ends[2]).buffer };
+  document.body.insertAdjacentHTML("afterbegin", body);
   run("", glue);
   run("module", script);
 } catch (error) {
-  document.getElementById("status").textContent =
-    `This browser cannot run the page: ${error.message}`;
+  document.body.append(`This browser cannot run the page: ${error.message}`);
 }

@@ -21,11 +21,19 @@ fn main() -> Result<()> {
     let module = bound.wasm_mut().emit_wasm();
     let page = Path::new(page);
     let read = |name: &str| fs::read_to_string(page.join(name)).with_context(|| format!("cannot read {name}"));
-    let (glue, script) = (code(bound.js()), modules(&read)?);
-    let whole = [glue.as_bytes(), script.as_bytes(), &module].concat();
-    let packed = compressed(&whole)?;
-
     // Spaces at the beginning of a line are nothing to HTML without preformatted text.
+    let style = code(&read("style.css")?).replace(" {", "{");
+    let body = format!("<style>\n{style}</style>\n{}", code(&read("body.html")?));
+    let (glue, script) = (code(bound.js()), modules(&read)?);
+    let whole = [body.as_bytes(), glue.as_bytes(), script.as_bytes(), &module].concat();
+    let packed = compressed(&whole)?;
+    let mut end = 0;
+    let ends = [body.len(), glue.len(), script.len(), module.len()].map(|length| {
+        end += length;
+        end.to_string()
+    });
+    let (ends, text) = (ends.join(" "), encoded(&packed));
+
     let mut html = code(&read("index.html")?);
     let mut fill = |mark: &str, text: &str| {
         let place = format!("<!-- {mark} -->");
@@ -35,9 +43,6 @@ fn main() -> Result<()> {
         html = html.replace(&place, text);
         Ok(())
     };
-    fill("style", &format!("<style>\n{}</style>", code(&read("style.css")?).replace(" {", "{")))?;
-    let ends = format!("{} {} {}", glue.len(), glue.len() + script.len(), whole.len());
-    let text = encoded(&packed);
     fill("packed", &format!("<script type=\"text/plain\" id=\"packed\" data-ends=\"{ends}\">{text}</script>"))?;
     fill("loader", &format!("<script type=\"module\">\n{}</script>", code(&read("loader.js")?)))?;
 

@@ -1,0 +1,117 @@
+//! The start of the motion where functions are exactly zero: contacts that touch, and springs without a load.
+//!
+//! **Source**: a solution that is analytic leaves zero with the sign of its first Taylor coefficient that is not zero. The
+//! coefficients follow from the values and from those of the arriving signals, order by order. Where a signal is known
+//! within a bound its value is, so that the bound enters before its higher coefficients do.
+
+use std::cmp::Ordering;
+
+use super::cluster::{Cluster, Mass};
+use super::curve::Curve;
+use super::interface::{Interface, Row};
+use super::node::Source;
+use super::step::{Values, refs};
+use super::wave::is_exact_zero;
+use crate::number::{Bounded, Open};
+
+/// The values at the interfaces, order by order in the time since the one that is reached.
+pub(super) struct Series<N> {
+    /// Coefficients of the states.
+    states: Vec<Vec<N>>,
+    /// Coefficients of the signals and the gap at each interface.
+    values: Vec<Vec<Values<N>>>,
+}
+
+/// The way in which a function leaves zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Onset {
+    /// The function is zero until a signal changes.
+    Zero,
+    /// The function rises.
+    Rise,
+    /// The function falls, in this order of the time.
+    Fall(usize),
+}
+
+impl<N: Bounded> Cluster<N> {
+    /// Computes the series at the time that is reached, if a contact touches or a mass is still.
+    pub(super) fn series(&self, inputs: &[[Curve<N>; 2]]) -> Option<Series<N>> {
+        let touches = self.interfaces.iter().any(|interface| interface.touches);
+        let is_needed = touches || self.masses.iter().any(|mass| mass.is_still);
+        let unit = &inputs.first()?[0].unit;
+        let masses = self.masses.len();
+        let velocity = |mass: &Mass<N>| match mass.is_still {
+            true => mass.velocity.clone(),
+            false => mass.velocity.clone().widened(&(self.norm.clone() / &mass.root)),
+        };
+        let gap = |(j, interface): (usize, &Interface<N>)| match self.linear.root(masses + j) {
+            _ if interface.touches => self.norm.zero(),
+            Some(root) => interface.gap.clone().widened(&(self.norm.clone() / root)),
+            None => interface.gap.clone().widened(&interface.gap_error),
+        };
+        let gaps = self.interfaces.iter().enumerate().map(gap);
+        let mut states: Vec<Vec<N>> = self.masses.iter().map(velocity).chain(gaps).map(|state| vec![state]).collect();
+        // A linear equation whose solution is zero in this many orders stays there.
+        let orders = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1) + states.len();
+        let mut values = Vec::new();
+        for k in 0..if is_needed { orders } else { return None } {
+            let mut now: Vec<Values<N>> = (0..self.interfaces.len())
+                .map(|j| self.values(inputs, j, k, &|state| states[state][k].clone()))
+                .collect();
+            if k == 0 {
+                for (j, values) in now.iter_mut().enumerate() {
+                    for side in 0..2 {
+                        if !matches!(self.interfaces[j].sides[side].source, Source::Mass(_)) {
+                            values[side] = self.arriving(j, side);
+                        }
+                    }
+                }
+            }
+            for (state, rate) in states.iter_mut().zip(self.rates(&now, false)) {
+                state.push(rate.clone() * unit / rate.int(k as i64 + 1));
+            }
+            values.push(now);
+        }
+        Some(Series { states, values })
+    }
+
+    /// Returns the way in which the gap of a contact leaves zero, and whether a coefficient is zero within its bound.
+    pub(super) fn onset_of_gap(&self, series: &Series<N>, j: usize) -> Result<(Onset, bool), Open> {
+        onset(series.states[self.masses.len() + j].iter().cloned())
+    }
+}
+
+impl<N: Bounded> Series<N> {
+    /// Returns whether a state is constant until a signal changes.
+    pub(super) fn is_constant(&self, state: usize) -> bool {
+        self.states[state].iter().skip(1).all(is_exact_zero)
+    }
+
+    /// Returns the way in which a form of the values at an interface leaves zero, and whether a coefficient is zero within
+    /// its bound.
+    pub(super) fn onset(&self, row: &Row<N>, j: usize) -> Result<(Onset, bool), Open> {
+        onset(self.values.iter().map(|values| row.of(refs(&values[j]))))
+    }
+}
+
+impl Onset {
+    /// Returns the order in which the function falls.
+    pub(super) fn order(self) -> Option<usize> {
+        match self {
+            Onset::Fall(order) => Some(order),
+            _ => None,
+        }
+    }
+}
+
+fn onset<N: Bounded>(coefficients: impl Iterator<Item = N>) -> Result<(Onset, bool), Open> {
+    let mut doubt = false;
+    for (order, coefficient) in coefficients.enumerate() {
+        match coefficient.sign()? {
+            Ordering::Greater => return Ok((Onset::Rise, doubt)),
+            Ordering::Less => return Ok((Onset::Fall(order), doubt)),
+            Ordering::Equal => doubt |= !is_exact_zero(&coefficient),
+        }
+    }
+    Ok((Onset::Zero, doubt))
+}

@@ -1,0 +1,130 @@
+//! Soft chains whose bodies touch at the start, and whose breaks meet by different ways: doubles decide them without a
+//! doubt. Against closed forms and proofs.
+
+use std::ops::ControlFlow;
+
+use dalembert::chain::{Body, Chain, ChainHistory, ChainRun, End, Spring};
+use dalembert::{ChainScene, Estimate, EventKind, Number, Numbers};
+
+fn number(text: &str) -> Number {
+    text.parse().unwrap()
+}
+
+fn spring(stiffness: &str, damping: &str) -> Spring {
+    Spring { stiffness: number(stiffness), damping: number(damping) }
+}
+
+/// Returns node, kind and time of each event.
+fn events(history: &ChainHistory) -> Vec<(usize, EventKind, f64)> {
+    let listing = history.listing().unwrap();
+    listing.events.iter().map(|event| (event.node, event.kind, event.t.to_f64())).collect()
+}
+
+fn is_decided_by_doubles(chain: &Chain) -> bool {
+    let run = ChainRun::<Estimate<f64>>::new(chain, &(), &|_, _| ControlFlow::Continue(())).unwrap();
+    run.undetermined_from().is_none() && *run.ending() == dalembert::Ending::Time
+}
+
+/// **Source**: with `ω² = k/m` the compressions of both springs are `(sin ωs ± sin(√3 ωs)/√3)/2ω` until the first is
+/// zero, and that of the other one is harmonic with `√2 ω` then.
+#[test]
+fn a_cradle_of_masses_that_touch_follows_its_modes() {
+    let mass = |velocity: i64| Body::rigid(1.into()).with_velocity(velocity.into());
+    for gap in ["0", "0.1"] {
+        let builder = Chain::builder(mass(1)).contact(number(gap), mass(0)).contact(0.into(), mass(0));
+        let springs = [1, 2].into_iter().fold(builder, |builder, node| builder.spring(node, spring("100", "0")));
+        let chain = springs.until(1.into()).build().unwrap();
+        assert!(is_decided_by_doubles(&chain), "gap {gap}");
+        for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
+            let history = chain.solve(numbers).unwrap();
+            assert!(history.warning().is_none(), "{numbers}");
+            let found = events(&history);
+            let begun = gap.parse::<f64>().unwrap();
+            let kinds: Vec<(usize, EventKind)> = found.iter().map(|(node, kind, _)| (*node, *kind)).collect();
+            let [impact, release] = [EventKind::Impact, EventKind::Release];
+            assert_eq!(kinds, [(1, impact), (2, impact), (1, release), (2, release)]);
+            assert!((found[0].2 - begun).abs() < 1e-15 && found[0].2 == found[1].2, "{found:?}");
+            let (omega, root) = (10.0, 3f64.sqrt());
+            let s = found[2].2 - begun;
+            let modes = [(omega * s).sin(), (root * omega * s).sin() / root];
+            assert!((modes[0] + modes[1]).abs() < 1e-13, "{modes:?}");
+            let depth = (modes[0] - modes[1]) / (2.0 * omega);
+            let rate = ((omega * s).cos() - (root * omega * s).cos()) / 2.0;
+            let fast = 2f64.sqrt() * omega;
+            let last = s + (std::f64::consts::PI - (fast * depth).atan2(rate)) / fast;
+            assert!((found[3].2 - begun - last).abs() < 1e-13, "{} for {last}", found[3].2 - begun);
+        }
+    }
+}
+
+/// **Source**: two masses on two springs without a load have the frequencies `ω² = (3 ± √5)/2`, and move from rest to and
+/// fro about `−2` and `−3`.
+#[test]
+fn a_stack_that_touches_its_springs_is_loaded_at_once() {
+    let mass = || Body::rigid(1.into());
+    let chain = Chain::builder(mass())
+        .bottom(End::Ground { gap: 0.into(), velocity: Vec::new() })
+        .contact(0.into(), mass())
+        .spring(0, spring("1", "0"))
+        .spring(1, spring("1", "0"))
+        .gravity(1.into())
+        .until(30.into())
+        .build()
+        .unwrap();
+    assert!(is_decided_by_doubles(&chain));
+    for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
+        let history = chain.solve(numbers).unwrap();
+        assert!(history.warning().is_none(), "{numbers}");
+        let found = events(&history);
+        assert_eq!(found[..2], [(0, EventKind::Impact, 0.0), (1, EventKind::Impact, 0.0)]);
+        let (node, kind, t) = found[2];
+        assert_eq!(kind, EventKind::Release);
+        // Each mode has the shape (1, 2 − ω²) and takes its share of (−2, −3).
+        let [low, high] = [-1.0, 1.0].map(|sign| (3.0 + sign * 5f64.sqrt()) / 2.0);
+        let [a, b] = [2.0 - low, 2.0 - high];
+        let [first, second] = [(-3.0 + 2.0 * b) / (a - b), (3.0 - 2.0 * a) / (a - b)];
+        let [p, q] = [first * (1.0 - (low.sqrt() * t).cos()), second * (1.0 - (high.sqrt() * t).cos())];
+        let compression = if node == 0 { -(p + q) } else { p + q - (a * p + b * q) };
+        assert!(compression.abs() < 1e-12, "{compression} at {t}");
+    }
+}
+
+/// Waves that have left one break by different ways, and meet in a closed contact, come at one time.
+#[test]
+fn breaks_that_meet_by_different_ways_come_at_one_time() {
+    let text = r#"
+[[body]]
+length = 1
+wave_speed = 1
+impedance = "1/2"
+velocity = [[0, -1], [1, -0.5]]
+strain = [[0, -0.2], ["1/3", -0.2], ["1/3", 0.05], [1, 0]]
+[[body]]
+length = "1/4"
+wave_speed = 1
+impedance = "1/2"
+velocity = [[0, 1], ["1/8", -0.5], ["1/8", 0], ["1/4", 1]]
+displacement = [[0, 0.1], ["1/16", 0.05], ["1/4", -0.1]]
+[[body]]
+mass = 6
+velocity = -0.5
+joint = { stiffness = 1, damping = 0.3 }
+[ends]
+bottom = { velocity = [[0, -0.3], ["1/2", 1], [2, -0.3], [2, 0], [3, 0]], gap = "1/4", stiffness = 1000, damping = 0 }
+top = { gap = 0.1, stiffness = 200, damping = 0 }
+[gravity]
+acceleration = 2
+[run]
+time = 4
+"#;
+    let chain = ChainScene::parse(text).unwrap().chain;
+    assert!(is_decided_by_doubles(&chain));
+    let proved = chain.with_until(number("3/2")).unwrap().solve(Numbers::Certified(15)).unwrap();
+    let found = chain.solve(Numbers::Double(None)).unwrap();
+    assert!(found.warning().is_none() && proved.warning().is_none());
+    let [found, proved] = [events(&found), events(&proved)];
+    assert!(proved.len() > 7, "{proved:?}");
+    for ((node, kind, t), (other_node, other_kind, other)) in found.iter().zip(&proved) {
+        assert!(node == other_node && kind == other_kind && (t - other).abs() < 1e-11, "{found:?} {proved:?}");
+    }
+}
