@@ -135,7 +135,8 @@ impl<N: Bounded> BodyMotion<N> {
         let [up, down] = &self.run.waves[self.body];
         let arrived = time.clone() - &self.bar().travel;
         let [rising, falling] = [up.value_beside(time, side), down.value_beside(&arrived, side)];
-        (rising + falling).halved() - self.run.gravity.clone() * time
+        let [fall, _] = self.run.fallen(time);
+        (rising + falling).halved() - fall
     }
 
     /// Returns `h` and `h′` at the time of an event, where rays of the same time leave the order of stretches open: the

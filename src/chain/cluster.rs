@@ -210,10 +210,10 @@ impl<N: Bounded> Cluster<N> {
         let inputs = in_unit(&inputs, &step.unit);
         let is_short = step.width.below(&width) == Ok(true);
         let norm = self.norm.clone();
+        let series = self.series(&inputs);
         let errors = self.step_errors(&inputs, &step);
         let solved = (&inputs[..], &step, &errors[..]);
         let outputs: Vec<Output<N>> = (0..self.interfaces.len()).map(|j| self.output(j, solved)).collect();
-        let series = self.series(&inputs);
         let found = self.events(&outputs, solved, series.as_ref())?;
         let earlier = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
         let first = found.iter().map(|(_, _, at)| at.clone()).reduce(earlier);
@@ -266,7 +266,7 @@ impl<N: Bounded> Cluster<N> {
             let jump = drives_after[j].clone() - &drives_before[j];
             let jumps = jump.positive() == Ok(true) || jump.negative() == Ok(true);
             let interface = &self.interfaces[j];
-            let lands = change == Change::Close && interface.mode == Mode::Open;
+            let lands = change == Change::Close && interface.mode == Mode::Open && !interface.touches;
             if is_at_once && jumps && lands && !is_exact_zero(&interface.gap_error) {
                 self.doubts();
             }
@@ -597,7 +597,8 @@ impl<N: Bounded> Cluster<N> {
                 None => self.interfaces[state - masses].gap_error = upper(errors[state].clone() + radius),
             }
             if let Some(interface) = state.checked_sub(masses).map(|j| &mut self.interfaces[j]) {
-                interface.touches = interface.touches && interface.mode == Mode::Open && is_constant(state);
+                let has_closed = interface.law == Law::Contact && interface.mode == Mode::Closed;
+                interface.touches = interface.touches && !has_closed && is_constant(state);
             }
             match self.masses.get_mut(state) {
                 Some(mass) => (mass.velocity, mass.is_still) = (found, mass.is_still && is_constant(state)),

@@ -111,9 +111,9 @@ impl<N: Bounded> ChainRun<N> {
         let above = length.clone() - point;
         let rising = at(up, &(time.clone() - point.clone() / wave_speed))?;
         let falling = at(down, &(time.clone() - above / wave_speed))?;
-        let fall = self.gravity.clone() * time;
+        let [fall, twice] = self.fallen(time);
         Ok(Field {
-            displacement: (rising.1 + &falling.1 - fall.clone() * time).halved(),
+            displacement: (rising.1 + &falling.1 - twice).halved(),
             velocity: (rising.0.clone() + &falling.0).halved() - fall,
             strain: if is_rigid { length.zero() } else { (falling.0 - rising.0).halved() / wave_speed },
         })
@@ -158,7 +158,7 @@ impl<N: Bounded> ChainRun<N> {
         let mut falling = falling.iter().map(|piece| piece.signal.clone().into_line()).zip(tops).peekable();
         let mut from = length.zero();
         let mut displacement = self.end_field(body, false, time, Side::Left)?.displacement;
-        let fall = self.gravity.clone() * time;
+        let [fall, _] = self.fallen(time);
         let mut stretches = Vec::new();
         while let (Some((rise_end, p)), Some((q, fall_end))) = (rising.peek(), falling.peek()) {
             let is_last_rise = order(rise_end, length)?.is_ge();
@@ -254,7 +254,7 @@ impl<N: Bounded> ChainRun<N> {
         let windows = self.waves[body].each_ref().map(|wave| Window::new(wave, time, travel));
         let [rising, falling] = windows;
         let (rising, falling) = (rising?, falling?);
-        let fall = self.gravity.clone() * time;
+        let [fall, twice] = self.fallen(time);
         let total = rising.total.clone() + &falling.total;
         let squares = rising.square() + falling.square();
         let cross = rising.product(&falling);
@@ -265,7 +265,7 @@ impl<N: Bounded> ChainRun<N> {
             squares.clone() + cross.clone().doubled() - (total.clone() * &fall - fall.square() * travel) * fall.int(4);
         let stretched = squares - cross.doubled();
         let energy = |sum: N| sum * impedance / impedance.int(8);
-        let displacement = mean(rising.height + &falling.height) - (fall.clone() * time).halved();
+        let displacement = mean(rising.height + &falling.height) - twice.halved();
         Ok(BodySums {
             velocity: mean(total) - &fall,
             kinetic: energy(moved),

@@ -289,7 +289,7 @@ pub(super) struct Interface<N> {
     pub(super) gap_error: N,
     /// Whether the contact has just opened at a gap of zero, from a force that fell to zero.
     pub(super) is_fresh: bool,
-    /// Whether the gap of the contact is exactly zero: it has touched since the start, or has just closed.
+    /// Whether the gap is exactly zero: it has been since the start, or the contact has just closed.
     pub(super) touches: bool,
     /// Whether the function that is watched for an event was zero within its bound at the end of the step before.
     pub(super) grazes: bool,
@@ -310,7 +310,8 @@ impl<N: Bounded> Interface<N> {
         let zero = gap.zero();
         let mode = if law == Law::Contact { Mode::Open } else { Mode::Closed };
         let (gap, gap_error) = gap.centred();
-        let touches = law == Law::Contact && is_exact_zero(&gap) && is_exact_zero(&gap_error);
+        let has_gap = law == Law::Contact || soft.is_some();
+        let touches = has_gap && is_exact_zero(&gap) && is_exact_zero(&gap_error);
         Interface {
             open: Rows::open(&zero),
             closed: Rows::closed((law, outer), mix, soft.as_ref()),

@@ -59,7 +59,7 @@ impl<N: Bounded> ChainRun<N> {
         if chain.is_soft() && N::from_number(&chain.until, precision).bits().is_none() {
             return Err(Error::SoftExact);
         }
-        let Start { bars, nodes, springs, mut waves, gravity, until } = Start::<N>::new(varied, precision)?;
+        let Start { bars, nodes, springs, mut waves, gravity, frame, until } = Start::<N>::new(varied, precision)?;
         let mut nodes = match nodes {
             Nodes::Rigid(nodes) => nodes,
             Nodes::Soft(clusters) => {
@@ -71,6 +71,7 @@ impl<N: Bounded> ChainRun<N> {
                     springs,
                     waves,
                     gravity,
+                    frame,
                     end,
                     ending,
                     events,
@@ -142,7 +143,7 @@ impl<N: Bounded> ChainRun<N> {
         let doubt = nodes.iter().filter_map(|node| node.doubt).min_by(f64::total_cmp);
         let nodes = nodes.into_iter().map(Node::into_stages).collect();
         let kept = KeptSums::default();
-        Ok(ChainRun { bars, nodes, springs, waves, gravity, end, ending, events, touches, doubt, kept })
+        Ok(ChainRun { bars, nodes, springs, waves, gravity, frame, end, ending, events, touches, doubt, kept })
     }
 }
 

@@ -123,6 +123,8 @@ pub struct ChainRun<N> {
     pub(super) springs: Vec<Option<Soft<N>>>,
     pub(super) waves: Vec<[Wave<N>; 2]>,
     pub(super) gravity: N,
+    /// The velocity at the start of the frame that falls with `g`, in which the waves are.
+    pub(super) frame: N,
     pub(super) end: N,
     pub(super) ending: Ending,
     pub(super) events: Vec<ChainEvent<N>>,
@@ -155,6 +157,16 @@ impl<N: Bounded> ChainRun<N> {
     /// Returns the first time at which events that agree within their bounds count as one; `None` if there is none.
     pub fn undetermined_from(&self) -> Option<f64> {
         self.doubt
+    }
+
+    /// Returns the velocity of the frame of the waves, downward, and twice the distance that it has gone.
+    pub(super) fn fallen(&self, time: &N) -> [N; 2] {
+        let fall = self.gravity.clone() * time;
+        let twice = fall.clone() * time;
+        if is_exact_zero(&self.frame) {
+            return [fall, twice];
+        }
+        [fall - &self.frame, twice - self.frame.clone().doubled() * time]
     }
 
     /// Returns the number of wave pieces that left the nodes after the start.

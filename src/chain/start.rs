@@ -30,7 +30,7 @@ pub(super) struct Bar<N> {
     pub(super) mass: Option<N>,
 }
 
-/// A chain in the numbers of a run, at the start. Velocities are those in the frame that falls with `g` from rest.
+/// A chain in the numbers of a run, at the start. Velocities are those in the frame.
 #[derive(Clone, Debug)]
 pub(super) struct Start<N> {
     pub(super) bars: Vec<Bar<N>>,
@@ -40,6 +40,8 @@ pub(super) struct Start<N> {
     /// The upward and the downward wave of each body.
     pub(super) waves: Vec<[Wave<N>; 2]>,
     pub(super) gravity: N,
+    /// The velocity at the start of the frame, which falls with `g`.
+    pub(super) frame: N,
     pub(super) until: N,
 }
 
@@ -63,6 +65,7 @@ impl<N: Bounded> Start<N> {
         let mut squares = Vec::new();
         let (mut bars, mut exact_travels, mut travels) = (Vec::new(), Vec::new(), Travels::default());
         let is_soft = SOFT && chain.is_soft();
+        let frame = Given::constant(if is_soft { common_velocity(chain) } else { Rational::default() });
         let bodies: Vec<Varied<'_, Body>> =
             (0..chain.bodies.len()).map(|k| varied.part(|chain| &chain.bodies[k])).collect();
         for body in &bodies {
@@ -88,7 +91,7 @@ impl<N: Bounded> Start<N> {
             squares.push(impedance);
         }
         let parts = bodies.iter().zip(&bars).zip(&exact_travels);
-        let waves = parts.map(|((body, bar), exact)| waves(*body, (bar, exact), precision));
+        let waves = parts.map(|((body, bar), exact)| waves(*body, (bar, exact), &frame, precision));
         let waves = waves.collect::<Result<_, _>>()?;
         let top = bars.len();
         let spring = |node: usize| varied.some(|chain| chain.spring(node));
@@ -123,21 +126,22 @@ impl<N: Bounded> Start<N> {
                     let side = usize::from(at == top);
                     // An end without points has no signal.
                     let points = || varied.some(|chain| chain.ends[side].points());
-                    let signal = |fall: &N| {
+                    let signal = |fall: &N, frame: &Given| {
                         let points = points().map_or_else(Vec::new, Varied::<Points>::given);
-                        Ok::<_, Error>(Source::Data(signal(&points, fall, precision)?))
+                        Ok::<_, Error>(Source::Data(signal(&in_frame(points, frame, None), fall, precision)?))
                     };
                     let zero = gravity.zero();
+                    let still = Given::constant(Rational::default());
                     let own = squares[if at == 0 { 0 } else { top - 1 }].clone();
                     match &chain.ends[side] {
                         End::Free => ((Source::Nothing, None), Law::Force),
-                        End::Force(_) => ((signal(&zero)?, None), Law::Force),
-                        End::Velocity(_) => ((signal(&gravity)?, None), Law::Held),
-                        End::Ground { .. } => ((signal(&gravity)?, None), Law::Contact),
+                        End::Force(_) => ((signal(&zero, &still)?, None), Law::Force),
+                        End::Velocity(_) => ((signal(&gravity, &frame)?, None), Law::Held),
+                        End::Ground { .. } => ((signal(&gravity, &frame)?, None), Law::Contact),
                         End::Infinite { gap, .. } => {
                             let law = if gap.is_some() { Law::Contact } else { Law::Held };
                             let impedance = varied.some(|chain| chain.ends[side].impedance());
-                            ((signal(&gravity)?, Some(impedance.map_or(own, |z| z.given().square()))), law)
+                            ((signal(&gravity, &frame)?, Some(impedance.map_or(own, |z| z.given().square()))), law)
                         }
                     }
                 }
@@ -186,7 +190,7 @@ impl<N: Bounded> Start<N> {
             let outer = usize::from(at == top && at > 0);
             parts.0.push(Interface::new((law, springs[at].clone()), (sides, impedances), (&mix, outer), &gap));
             if let (Some(body), true) = (above, is_mass(above)) {
-                parts.1.push(mass(body, bodies[body], precision)?);
+                parts.1.push(mass(body, bodies[body], &frame, precision)?);
                 masses += 1;
                 continue;
             }
@@ -197,7 +201,7 @@ impl<N: Bounded> Start<N> {
             clusters.push(Cluster::new(first, interfaces, own, speed, &beyond));
         }
         let nodes = if is_soft { Nodes::Soft(clusters) } else { Nodes::Rigid(nodes) };
-        Ok(Start { bars, nodes, springs, waves, gravity, until })
+        Ok(Start { bars, nodes, springs, waves, gravity, frame: lift(&frame, precision)?, until })
     }
 }
 
@@ -212,18 +216,53 @@ fn soft<N: Bounded>(spring: Varied<'_, Spring>, precision: &N::Precision) -> Res
 }
 
 /// Converts the rigid body with this index.
-fn mass<N: Bounded>(index: usize, body: Varied<'_, Body>, precision: &N::Precision) -> Result<Mass<N>, Error> {
+fn mass<N: Bounded>(
+    index: usize,
+    body: Varied<'_, Body>,
+    frame: &Given,
+    precision: &N::Precision,
+) -> Result<Mass<N>, Error> {
     let mass = body.mass().unwrap_or_else(|| body.part(|body| &body.length));
     let mass = lift::<N>(&mass.given(), precision)?;
-    let velocity = velocity(body, &mass.zero(), precision)?;
+    let velocity = velocity(body, frame, precision)?;
     let root = mass.try_sqrt().ok_or_else(|| Error::Irrational { quantity: "mass", square: mass.text() })?;
     Ok(Mass::new(index, velocity, mass.one() / mass, root))
 }
 
-/// Returns the velocity of a rigid body at the start.
-fn velocity<N: Bounded>(body: Varied<'_, Body>, zero: &N, precision: &N::Precision) -> Result<N, Error> {
+/// Returns the velocity of a rigid body at the start, in the frame.
+fn velocity<N: Bounded>(body: Varied<'_, Body>, frame: &Given, precision: &N::Precision) -> Result<N, Error> {
     let points = body.part(|body| &body.velocity).given();
-    points.first().map_or_else(|| Ok(zero.clone()), |(_, velocity)| lift(velocity, precision))
+    let velocity =
+        points.first().map_or_else(|| Given::constant(Rational::default()), |(_, velocity)| velocity.clone());
+    lift(&(velocity - frame), precision)
+}
+
+/// Returns the velocity that neighbours share which touch at the start, if no double holds it: in a frame that has it,
+/// theirs is exactly zero. Otherwise zero.
+fn common_velocity(chain: &Chain) -> Rational {
+    let uniform = |body: &Body| {
+        let (_, first) = body.velocity.first()?;
+        body.velocity.iter().all(|(_, velocity)| velocity == first).then(|| first.to_rational())
+    };
+    let shared = |joint: usize| {
+        let touches = chain.start_gap(joint + 1).is_some_and(|gap| gap == Rational::default());
+        let [below, above] = [&chain.bodies[joint], &chain.bodies[joint + 1]].map(uniform);
+        below.filter(|velocity| touches && above.as_ref() == Some(velocity))
+    };
+    let is_rounded = |velocity: &Rational| Scalar::double(velocity, Scalar::to_f64(velocity)) != *velocity;
+    (0..chain.joints.len()).filter_map(shared).find(is_rounded).unwrap_or_default()
+}
+
+/// Returns velocities at points in the frame. No points mean zero everywhere: up to `end` in a body, always at an end of
+/// the chain.
+fn in_frame(points: Vec<(Given, Given)>, frame: &Given, end: Option<&Given>) -> Vec<(Given, Given)> {
+    let zero = Given::constant(Rational::default());
+    if *frame.value() == Rational::default() {
+        return points;
+    }
+    let still = || [Some(&zero), end].into_iter().flatten().map(|at| (at.clone(), zero.clone())).collect();
+    let points: Vec<(Given, Given)> = if points.is_empty() { still() } else { points };
+    points.into_iter().map(|(at, velocity)| (at, velocity - frame)).collect()
 }
 
 /// Returns the data through `points`, with `fall·t` added: constant after the last point, and zero without points.
@@ -259,17 +298,18 @@ fn signal<N: Bounded>(
 fn waves<N: Bounded>(
     body: Varied<'_, Body>,
     (bar, exact_travel): (&Bar<N>, &Exact),
+    frame: &Given,
     precision: &N::Precision,
 ) -> Result<[Wave<N>; 2], Error> {
     let Bar { length, wave_speed, travel, .. } = bar;
     if bar.mass.is_some() {
         let zero = length.zero();
-        let line = Line { intercept: velocity(body, &zero, precision)?, slope: zero.clone() };
+        let line = Line { intercept: velocity(body, frame, precision)?, slope: zero.clone() };
         let still = || wave(vec![(zero.clone(), line.clone(), None)], N::clone, &zero);
         return Ok([still(), still()]);
     }
     let top = body.part(|body| &body.length).given();
-    let velocity = body.part(|body| &body.velocity).given();
+    let velocity = in_frame(body.part(|body| &body.velocity).given(), frame, Some(&top));
     let displacement = body.part(|body| &body.displacement).given();
     let strain = body.part(|body| &body.strain).given();
     // Places at which the start has a break, in exact order.

@@ -3,8 +3,8 @@
 
 use std::ops::ControlFlow;
 
-use dalembert::chain::{Body, Chain, ChainHistory, ChainRun, End, Spring};
-use dalembert::{ChainScene, Estimate, EventKind, Number, Numbers};
+use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainRun, End, Spring};
+use dalembert::{ChainScene, Estimate, EventKind, Number, Numbers, Side};
 
 fn number(text: &str) -> Number {
     text.parse().unwrap()
@@ -57,35 +57,91 @@ fn a_cradle_of_masses_that_touch_follows_its_modes() {
     }
 }
 
-/// **Source**: two masses on two springs without a load have the frequencies `ω² = (3 ± √5)/2`, and move from rest to and
-/// fro about `−2` and `−3`.
+/// Returns the value of a column, with its bound.
+fn value(history: &ChainHistory, name: &str, t: &str) -> [f64; 2] {
+    let column = ChainColumn::read(name, history.chain()).unwrap();
+    let found = history.value(column, &number(t), Side::Right).unwrap();
+    [found.to_f64(), found.log2_error().exp2()]
+}
+
+/// **Source**: two masses on two springs without a load have the frequencies `ω² = (3 ± √5)/2`, and move from the start
+/// to and fro about `−2` and `−3`.
 #[test]
 fn a_stack_that_touches_its_springs_is_loaded_at_once() {
-    let mass = || Body::rigid(1.into());
-    let chain = Chain::builder(mass())
-        .bottom(End::Ground { gap: 0.into(), velocity: Vec::new() })
-        .contact(0.into(), mass())
-        .spring(0, spring("1", "0"))
-        .spring(1, spring("1", "0"))
-        .gravity(1.into())
-        .until(30.into())
+    for velocity in ["0", "-0.3", "-1/3"] {
+        let v = number(velocity).to_f64();
+        let mass = || Body::rigid(1.into()).with_velocity(number(velocity));
+        let chain = Chain::builder(mass())
+            .bottom(End::Ground { gap: 0.into(), velocity: Vec::new() })
+            .contact(0.into(), mass())
+            .spring(0, spring("1", "0"))
+            .spring(1, spring("1", "0"))
+            .gravity(1.into())
+            .until(30.into())
+            .build()
+            .unwrap();
+        assert!(is_decided_by_doubles(&chain));
+        // Each mode has the shape (1, 2 − ω²) and takes its share of (−2, −3), and of the velocities.
+        let squares = [-1.0, 1.0].map(|sign| (3.0 + sign * 5f64.sqrt()) / 2.0);
+        let [a, b] = squares.map(|square| 2.0 - square);
+        let shares = [(-3.0 + 2.0 * b) / (a - b), (3.0 - 2.0 * a) / (a - b)];
+        let speeds = [v * (1.0 - b) / (a - b), v * (a - 1.0) / (a - b)];
+        let mode = |k: usize, t: f64| {
+            let omega = squares[k].sqrt();
+            shares[k] * (1.0 - (omega * t).cos()) + speeds[k] * (omega * t).sin() / omega
+        };
+        for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
+            let history = chain.solve(numbers).unwrap();
+            assert!(history.warning().is_none(), "{numbers}");
+            let found = events(&history);
+            assert_eq!(found[..2], [(0, EventKind::Impact, 0.0), (1, EventKind::Impact, 0.0)]);
+            let (node, kind, t) = found[2];
+            assert_eq!(kind, EventKind::Release);
+            let places = |t: f64| [mode(0, t) + mode(1, t), a * mode(0, t) + b * mode(1, t)];
+            let [low, high] = places(t);
+            let compression = if node == 0 { -low } else { low - high };
+            assert!(compression.abs() < 1e-12, "{compression} at {t}");
+            for (name, expected) in ["u_end.1", "u_end.2"].into_iter().zip(places(0.5)) {
+                let [found, _] = value(&history, name, "0.5");
+                assert!((found - expected).abs() < 1e-13, "{name} {found} for {expected}");
+            }
+        }
+    }
+}
+
+/// Bodies that fly together at a velocity that no double holds: nothing happens before they land, and their energy stays.
+#[test]
+fn bodies_that_fly_together_do_not_touch_each_other() {
+    let bar = Body::new(1.into(), 1.into(), 1.into()).with_velocity(number("-1/3"));
+    let chain = Chain::builder(bar)
+        .bottom(End::Ground { gap: 1.into(), velocity: Vec::new() })
+        .contact(0.into(), Body::rigid(2.into()).with_velocity(number("-1/3")))
+        .spring(1, spring("5", "0"))
+        .gravity(number("1/2"))
+        .until(5.into())
         .build()
         .unwrap();
     assert!(is_decided_by_doubles(&chain));
     for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
         let history = chain.solve(numbers).unwrap();
         assert!(history.warning().is_none(), "{numbers}");
-        let found = events(&history);
-        assert_eq!(found[..2], [(0, EventKind::Impact, 0.0), (1, EventKind::Impact, 0.0)]);
-        let (node, kind, t) = found[2];
-        assert_eq!(kind, EventKind::Release);
-        // Each mode has the shape (1, 2 − ω²) and takes its share of (−2, −3).
-        let [low, high] = [-1.0, 1.0].map(|sign| (3.0 + sign * 5f64.sqrt()) / 2.0);
-        let [a, b] = [2.0 - low, 2.0 - high];
-        let [first, second] = [(-3.0 + 2.0 * b) / (a - b), (3.0 - 2.0 * a) / (a - b)];
-        let [p, q] = [first * (1.0 - (low.sqrt() * t).cos()), second * (1.0 - (high.sqrt() * t).cos())];
-        let compression = if node == 0 { -(p + q) } else { p + q - (a * p + b * q) };
-        assert!(compression.abs() < 1e-12, "{compression} at {t}");
+        // 1 − t/3 − t²/4 = 0.
+        let landing = (10f64.sqrt() - 1.0) * 2.0 / 3.0;
+        let first = &events(&history)[0];
+        assert!(first.0 == 0 && (first.2 - landing).abs() < 1e-14, "{first:?} for {landing}");
+        let flown = ["u_end.1", "u_end.2", "h.1"].map(|name| value(&history, name, "1.25")[0]);
+        let height = -1.25 / 3.0 - 1.25 * 1.25 / 4.0;
+        assert!(flown.iter().all(|found| (found - height).abs() < 1e-14), "{flown:?} for {height}");
+        let energy = |t: &str| {
+            let parts = ["E_total.1", "E_total.2", "spring_energy.1"].map(|name| value(&history, name, t));
+            parts.iter().fold([0.0, 0.0], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
+        };
+        let [begun, _] = energy("0");
+        assert!((begun - 1.5 / 9.0).abs() < 1e-15, "{begun}");
+        for t in ["1", "2", "2.5", "3.7", "4.9"] {
+            let [now, bound] = energy(t);
+            assert!((now - begun).abs() <= bound + 1e-15 && bound < 1e-9, "{now} ± {bound} at {t}");
+        }
     }
 }
 
