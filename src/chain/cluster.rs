@@ -48,7 +48,7 @@ pub(super) struct Cluster<N> {
     pub(super) masses: Vec<Mass<N>>,
     pub(super) linear: Linear<N>,
     pub(super) reached: Moment<N>,
-    until: Moment<N>,
+    pub(super) until: Moment<N>,
     /// Bound of the error of the states, in the norm of the energy.
     pub(super) norm: N,
     /// The norm of a single state that decays, before a step, and the bound that it decays to.
@@ -137,7 +137,6 @@ impl<N: Bounded> Cluster<N> {
     /// Lets the signals of the start arrive, and closes contacts that begin closed.
     pub(super) fn begin(&mut self, waves: &[[Wave<N>; 2]]) -> Result<Vec<(usize, Occurrence<N>)>, Stop> {
         let zero = self.norm.zero();
-        let mut impacts = Vec::new();
         for interface in &mut self.interfaces {
             for (side, input) in interface.sides.iter_mut().enumerate() {
                 input.begin(waves, side);
@@ -147,29 +146,7 @@ impl<N: Bounded> Cluster<N> {
             self.interfaces[j].drive = self.arriving(j, 1) - self.arriving(j, 0);
         }
         self.linear = self.linear();
-        let inputs = self.inputs(&zero, &self.until.at);
-        // A contact that has closed pushes the masses beside it.
-        loop {
-            let Some(series) = self.series(&inputs) else { break };
-            let mut falls = Vec::new();
-            for (j, interface) in self.interfaces.iter().enumerate() {
-                if !interface.touches || interface.mode != Mode::Open {
-                    continue;
-                }
-                let (onset, doubt) = self.onset_of_gap(&series, j)?;
-                falls.extend(onset.order().map(|order| (order, j, doubt)));
-            }
-            let Some(least) = falls.iter().map(|(order, ..)| *order).min() else { break };
-            for (_, j, doubt) in falls.into_iter().filter(|(order, ..)| *order == least) {
-                if doubt {
-                    self.doubts();
-                }
-                let interface = &mut self.interfaces[j];
-                interface.mode = Mode::Closed;
-                impacts.push((j, interface.drive.clone()));
-            }
-            self.linear = self.linear();
-        }
+        let impacts = self.close_at_start()?;
         let occurrence = |(j, y): (usize, N)| {
             let kind = Some(EventKind::Impact);
             (self.first + j, Occurrence { kind, t: zero.clone(), drive: [y.clone(), y] })
@@ -359,7 +336,7 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Notes that the bounds leave a decision open.
-    fn doubts(&mut self) {
+    pub(super) fn doubts(&mut self) {
         let at = self.reached.at.to_f64();
         self.doubt = Some(self.doubt.map_or(at, |earlier| earlier.min(at)));
     }

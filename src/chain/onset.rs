@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use super::cluster::{Cluster, Mass};
 use super::curve::Curve;
-use super::interface::{Interface, Row};
+use super::interface::{Interface, Mode, Row};
 use super::node::Source;
 use super::step::{Values, refs};
 use super::wave::is_exact_zero;
@@ -60,10 +60,9 @@ impl<N: Bounded> Cluster<N> {
                 .collect();
             if k == 0 {
                 for (j, values) in now.iter_mut().enumerate() {
-                    for side in 0..2 {
-                        if !matches!(self.interfaces[j].sides[side].source, Source::Mass(_)) {
-                            values[side] = self.arriving(j, side);
-                        }
+                    let sides = self.interfaces[j].sides.iter().zip(values).enumerate();
+                    for (side, (_, value)) in sides.filter(|(_, (side, _))| !matches!(side.source, Source::Mass(_))) {
+                        *value = self.arriving(j, side);
                     }
                 }
             }
@@ -73,6 +72,33 @@ impl<N: Bounded> Cluster<N> {
             values.push(now);
         }
         Some(Series { states, values })
+    }
+
+    /// Closes the contacts that touch at the start and close at once; returns each with its `y`.
+    pub(super) fn close_at_start(&mut self) -> Result<Vec<(usize, N)>, Open> {
+        let mut impacts = Vec::new();
+        let inputs = self.inputs(&self.reached.at, &self.until.at);
+        while let Some(series) = self.series(&inputs) {
+            let mut falls = Vec::new();
+            for (j, interface) in self.interfaces.iter().enumerate() {
+                if interface.touches && interface.mode == Mode::Open {
+                    let (onset, doubt) = self.onset_of_gap(&series, j)?;
+                    falls.extend(onset.order().map(|order| (order, j, doubt)));
+                }
+            }
+            // A contact that has closed pushes the masses beside it.
+            let Some(least) = falls.iter().map(|(order, ..)| *order).min() else { break };
+            for (_, j, doubt) in falls.into_iter().filter(|(order, ..)| *order == least) {
+                if doubt {
+                    self.doubts();
+                }
+                let interface = &mut self.interfaces[j];
+                interface.mode = Mode::Closed;
+                impacts.push((j, interface.drive.clone()));
+            }
+            self.linear = self.linear();
+        }
+        Ok(impacts)
     }
 
     /// Returns the way in which the gap of a contact leaves zero, and whether a coefficient is zero within its bound.

@@ -94,8 +94,8 @@ impl<'a> Varied<'a, Body> {
     }
 }
 
-/// Converts an exact number with its rate; each of both is exact if it is a double, and rounded once if it is short enough for a
-/// [`Number`].
+/// Converts an exact number with its rate; each of both is exact if it is a double, and rounded once if it is short
+/// enough for a [`Number`].
 ///
 /// **Errors**: [`Kind::OutOfRange`] if one of both is below 1e-300 or above 1e300.
 pub(super) fn lift<N: Bounded>(x: &Given, precision: &N::Precision) -> Result<N, Error> {
