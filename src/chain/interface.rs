@@ -96,12 +96,19 @@ pub(super) struct Row<N> {
     factors: [Factor<N>; 3],
     /// Magnitudes of the factors.
     sizes: [Factor<N>; 3],
+    /// Whether the first two factors are opposite, so that equal signals from both sides count for nothing.
+    is_difference: bool,
 }
 
 impl<N: Bounded> Row<N> {
     fn new(factors: [N; 3]) -> Self {
         let factors = factors.map(Factor::new);
-        Row { sizes: factors.each_ref().map(Factor::magnitude), factors }
+        Row { sizes: factors.each_ref().map(Factor::magnitude), factors, is_difference: false }
+    }
+
+    /// Returns the form `a (below − above) + b gap`.
+    fn of_difference(a: N, b: N) -> Self {
+        Row { is_difference: true, ..Row::new([a.clone(), -a, b]) }
     }
 
     /// Returns whether the form is zero for all values that count.
@@ -123,7 +130,12 @@ impl<N: Bounded> Row<N> {
 
     /// Returns the value of the form.
     pub(super) fn of(&self, values: [&N; 3]) -> N {
-        weighted(&self.factors, values)
+        let [below, above, gap] = values;
+        if !self.is_difference || is_exact_zero(below) || is_exact_zero(above) {
+            return weighted(&self.factors, values);
+        }
+        let (apart, none) = (below.clone() - above, gap.zero());
+        weighted(&self.factors, [&apart, &none, gap])
     }
 
     /// Returns a bound of the form for bounds of its values.
@@ -162,7 +174,7 @@ impl<N: Bounded> Rows<N> {
         let (z, one) = (|| zero.zero(), || zero.one());
         Rows {
             force: Row::new([z(), z(), z()]),
-            rate: Row::new([-one(), one(), z()]),
+            rate: Row::of_difference(-one(), z()),
             leaving: [Row::new([one(), z(), z()]), Row::new([z(), one(), z()])],
         }
     }
@@ -179,8 +191,8 @@ impl<N: Bounded> Rows<N> {
             let denominator = damping.clone() * &compliance + one();
             let [d, k, share] = [damping.clone(), stiffness.clone(), one()].map(|x| x / &denominator);
             return Rows {
-                force: Row::new([d.clone(), -d.clone(), -k.clone()]),
-                rate: Row::new([-share.clone(), share, -(k.clone() * &compliance)]),
+                force: Row::of_difference(d.clone(), -k.clone()),
+                rate: Row::of_difference(-share, -(k.clone() * &compliance)),
                 leaving: [
                     Row::new([one() - d.clone() * twice_below, d.clone() * twice_below, k.clone() * twice_below]),
                     Row::new([d.clone() * twice_above, one() - d * twice_above, -(k * twice_above)]),
@@ -198,7 +210,7 @@ impl<N: Bounded> Rows<N> {
         let [past_below, past_above] = &mix.passed;
         let reflection = &mix.reflection;
         Rows {
-            force: Row::new([mix.conductance.clone(), -mix.conductance.clone(), z()]),
+            force: Row::of_difference(mix.conductance.clone(), z()),
             rate: Row::new([z(), z(), z()]),
             leaving: [
                 Row::new([reflection.clone(), past_below.clone(), z()]),

@@ -145,6 +145,49 @@ fn bodies_that_fly_together_do_not_touch_each_other() {
     }
 }
 
+/// Masses that fly together and land in a row of springs: each contact closes as the first does. **Source**: after the
+/// landing the masses move as `t³`, `t⁵` and `t⁶`, so that the last gap falls from zero at once.
+#[test]
+fn masses_that_land_together_close_together() {
+    let text = r#"
+[[body]]
+mass = 2
+velocity = 1
+[[body]]
+mass = "1/3"
+velocity = 1
+joint = { stiffness = 37.5, bonded = true }
+[[body]]
+mass = 3
+velocity = 1
+joint = { stiffness = 1, damping = 0.3 }
+[[body]]
+mass = 0.5
+velocity = 1
+joint = { stiffness = 37.5, damping = 0.5 }
+[ends]
+bottom = { gap = 0.05, stiffness = 1 }
+top = "free"
+[gravity]
+acceleration = 9.81
+[run]
+time = 1
+"#;
+    let chain = ChainScene::parse(text).unwrap().chain;
+    assert!(is_decided_by_doubles(&chain));
+    // −1/20 = t − 9.81 t²/2.
+    let landing = (1.0 + (1.0f64 + 0.1 * 9.81).sqrt()) / 9.81;
+    for numbers in [Numbers::Double(None), Numbers::Certified(15)] {
+        let found = events(&chain.solve(numbers).unwrap());
+        let nodes: Vec<usize> = found.iter().map(|(node, ..)| *node).collect();
+        assert_eq!(nodes, [0, 2, 3]);
+        assert!(
+            found.iter().all(|(_, kind, t)| *kind == EventKind::Impact && (t - landing).abs() < 1e-14),
+            "{found:?}"
+        );
+    }
+}
+
 /// Waves that have left one break by different ways, and meet in a closed contact, come at one time.
 #[test]
 fn breaks_that_meet_by_different_ways_come_at_one_time() {
