@@ -26,7 +26,9 @@ fn enclosures_confirm_what_coincides_and_nothing_else() {
         for (length, is_confirmed) in [("1", true), ("1.00000000000000000000000000000000000000000001", false)] {
             let chain = scene(length, joint).chain;
             let plain = ChainRun::<Numbers>::new(&chain, &(), observe).unwrap();
-            assert!(plain.undetermined_from().is_some(), "{joint} {length}");
+            // Exact forms of times tell in soft chains that equal bars have one travel time.
+            let is_told = joint.contains("stiffness") && is_confirmed;
+            assert_eq!(plain.undetermined_from().is_none(), is_told, "{joint} {length}");
             let confirmed = ChainRun::<Numbers>::confirmed(&chain, &(), 128, observe).unwrap();
             assert_eq!(confirmed.undetermined_from().is_none(), is_confirmed, "{joint} {length}");
         }
