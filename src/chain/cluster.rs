@@ -229,11 +229,15 @@ impl<N: Bounded> Cluster<N> {
         let drives_before: Vec<N> = self.interfaces.iter().map(|interface| interface.drive.clone()).collect();
         if !is_at_once {
             self.reached = next;
-        } else if self.reached.late.below(&next.late) != Ok(false) {
-            // An event that a break causes is at the time of the break.
-            let is_told = is_exact_zero(&next.late) && is_exact_zero(&width);
-            let exact = if is_told { &self.reached } else { &next }.exact.clone();
-            self.reached = Moment::beside(self.reached.at.clone(), late, exact);
+        } else {
+            // An event that a break causes is at the time of the break; another is within the bounds of it only.
+            let is_told = first.as_ref().is_some_and(|at| is_exact_zero(&at.at) && is_exact_zero(&at.late));
+            if !is_told {
+                self.reached.exact = next.exact;
+            }
+            if self.reached.late.below(&next.late) != Ok(false) {
+                self.reached = Moment::beside(self.reached.at.clone(), late, self.reached.exact.clone());
+            }
         }
         for (j, change, at) in found {
             if !first.as_ref().is_some_and(|first| at.meets(first)) {

@@ -20,8 +20,8 @@
 //! (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
 //! chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
 //! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
-//! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that
-//! act on each other at once), `onset` (the start of the motion of contacts that touch), `peak` (greatest values).
+//! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes
+//! that act on each other at once), `onset` (the start of the motion of contacts that touch), `peak` (greatest values).
 
 mod answers;
 mod body;

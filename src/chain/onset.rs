@@ -1,8 +1,8 @@
 //! The start of the motion where functions are exactly zero: contacts that touch, and springs without a load.
 //!
-//! **Source**: a solution that is analytic leaves zero with the sign of its first Taylor coefficient that is not zero. The
-//! coefficients follow from the values and from those of the arriving signals, order by order. Where a signal is known
-//! within a bound its value is, so that the bound enters before its higher coefficients do.
+//! **Source**: an analytic solution leaves zero with the sign of its first Taylor coefficient that is not zero. The
+//! coefficients follow from the states and from those of the arriving signals, order by order. The bound of a signal
+//! enters with its value, before its higher coefficients do.
 
 use std::cmp::Ordering;
 
@@ -113,8 +113,8 @@ impl<N: Bounded> Series<N> {
         self.states[state].iter().skip(1).all(is_exact_zero)
     }
 
-    /// Returns the way in which a form of the values at an interface leaves zero, and whether a coefficient is zero within
-    /// its bound.
+    /// Returns the way in which a form of the values at an interface leaves zero, and whether a coefficient is zero
+    /// within its bound.
     pub(super) fn onset(&self, row: &Row<N>, j: usize) -> Result<(Onset, bool), Open> {
         onset(self.values.iter().map(|values| row.of(refs(&values[j]))))
     }

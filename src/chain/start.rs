@@ -253,8 +253,8 @@ fn common_velocity(chain: &Chain) -> Rational {
     (0..chain.joints.len()).filter_map(shared).find(is_rounded).unwrap_or_default()
 }
 
-/// Returns velocities at points in the frame. No points mean zero everywhere: up to `end` in a body, always at an end of
-/// the chain.
+/// Returns velocities at points in the frame. No points mean zero everywhere: up to `end` in a body, always at an end
+/// of the chain.
 fn in_frame(points: Vec<(Given, Given)>, frame: &Given, end: Option<&Given>) -> Vec<(Given, Given)> {
     let zero = Given::constant(Rational::default());
     if *frame.value() == Rational::default() {
