@@ -147,7 +147,6 @@ impl Orbit {
         Ok(orbits)
     }
 
-    /// Returns the orbit of `cells` cells with `round_trip` cells in a round trip and `contact` in contact.
     fn new(top: Top, cells: usize, round_trip: usize, contact: usize) -> Option<Self> {
         let waves = waves(top, cells, round_trip, contact)?;
         let (pressed, flight) = waves.split_at(contact);
@@ -457,7 +456,6 @@ fn waves(top: Top, cells: usize, round_trip: usize, contact: usize) -> Option<Ve
     Some(found.into_iter().map(|(factor, twice)| factor * first + twice).collect())
 }
 
-/// Returns the greatest common divisor.
 fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -202,7 +202,6 @@ impl<S: RoundedSpecial> Damped<S> {
         if equal_times { near.min(&own) } else { own }
     }
 
-    /// Bounds the rounding of the time of an event.
     fn event_rounding(&self, event: usize) -> f64 {
         let time = &self.course.events[event].t;
         8.0 * time.value().unit() * time.to_f64()

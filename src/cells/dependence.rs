@@ -19,7 +19,6 @@ impl Form {
         self.0.iter().map(|x| x.abs()).sum()
     }
 
-    /// Adds a multiple of another form.
     pub(super) fn add(&mut self, factor: f64, other: &Form) {
         if self.0.len() < other.0.len() {
             self.0.resize(other.0.len(), 0.0);
@@ -33,7 +32,6 @@ impl Form {
         Form(self.0.iter().map(|x| factor * x).collect())
     }
 
-    /// Adds `size` to the coefficient of a source.
     fn depend(&mut self, source: usize, size: f64) {
         if self.0.len() <= source {
             self.0.resize(source + 1, 0.0);

@@ -247,7 +247,6 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         }
     }
 
-    /// Runs to the goal and returns the result.
     pub(super) fn run(mut self, task: &Task<'_, S>) -> Result<Found<S>, Error> {
         let ending = self.follow(&Goal::of(task, self.data), task)?;
         let last = self.budget.since();

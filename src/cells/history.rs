@@ -216,7 +216,6 @@ impl<S: RoundedSpecial> Damped<S> {
         sum
     }
 
-    /// Returns the pieces of each contact, in order.
     pub(super) fn contact_pieces(&self) -> impl Iterator<Item = &[Piece<S>]> {
         self.pieces.chunk_by(|a, b| a.contact == b.contact).filter(|pieces| pieces[0].contact)
     }

@@ -99,7 +99,6 @@ pub(super) struct LeapCount {
     pub(super) powers: usize,
 }
 
-/// Adds `factor · f` to `target`.
 fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
     for (target, f) in target.iter_mut().zip(f) {
         for (t, c) in target.iter_mut().zip(f) {
@@ -109,7 +108,6 @@ fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
 }
 
 impl<S: RoundedSpecial> Circle<'_, S> {
-    /// Computes the mean over the circle.
     fn mean(&self, f: &[Vec<S>]) -> S {
         let zero = self.parts[0].0.zero();
         self.parts.iter().zip(f).fold(zero, |sum, ((_, len), c)| integral(c) * len + &sum)
@@ -156,7 +154,6 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         }
     }
 
-    /// Computes `f · s · factor`, in place.
     fn times_s(&self, f: &mut [Vec<S>], factor: &S) {
         self.counts();
         for ((start, len), c) in self.parts.iter().zip(f) {
@@ -190,12 +187,10 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         sum
     }
 
-    /// Computes `G f`.
     fn lagged(&self, f: &[Vec<S>]) -> Function<S> {
         self.series(f, &self.lag, true)
     }
 
-    /// Computes `H f`.
     fn turned(&self, f: &[Vec<S>]) -> Function<S> {
         self.series(f, &self.turn, false)
     }

@@ -36,7 +36,6 @@ pub(super) struct Medium<S> {
     /// Truncation of one cell relative to `V`, as `log₂`.
     pub(super) log2_accuracy: f64,
     pub(super) longest: S,
-    /// Quadrature rules of [`Medium::rule`].
     rules: [OnceLock<Vec<(S, S)>>; RULES],
 }
 

@@ -103,7 +103,6 @@ impl<S: RoundedSpecial> Record<'_, S> {
         self.pool.line(t, || self.line(t, &t.ratio(1, 2)))
     }
 
-    /// Computes [`Record::lines`] on `0 ≤ x ≤ reach`.
     pub(super) fn line(&self, t: &S, reach: &S) -> Vec<Node<S>> {
         self.lines(t, std::slice::from_ref(reach)).pop().unwrap_or_default().0
     }

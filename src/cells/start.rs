@@ -65,7 +65,6 @@ impl<S: Rounded> Linear<S> {
             && self.velocity_slope == next.velocity_slope
     }
 
-    /// Returns the part of length `len` that begins at `offset`.
     fn part(&self, offset: &S, len: S) -> Self {
         Linear {
             from: self.from.clone() + offset,

@@ -99,7 +99,6 @@ impl<S: RoundedSpecial> Strips<S> {
         self.strips.push(cells);
     }
 
-    /// Passes the cells of a kept strip to `visit`.
     pub(super) fn show(&self, strip: usize, visit: &mut dyn FnMut(&Cell<'_, S>)) {
         self.strips[strip].iter().for_each(|kept| visit(&kept.cell()));
     }

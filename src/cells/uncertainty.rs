@@ -67,12 +67,10 @@ pub(super) fn slack<S: Rounded>(t: &S, roundings: i64) -> S {
     (t.magnitude() + t.one()) * &t.roundoff() * &t.int(roundings)
 }
 
-/// Returns `value` with the error bound `bound`.
 pub(super) fn within<S: Rounded>(value: &S, bound: f64) -> Estimate<S> {
     Estimate::new(value.clone(), bound / value.unit() + value.to_f64().abs())
 }
 
-/// Returns `value` with `bound` added to its error bound.
 pub(super) fn wider<S: Rounded>(value: Estimate<S>, bound: f64) -> Estimate<S> {
     Estimate::new(value.value().clone(), value.error() + bound / value.value().unit())
 }

@@ -197,7 +197,6 @@ impl<N: Bounded> Undamped<N> {
         self.ground.trace.place(moment.index, &moment.age, side)
     }
 
-    /// Returns `p` at a moment, as the limit from the given side.
     pub(super) fn p_at(&self, moment: &Moment<N>, side: Side) -> Result<N, Open> {
         let place = self.place(moment, side)?;
         Ok(self.ground.trace.piece(&place).line.value_at(&place.age))

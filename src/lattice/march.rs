@@ -97,7 +97,6 @@ pub struct GroundMotion<N> {
     pub coincidence: Option<usize>,
 }
 
-/// The state of the march.
 pub(super) struct March<'a, N> {
     pub(super) problem: &'a Scaled<N>,
     pub(super) trace: Trace<N>,

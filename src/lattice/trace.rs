@@ -159,7 +159,6 @@ impl<N: Bounded> Part<N> {
         [at_deviating(&self.value, &self.slope, late), at_deviating(&end, &self.slope, self.late_end.as_ref())]
     }
 
-    /// Returns the rest of the part after its first `width`.
     pub(super) fn after(self, width: &N) -> Self {
         let value = self.slope.clone() * width + &self.value;
         Part { width: self.width - width, value, shift: None, ..self }
@@ -414,7 +413,6 @@ impl<N: Bounded> Trace<N> {
         Some(Part { offset, width, value, slope, shift: Some((jump, late)), late_end: None })
     }
 
-    /// Visits [`Trace::window`] with the [`Trace::edge`] of its beginning.
     pub(super) fn window_from(
         &self,
         from: &Place<N>,

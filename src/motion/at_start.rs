@@ -43,13 +43,11 @@ pub(crate) enum Datum {
 }
 
 impl<S: Scalar> AtStart<S> {
-    /// Returns the data of `problem` with the parameters `given`.
     pub(crate) fn of(problem: &Problem, given: &Parameters<S>) -> Self {
         let precision = given.length.precision();
         AtStart::with(problem, given, &|_, number| S::from_number(number, &precision))
     }
 
-    /// Returns the data of `problem`, with its numbers converted by `lift`.
     pub(crate) fn with(problem: &Problem, given: &Parameters<S>, lift: &dyn Fn(Datum, &Number) -> S) -> Self {
         let zero = given.length.zero();
         let points = |list: &[(Number, Number)], datum: fn(usize) -> Datum| -> Vec<(S, S)> {

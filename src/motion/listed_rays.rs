@@ -20,7 +20,6 @@ pub(super) struct ListedRays<S> {
 }
 
 impl<S: Scalar> ListedRays<S> {
-    /// Returns the rays with these [`Motion::departures`].
     pub(super) fn new(motion: &dyn Motion<S>, departures: [Vec<(S, S)>; 2]) -> Self {
         let ends = departures.map(|rays| {
             let mut rays: Vec<_> = rays.into_iter().map(|(time, jump)| (time, jump.vanishes() != Ok(true))).collect();

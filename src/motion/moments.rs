@@ -7,7 +7,6 @@ use crate::number::Scalar;
 /// `∫ f dx` and `∫ f (x − a) dx` over a cell `a … b`, for `f` = `v`, `v_t`, `v_x`.
 pub(crate) type Moments<S> = [[S; 2]; 3];
 
-/// Computes the moments of stretches with polynomial fields.
 pub(crate) fn of_stretches<S: Scalar>(stretches: &[Stretch<S>], points: &[S]) -> Result<Vec<Moments<S>>, Error> {
     let mut cells = Vec::with_capacity(points.len());
     let mut rest = stretches.iter().peekable();

@@ -31,7 +31,6 @@ struct Phase<S> {
 }
 
 impl<S: Scalar> RepeatedRays<S> {
-    /// Returns the rays of `motion`.
     pub(super) fn of(motion: &dyn Motion<S>) -> Self {
         let mut found = Self::of_start(motion);
         for event in motion.events().iter().filter(|event| event.t.to_f64() != 0.0) {
@@ -187,7 +186,6 @@ fn ray_of<S: Scalar>(event: &Event<S>) -> (S, bool) {
     (event.t.clone(), event.kind == EventKind::Impact && event.v_end.vanishes() != Ok(true))
 }
 
-/// Returns the fractional part of a number of round trips.
 fn fraction<S: Scalar>(trips: &S) -> f64 {
     let trips = trips.to_f64();
     trips - trips.floor()

@@ -23,7 +23,6 @@ pub(crate) struct Dual<S> {
 }
 
 impl<S: Bounded> Dual<S> {
-    /// Returns `value + rate ε`.
     pub(crate) fn new(value: S, rate: S) -> Self {
         Dual { value, rate, known: true }
     }
@@ -37,7 +36,6 @@ impl<S: Bounded> Dual<S> {
         Some(&self.rate).filter(|_| self.known)
     }
 
-    /// Returns the number with its rate multiplied by `factor`.
     pub(crate) fn scaled_rate(self, factor: &S) -> Self {
         Dual { rate: self.rate * factor, ..self }
     }
@@ -50,7 +48,6 @@ impl<S: Bounded> Dual<S> {
         Dual { known: false, ..Dual::constant(near.zero()) }
     }
 
-    /// Applies `f` to both components.
     fn each(self, f: impl Fn(S) -> S) -> Self {
         Dual { value: f(self.value), rate: f(self.rate), known: self.known }
     }

@@ -20,7 +20,6 @@ const MOST_EXPONENT: i64 = (1 << 30) - 1;
 /// Greatest binary exponent of an angle whose sine and cosine are computed.
 const MOST_ANGLE: i64 = 1 << 16;
 
-/// A direction of rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Round {
     /// The nearest number; the even one in the middle between two.
@@ -29,14 +28,12 @@ pub enum Round {
     Down,
     /// Towards ∞.
     Up,
-    /// Away from zero.
     AwayZero,
 }
 
 /// A number that is no fraction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Constant {
-    /// π.
     Pi,
 }
 
@@ -45,9 +42,7 @@ pub(crate) enum Constant {
 pub(crate) enum Special {
     /// No number.
     Nan,
-    /// ∞.
     Infinity,
-    /// −∞.
     NegInfinity,
 }
 
@@ -87,7 +82,6 @@ pub enum Operation<'a> {
     Elementary(Function, &'a Float),
 }
 
-/// An elementary function.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
@@ -101,7 +95,6 @@ pub enum Function {
 
 /// A value that is rounded to a [`Float`].
 pub trait Unrounded {
-    /// Returns the value in this many bits.
     fn rounded(self, bits: u32, round: Round) -> Float;
 }
 
@@ -110,12 +103,10 @@ pub(crate) fn rounded<T: Unrounded>(bits: u32, value: T, round: Round) -> Float 
     value.rounded(bits, round)
 }
 
-/// Returns `value` in this many bits, rounded down.
 pub(crate) fn down<T: Unrounded>(bits: u32, value: T) -> Float {
     value.rounded(bits, Round::Down)
 }
 
-/// Returns `value` in this many bits, rounded up.
 pub(crate) fn up<T: Unrounded>(bits: u32, value: T) -> Float {
     value.rounded(bits, Round::Up)
 }
@@ -415,7 +406,6 @@ impl Float {
         self.to_string_radix_round(radix, digits, Round::Nearest)
     }
 
-    /// Returns `n!`.
     pub(crate) fn factorial(n: u32) -> IBig {
         (1..=n).fold(IBig::ONE, |product, k| product * k)
     }

@@ -15,7 +15,6 @@ where
     Float::with_val_round(bits, value, round).0
 }
 
-/// Returns `value` in this many bits, rounded down.
 pub(crate) fn down<T>(bits: u32, value: T) -> Float
 where
     Float: AssignRound<T, Round = Round, Ordering = Ordering>,
@@ -23,7 +22,6 @@ where
     rounded(bits, value, Round::Down)
 }
 
-/// Returns `value` in this many bits, rounded up.
 pub(crate) fn up<T>(bits: u32, value: T) -> Float
 where
     Float: AssignRound<T, Round = Round, Ordering = Ordering>,

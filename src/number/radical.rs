@@ -12,7 +12,6 @@ use super::rational::{self, Integer, Rational};
 /// radicand contains only roots that precede its own.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Root {
-    /// Nesting depth of roots.
     depth: u32,
     /// The radicand; `None` for a named number.
     radicand: Option<Radical>,

@@ -32,7 +32,6 @@ pub(super) fn sign(x: &Rational) -> Ordering {
     x.cmp0()
 }
 
-/// Returns `x/2`.
 pub(super) fn half(x: Rational) -> Rational {
     x >> 1u32
 }

@@ -9,7 +9,6 @@ use crate::number::{Number, NumberError};
 /// Every quantity with a unit: energies are products of at most seven of them and stay within 1e±300.
 pub(super) const UNITS: (f64, f64) = (1e-40, 1e40);
 
-/// Values by their parameter.
 pub(crate) type ByParameter<T> = BTreeMap<Parameter, T>;
 
 /// A value that is a number, with what messages about it need.

@@ -107,7 +107,6 @@ impl Chain {
         problem.ok_or_else(|| self.no_bar(body))
     }
 
-    /// Returns the refusal of a body that is no bar.
     fn no_bar(&self, body: usize) -> ProblemError {
         let (found, expected) = match self.bodies().get(body) {
             Some(_) => ("a rigid mass".to_string(), format!("a bar: the whole chain has v_end.{} of a mass", body + 1)),
@@ -117,7 +116,6 @@ impl Chain {
     }
 }
 
-/// Returns `body` with this material.
 fn body_of(material: &Material, body: &Body) -> Body {
     let length = body.length().clone();
     let (velocity, displacement) = (body.velocity().to_vec(), body.displacement().to_vec());

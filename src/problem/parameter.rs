@@ -9,7 +9,6 @@ use crate::chain::{ChainParameter, ChainValue};
 use crate::names::{UnknownName, nearest};
 use crate::number::Number;
 
-/// The names of a parameter.
 struct Names {
     /// The path in a scene file.
     path: &'static str,

@@ -139,7 +139,6 @@ impl Draft {
         }
     }
 
-    /// A start above the ground.
     fn above(&self, gap: &Given<'_>, t1: f64, g: f64) -> Result<Start, ProblemError> {
         let key = self.name(Parameter::ImpactSpeed);
         if self.has(Parameter::DropHeight) {
@@ -269,7 +268,6 @@ impl Draft {
         Ok(Some(given).filter(|_| x > 0.0))
     }
 
-    /// The name of a parameter in messages.
     fn name(&self, parameter: Parameter) -> &'static str {
         if self.from_scene { parameter.table_and_key().1 } else { parameter.name() }
     }

@@ -99,7 +99,6 @@ pub(crate) fn columns_along<S: Scalar>(
     Ok(rows)
 }
 
-/// Returns the values of `quantities` along the rod at a point and a time.
 pub(super) fn values_at<S: Scalar>(
     motion: &dyn Motion<S>,
     units: &Units,
@@ -116,7 +115,6 @@ pub(super) fn values_at<S: Scalar>(
         .collect())
 }
 
-/// Refuses times that are not finite, for a history that ends at `end`.
 pub(crate) fn check_finite<S: Scalar>(end: &S, times: &[S]) -> Result<(), Error> {
     let outside = |time: &S| Error::TimeOutside { found: time.text(), end: end.text() };
     times.iter().find(|time| !time.is_finite()).map_or(Ok(()), |time| Err(outside(time)))
@@ -198,7 +196,6 @@ pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
 }
 
 impl Source {
-    /// Adds the answers of the motion to the row.
     fn ask<S: Scalar>(self, motion: &dyn Motion<S>, time: &S, side: Side, row: &mut Vec<S>) -> Result<(), Error> {
         let pair = |(a, b): (S, S)| [a, b];
         match self {

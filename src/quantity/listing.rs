@@ -156,7 +156,6 @@ impl Source {
     }
 }
 
-/// Returns a row of known numbers.
 fn known<S: Clone>(numbers: &[&S]) -> Row<S> {
     numbers.iter().map(|number| Ok((*number).clone())).collect()
 }

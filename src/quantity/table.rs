@@ -243,7 +243,6 @@ impl Source {
         matches!(self, Source::End | Source::Strain | Source::Top | Source::Contact)
     }
 
-    /// Returns the number of its answers.
     pub(super) fn answers(self) -> usize {
         match self {
             Source::Energy | Source::Top => 3,

@@ -349,7 +349,6 @@ impl<'a> Reader<'a> {
         Reader { document: table.unwrap_or(&EMPTY), ..*self }
     }
 
-    /// Returns the tables of the bodies, each with its place.
     fn bodies(&self) -> Result<Vec<(&'a DeTable<'a>, Range<usize>)>, SceneError> {
         let Some((_, value)) = self.get("body") else {
             let rod = self.get("rod").and_then(|(key, value)| Some((value.get_ref().as_table()?, key.span())));

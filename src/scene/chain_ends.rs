@@ -7,7 +7,6 @@ use crate::error::ProblemErrorKind as Kind;
 use crate::names::nearest;
 use crate::number::Number;
 
-/// Keys of a spring.
 pub(super) const SPRING_KEYS: [&str; 3] = ["stiffness", "damping", "penalty"];
 const END_KEYS: &[&str] = &["force", "velocity", "infinite", "gap", "stiffness", "damping", "penalty"];
 const END_WORDS: [&str; 4] = ["free", "fixed", "ground", "absorbing"];

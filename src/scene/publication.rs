@@ -54,7 +54,6 @@ impl Publication {
 }
 
 impl Reader<'_> {
-    /// Reads `[publication]`.
     pub(super) fn publication(&self) -> Result<Option<Publication>, SceneError> {
         let Some((_, value)) = self.get("publication") else { return Ok(None) };
         let Some(document) = value.get_ref().as_table() else {

@@ -19,13 +19,11 @@ use crate::problem::{Material, Parameter, Problem, ProblemError, ProblemErrorKin
 use crate::quantity::UnitSystem;
 use crate::solve::ACCURACIES;
 
-/// The keys of the scene itself.
 const TOP_KEYS: &[&str] = &["title", "units", "rod", "impact", "gravity", "start", "run", "publication", "target"];
 
 /// The tables whose keys are parameters.
 const TABLES: [&str; 5] = ["rod", "impact", "gravity", "start", "run"];
 
-/// Returns the keys of a table of parameters.
 fn keys(table: &str) -> Vec<&'static str> {
     let parameters = Parameter::ALL.iter().map(|parameter| parameter.table_and_key());
     let keys = parameters.filter(|(of, _)| *of == table).map(|(_, key)| key);
@@ -310,7 +308,6 @@ impl<'a> Reader<'a> {
         Err(self.located(given.error(Kind::OutOfRange, "", expected)))
     }
 
-    /// The points of a profile.
     fn points(&self, path: &str) -> Result<Option<Points>, SceneError> {
         let Some((key, value)) = self.get(path) else { return Ok(None) };
         let Some(array) = value.get_ref().as_array() else {

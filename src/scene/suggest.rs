@@ -58,7 +58,6 @@ pub(super) fn key(key: &str, table: &str, known: &[&'static str]) -> Option<Stri
     })
 }
 
-/// The top meant by `text`.
 pub(super) fn top(text: &str) -> Option<&'static str> {
     let word = text.trim().to_lowercase();
     let word = word.strip_suffix("end").unwrap_or(&word).trim();

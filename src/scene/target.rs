@@ -147,7 +147,6 @@ impl<'a> Reader<'a> {
         Ok(targets)
     }
 
-    /// Returns the published number of this table, which stands at `span`.
     fn published(&self, span: &Range<usize>) -> Result<Published, SceneError> {
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::Missing, format!("no {key} in [[target]]"), expected)
@@ -161,7 +160,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Returns the number of the contact, from 1.
     fn contact_of_target(&self) -> Result<usize, SceneError> {
         let Some((_, value)) = self.get("contact") else { return Ok(1) };
         let whole = value.get_ref().as_integer().and_then(|whole| whole.as_str().parse::<usize>().ok());

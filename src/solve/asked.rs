@@ -34,12 +34,10 @@ impl<N: Scalar> Windows<N> {
         Windows { start, displaced }
     }
 
-    /// Returns the times of displaced rays at `point` that are indistinguishable from `time`.
     pub(super) fn displaced(&self, point: &N, time: &N) -> Vec<N> {
         self.displaced.near(point, time)
     }
 
-    /// Returns the times of all rays at `point` that are indistinguishable from `time`.
     pub(super) fn all(&self, point: &N, time: &N) -> Vec<N> {
         let mut near = self.displaced(point, time);
         near.extend(self.start.near(point, time));
@@ -134,7 +132,6 @@ impl<S: Rounded> Telling<S> {
         self.windows.get_or_init(|| Windows::of(&*self.engine))
     }
 
-    /// Returns the times at `point` that are indistinguishable from `time`.
     fn near(&self, point: &Estimate<S>, time: &Estimate<S>) -> Vec<Estimate<S>> {
         let (windows, refuses) = (self.windows(), matches!(self.open, Open::Refuse(_)));
         match time.spelled_as() {

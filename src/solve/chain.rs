@@ -151,7 +151,6 @@ pub(super) fn varied<N: Bounded>(
     Ok(BodyMotion::new(&chain, body, Arc::new(run)))
 }
 
-/// Returns [`motion`] as a shared engine.
 pub(super) fn engine<N: Bounded>(
     problem: &Problem,
     plan: &Plan,

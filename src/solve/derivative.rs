@@ -64,12 +64,10 @@ pub struct Computed<S> {
 }
 
 impl<S> Computed<S> {
-    /// Returns derivatives whose errors are bounds.
     pub(super) fn bounded(rows: Derivatives<S>) -> Self {
         Computed { rows, is_estimated: false }
     }
 
-    /// Returns derivatives whose errors are estimates.
     pub(super) fn estimated(rows: Derivatives<S>) -> Self {
         Computed { rows, is_estimated: true }
     }
@@ -88,7 +86,6 @@ pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S
         .collect()
 }
 
-/// Returns the number in the given row and column.
 pub(super) fn at<S>(rows: &Rows<S>, (row, column): (usize, usize)) -> Option<&S> {
     rows.get(row)?.get(column)?.as_ref()
 }

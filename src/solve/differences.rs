@@ -196,7 +196,6 @@ fn sides(left: OneSide, right: OneSide) -> Derivative<Long> {
     Derivative::Sides { left, right }
 }
 
-/// Builds the derivative from the only side.
 fn only(side: OneSide) -> Derivative<Long> {
     match side {
         Ok(value) => Derivative::One(value),

@@ -480,7 +480,6 @@ impl History {
         self.printed(number, unit)
     }
 
-    /// Returns a number as the history prints its numbers.
     fn printed(&self, number: impl IntoValue, unit: &'static str) -> Value {
         let value = number.into();
         let value = match self.solution {

@@ -40,7 +40,6 @@ impl Places<'_> {
         }
     }
 
-    /// Returns the places in the numbers of `motion`.
     pub(super) fn lift<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
         let end = motion.end();
         let precision = end.precision();

@@ -552,7 +552,6 @@ impl Plan {
         if bits == first { all.min(series_digits(needed)) } else { all }
     }
 
-    /// Returns the task of a damped march in the numbers of `rung`.
     pub(super) fn task<'a, S: Scalar>(
         &self,
         problem: &'a Problem,
@@ -634,7 +633,6 @@ impl Rung {
 }
 
 impl Reach {
-    /// Returns the end of the run of `problem`.
     fn run(problem: &Problem) -> Self {
         match problem.run() {
             Run::Impacts(contacts) => Reach::Contacts(*contacts),

@@ -92,7 +92,6 @@ impl<S: Target> TypedHistory<S> {
         Ok(motion)
     }
 
-    /// Returns the end with its bound.
     pub(super) fn carried_end(&self) -> S::Carried {
         self.current().engine.end()
     }
@@ -342,7 +341,6 @@ impl<S: Target> TypedHistory<S> {
         self.ask_columns_in(&self.units(), columns, side, times)
     }
 
-    /// Returns [`TypedHistory::ask_columns`] in these units.
     pub(super) fn ask_columns_in(
         &self,
         units: &Units,

@@ -1,6 +1,5 @@
 use super::*;
 
-/// Computes the series of `f` on the unit interval.
 fn series(basis: &Basis<f64>, f: impl Fn(f64) -> f64) -> Vec<f64> {
     let values: Vec<f64> = basis.nodes().iter().map(|x| f(*x)).collect();
     basis.through(&values, 24)

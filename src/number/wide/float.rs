@@ -52,7 +52,6 @@ impl<const N: usize> Wide<N> {
         Wide { limbs: [0; N], exponent: INFINITE, negative }
     }
 
-    /// Whether the number is zero.
     #[inline]
     pub(super) fn is_zero(&self) -> bool {
         self.exponent == ZERO

@@ -65,7 +65,6 @@ pub(super) fn move_down<const N: usize>(limbs: &mut [u64; N]) -> u64 {
     above
 }
 
-/// The order of two numbers.
 #[inline]
 pub(super) fn order<const N: usize>(a: &[u64; N], b: &[u64; N]) -> Ordering {
     a.iter().rev().cmp(b.iter().rev())
