@@ -61,71 +61,18 @@ const INSTEAD: [(&str, &str); 2] = [
 /// ```toml
 /// title = "A moving bar hits another"
 /// [[body]]                 # from the bottom up
-/// name = "target"
 /// length = 10
 /// modulus = 100            # with density and area; or wave_speed and impedance
 /// density = 0.01
-/// area = 1                 # absent: 1
 /// [[body]]
-/// length = 10
-/// modulus = 49
-/// density = 0.01
-/// velocity = -0.1          # upward; a number, or points [[x, v_t], …]; displacement = [[x, v], …]
-/// joint = "contact"        # with the body below; or "bonded"
-/// gap = 0.01               # absent: 0
-/// [ends]
-/// bottom = "free"          # or "fixed", "ground", "absorbing", { gap = 0.1 } above the ground, { infinite = 2 },
-/// top = "free"             # { infinite = 2, gap = 0.1 }, { force = [[t, F], …] }, { velocity = [[t, v], …] }
-/// [ground]
-/// velocity = [[0, 0], [1, 2]]
-/// [gravity]
-/// acceleration = 0
+/// mass = 6                 # without a length: rigid
+/// velocity = -0.1          # upward
+/// gap = 0.01               # above the body below
 /// [run]
 /// time = 1
 /// ```
 ///
-/// A single body may stand in `[rod]`, which has `bottom` and `top` of its own; it starts with `[impact] speed` and
-/// `gap` or with the points of `[start]`. Without `bottom` it is above rigid ground. With a wave speed alone, ρA is 1:
-/// forces and stiffnesses are those per ρA.
-///
-/// ```toml
-/// [rod]
-/// length = 15
-/// modulus = 1e8
-/// density = 2500
-/// bottom = "fixed"
-/// top = { force = -10e3 }
-/// [run]
-/// time = 0.6
-/// ```
-///
-/// A joint may yield: `joint = { stiffness = 5e9, damping = 2e4 }` is a spring with a dashpot beside it that pushes
-/// where the bodies touch, and with `bonded = true` one that pulls as well. Both are those of the whole cross-section,
-/// in force per length and in force per velocity. `penalty = 20` is a stiffness of 20 EA/L of the body. `[ground]`
-/// takes the same keys, and so does an end: `top = { gap = 0.1, stiffness = 5 }`, or without a gap a spring to a wall.
-/// A body with a `mass` and without a length is rigid.
-///
-/// ```toml
-/// [[body]]
-/// length = 1
-/// wave_speed = 1
-/// impedance = 1
-/// [[body]]
-/// mass = 6
-/// velocity = -1
-/// [ends]
-/// bottom = "fixed"
-/// [run]
-/// time = 12
-/// ```
-///
-/// Values that others have published stand in `[[target]]`, as those of a [rod](Scene#published-values) do; among
-/// several bodies each has the number of its `body`, from 1. Those of the whole chain are called as `sample` and
-/// `solve` call them: `u_top.2` and `force.1` at a `time`, and `impact.1`, `release.top`, `impulse.bottom`,
-/// `peak_force.1` of a `contact`.
-///
-/// A body under uniaxial strain has `poisson = 0.3` and `state = "uniaxial strain"`: the modulus of its waves is
-/// `E(1 − ν)/((1 + ν)(1 − 2ν))`. A force pulls where it is positive.
+/// `docs/scenes.md` has every key: ends, joints with springs and dashpots, a single body in `[rod]`, and `[[target]]`.
 ///
 /// ```
 /// use dalembert::{ChainScene, Numbers};
