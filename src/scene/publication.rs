@@ -6,51 +6,53 @@ use super::error::SceneError;
 use super::reader::Reader;
 use crate::names::nearest;
 
-/// The publication that a scene comes from, as `[publication]` gives it: the entries of BibTeX, and a verdict.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Publication {
-    /// The authors, with `and` between them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub author: Option<String>,
-    /// The title.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub title: Option<String>,
-    /// The journal.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub journal: Option<String>,
-    /// The volume of the journal.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume: Option<String>,
-    /// The pages.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pages: Option<String>,
-    /// The publisher of a book, a manual or a program.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub publisher: Option<String>,
-    /// The year.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub year: Option<String>,
-    /// The digital object identifier.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub doi: Option<String>,
-    /// The address.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub url: Option<String>,
-    /// A sentence on the published values.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<String>,
+/// Defines [`Publication`] by its keys.
+macro_rules! publication {
+    ($($(#[$doc:meta])+ $key:ident,)+) => {
+        /// The publication that a scene comes from, as `[publication]` gives it: the entries of BibTeX, and a verdict.
+        #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(default)]
+        pub struct Publication {
+            $($(#[$doc])+ #[serde(skip_serializing_if = "Option::is_none")] pub $key: Option<String>,)+
+        }
+
+        const KEYS: &[&str] = &[$(stringify!($key)),+];
+
+        impl Publication {
+            /// Returns the entries of BibTeX, with their names.
+            pub fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
+                let values = [$((stringify!($key), &self.$key)),+].into_iter().filter(|(key, _)| *key != "verdict");
+                values.filter_map(|(key, value)| Some((key, value.as_deref()?)))
+            }
+
+            fn read(text: impl Fn(&str) -> Result<Option<String>, SceneError>) -> Result<Self, SceneError> {
+                Ok(Publication { $($key: text(stringify!($key))?),+ })
+            }
+        }
+    };
 }
 
-const KEYS: &[&str] = &["author", "title", "journal", "volume", "pages", "publisher", "year", "doi", "url", "verdict"];
-
-impl Publication {
-    /// Returns the entries of BibTeX, with their names.
-    pub fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
-        let Publication { author, title, journal, volume, pages, publisher, year, doi, url, verdict: _ } = self;
-        let values = [author, title, journal, volume, pages, publisher, year, doi, url];
-        KEYS.iter().zip(values).filter_map(|(key, value)| Some((*key, value.as_deref()?)))
-    }
+publication! {
+    /// The authors, with `and` between them.
+    author,
+    /// The title.
+    title,
+    /// The journal.
+    journal,
+    /// The volume of the journal.
+    volume,
+    /// The pages.
+    pages,
+    /// The publisher of a book, a manual or a program.
+    publisher,
+    /// The year.
+    year,
+    /// The digital object identifier.
+    doi,
+    /// The address.
+    url,
+    /// A sentence on the published values.
+    verdict,
 }
 
 impl Reader<'_> {
@@ -62,18 +64,6 @@ impl Reader<'_> {
         let reader = Reader { document, ..*self };
         let near = |key: &str| nearest(key, KEYS.iter().copied()).map(String::from);
         reader.check_known((document, "[publication]"), KEYS, near)?;
-        let text = |key: &str| Ok(reader.text(key)?.map(|(text, _)| text.to_string()));
-        Ok(Some(Publication {
-            author: text("author")?,
-            title: text("title")?,
-            journal: text("journal")?,
-            volume: text("volume")?,
-            pages: text("pages")?,
-            publisher: text("publisher")?,
-            year: text("year")?,
-            doi: text("doi")?,
-            url: text("url")?,
-            verdict: text("verdict")?,
-        }))
+        Publication::read(|key| Ok(reader.text(key)?.map(|(text, _)| text.to_string()))).map(Some)
     }
 }
