@@ -12,7 +12,6 @@ use super::reader::{Reader, Value};
 use super::target::{ChainTarget, Target};
 use crate::chain::{Body, BodyMaterial, Chain, Joint, MAX_PIECES, Points, Spring};
 use crate::error::{ProblemError, ProblemErrorKind as Kind};
-use crate::names::nearest;
 use crate::number::{Number, Rational};
 use crate::problem::Problem;
 use crate::problem::written::short;
@@ -189,7 +188,6 @@ impl ChainScene {
 
 impl<'a> Reader<'a> {
     fn chain(&self) -> Result<ChainScene, SceneError> {
-        let near = |key: &str, known: &[&'static str]| nearest(key, known.iter().copied()).map(String::from);
         let is_rod = self.get("body").is_none();
         let (others, expected) = match is_rod {
             true => (vec!["ends"], "bottom and top in [rod]: [ends] belongs to bodies, [[body]]"),
@@ -203,7 +201,7 @@ impl<'a> Reader<'a> {
             return Err(self.error(key.span(), Kind::Contradiction, found, expected));
         }
         let known = if is_rod { ROD_TOP_KEYS } else { TOP_KEYS };
-        self.check_known((self.document, "the scene"), known, |key| near(key, known))?;
+        self.check_near((self.document, "the scene"), known)?;
         for (path, expected) in INSTEAD {
             if let Some((key, _)) = self.get(path) {
                 let found = format!("{} in a chain, or in a [rod] that is solved as one", key.get_ref());
@@ -215,7 +213,7 @@ impl<'a> Reader<'a> {
             let Some(table) = value.get_ref().as_table() else {
                 return Err(self.wrong_type(value, name, &format!("a table, [{name}]")));
             };
-            self.check_known((table, &format!("[{name}]")), known, |key| near(key, known))?;
+            self.check_near((table, &format!("[{name}]")), known)?;
         }
         let tables = self.bodies()?;
         let mut lines = self.lines();
@@ -316,9 +314,7 @@ impl<'a> Reader<'a> {
                     let expected = "a bar without a mass, or a rigid mass without a length and a material";
                     return Err(self.contradiction((key, &shown), expected));
                 }
-                self.check_known((self.document, &shown), RIGID_KEYS, |key| {
-                    nearest(key, RIGID_KEYS.iter().copied()).map(String::from)
-                })?;
+                self.check_near((self.document, &shown), RIGID_KEYS)?;
                 Body::rigid(mass)
             }
             None => self.material_body((&shown, BODY_KEYS), span)?,
@@ -331,8 +327,7 @@ impl<'a> Reader<'a> {
         let table = self.get("joint").and_then(|(_, value)| value.get_ref().as_table());
         let yielding = match table.filter(|_| index > 0) {
             Some(table) => {
-                let near = |key: &str| nearest(key, JOINT_KEYS.iter().copied()).map(String::from);
-                self.check_known((table, &format!("joint of {shown}")), JOINT_KEYS, near)?;
+                self.check_near((table, &format!("joint of {shown}")), JOINT_KEYS)?;
                 let reader = Reader { document: table, ..*self };
                 let spring = reader.spring(&body)?;
                 if spring.is_none() {
@@ -375,7 +370,7 @@ impl<'a> Reader<'a> {
             let expected = "no damping: it is solved for a single rod on rigid ground, in a [rod] without other ends";
             return Err(self.error(key.span(), Kind::Contradiction, format!("damping of {shown}"), expected));
         }
-        self.check_known((self.document, shown), known, |key| nearest(key, known.iter().copied()).map(String::from))?;
+        self.check_near((self.document, shown), known)?;
         let missing = |key: &str, expected: &str| {
             self.error(span.clone(), Kind::Missing, format!("no {key} in {shown}"), expected)
         };

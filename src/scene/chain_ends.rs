@@ -4,7 +4,6 @@ use super::error::SceneError;
 use super::reader::Reader;
 use crate::chain::{Body, End, Spring};
 use crate::error::ProblemErrorKind as Kind;
-use crate::names::nearest;
 use crate::number::Number;
 
 pub(super) const SPRING_KEYS: [&str; 3] = ["stiffness", "damping", "penalty"];
@@ -131,9 +130,8 @@ impl Reader<'_> {
             });
             return Ok((end, None));
         };
-        let near = |key: &str| nearest(key, END_KEYS.iter().copied()).map(String::from);
         let reader = Reader { document: table, ..*self };
-        self.check_known((table, &format!("{name} of [{place}]")), END_KEYS, near)?;
+        self.check_near((table, &format!("{name} of [{place}]")), END_KEYS)?;
         let gap = reader.plain_number("gap")?;
         let spring = reader.spring(body)?;
         let has = |key: &str| table.contains_key(key);

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use super::error::SceneError;
 use super::reader::Reader;
-use crate::names::nearest;
 
 /// Defines [`Publication`] by its keys.
 macro_rules! publication {
@@ -62,8 +61,7 @@ impl Reader<'_> {
             return Err(self.wrong_type(value, "publication", "a table, [publication]"));
         };
         let reader = Reader { document, ..*self };
-        let near = |key: &str| nearest(key, KEYS.iter().copied()).map(String::from);
-        reader.check_known((document, "[publication]"), KEYS, near)?;
+        reader.check_near((document, "[publication]"), KEYS)?;
         Publication::read(|key| Ok(reader.text(key)?.map(|(text, _)| text.to_string()))).map(Some)
     }
 }

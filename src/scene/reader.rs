@@ -85,6 +85,11 @@ impl<'a> Reader<'a> {
         Err(self.error(key.span(), Kind::UnknownKey, found, expected))
     }
 
+    /// Refuses a key of `table` that is not among `known`, and suggests the nearest of these.
+    pub(super) fn check_near(&self, table: (&DeTable<'_>, &str), known: &[&'static str]) -> Result<(), SceneError> {
+        self.check_known(table, known, |key| nearest(key, known.iter().copied()).map(String::from))
+    }
+
     /// Key and value at a path such as `rod` or `rod.length`.
     pub(super) fn get(&self, path: &str) -> Option<(&'a Key<'a>, &'a Value<'a>)> {
         match path.split_once('.') {

@@ -181,8 +181,7 @@ impl<'a> Reader<'a> {
         chain: &Chain,
     ) -> Result<ChainTarget, SceneError> {
         let known: Vec<&str> = KEYS.iter().copied().filter(|key| !["origin", "body"].contains(key)).collect();
-        let near = |key: &str| nearest(key, known.iter().copied()).map(String::from);
-        self.check_known((self.document, "[[target]]"), &known, near)?;
+        self.check_near((self.document, "[[target]]"), &known)?;
         let Some(quantity) = ChainQuery::read(name, chain) else {
             let names = ChainQuery::names(chain);
             let hint = did_you_mean(nearest(name, names.iter().map(String::as_str)));
@@ -225,8 +224,7 @@ impl<'a> Reader<'a> {
     fn target(&self, span: Range<usize>, materials: &[bool]) -> Result<(usize, Target), SceneError> {
         // The last key, `body`, belongs to chains of several bodies.
         let known = &KEYS[..KEYS.len() - usize::from(materials.len() == 1)];
-        let near = |key: &str| nearest(key, known.iter().copied()).map(String::from);
-        self.check_known((self.document, "[[target]]"), known, near)?;
+        self.check_near((self.document, "[[target]]"), known)?;
         let body = self.body_of_target(materials.len(), span.clone())?;
         let has_material = materials[body];
         let missing = |key: &str, expected: &str| {
