@@ -1,4 +1,4 @@
-//! Elementary functions beside digits that are known, more limbs and long floats.
+//! Elementary functions beside digits that are known, and long floats.
 
 use super::Wide;
 use super::arithmetic_tests::Awkward;
@@ -74,34 +74,6 @@ fn argument<const N: usize>(next: &mut Awkward, most: i32) -> Wide<N> {
         _ => {}
     }
     x
-}
-
-/// Few limbs beside six, in every build: within 0.51 units, and at least a half of that is met.
-fn beside_more<const N: usize>(count: usize) {
-    let mut next = Awkward(0x1234_5678 + N as u64);
-    let few: [(_, Function<N>); 6] = functions!(exp, exp_m1, ln, ln_1p, sin, cos);
-    let many: [(_, Function<6>); 6] = functions!(exp, exp_m1, ln, ln_1p, sin, cos);
-    for ((name, few), (_, many)) in few.into_iter().zip(many) {
-        let (mut most, mut met) = (0.0f64, 0);
-        for _ in 0..count {
-            let x = argument::<N>(&mut next, 9);
-            let (found, sure) = (few(&x), many(&x.resized()));
-            if !sure.is_finite() || sure.is_zero() {
-                assert!(found.is_nan() == sure.is_nan() && found.is_zero() == sure.is_zero());
-                continue;
-            }
-            let off = (found.resized::<6>() - sure).magnitude().scaled(64 * N as i32 - found.exponent).to_f64();
-            (most, met) = (most.max(off), met + 1);
-        }
-        assert!(most <= 0.51 && most > 0.26 && 3 * met > count, "{name} {most} {met}");
-    }
-}
-
-#[test]
-fn functions_are_those_of_more_limbs() {
-    beside_more::<2>(800);
-    beside_more::<3>(500);
-    beside_more::<4>(400);
 }
 
 /// Against the long floats of the build: those of MPFR, or those of `dashu_float`.
