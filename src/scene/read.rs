@@ -51,6 +51,11 @@ const MAX_BYTES: usize = 16 << 20;
 ///
 /// `docs/scenes.md` has every key, the start of the clock, published values, and sources.
 ///
+/// # Where the clock starts
+/// At the first touch; with a `gap`, that far above the ground: every point of the undeformed rod moves down with
+/// `speed`, and until the touch `h″ + 2r h′ = −g`. Under a fixed top the rod is stopped there at `t = 0`, and hangs
+/// from `v(L,t) = gap`: its lower end may touch or not.
+///
 /// ```
 /// use dalembert::Scene;
 /// let scene = Scene::parse("rod = { length = 1, wave_speed = 1 }\nimpact = { speed = 2, gap = 3 }\n")?;
