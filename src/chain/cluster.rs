@@ -22,6 +22,7 @@ use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open, Rational};
+use crate::solve::LONG;
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]
@@ -221,7 +222,7 @@ impl<N: Bounded> Cluster<N> {
             }
             self.norm = norm;
         } else {
-            self.emit(outputs, solved, &width, waves);
+            self.emit(outputs, solved, (&width, series.as_ref()), waves);
             self.take(&step, &errors, &width, series.as_ref());
             self.before = Some((step.states, step.unit.clone(), width.clone() / &step.unit));
             self.repeated = 0;
@@ -528,20 +529,28 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Sends out the signals of a step, and records its states.
-    fn emit(&mut self, outputs: Vec<Output<N>>, solved: Solved<'_, N>, width: &N, waves: &mut [[Wave<N>; 2]]) {
+    fn emit(
+        &mut self,
+        outputs: Vec<Output<N>>,
+        solved: Solved<'_, N>,
+        (width, series): (&N, Option<&Series<N>>),
+        waves: &mut [[Wave<N>; 2]],
+    ) {
         let Moment { time: from, late, .. } = self.reached.clone();
         let cut = |curve: Curve<N>| Curve { width: width.clone(), ..curve };
         for (i, mass) in self.masses.iter().enumerate() {
             let curve = cut(self.state_curve(i, solved));
             for wave in &mut waves[mass.body] {
-                wave.push_curve(&self.reached, curve.clone());
+                wave.push_curve(&self.reached, curve.clone(), None);
             }
         }
-        for (interface, output) in self.interfaces.iter_mut().zip(outputs) {
+        for (j, (interface, output)) in self.interfaces.iter_mut().zip(outputs).enumerate() {
             let Output { force, leaving, mut softness } = output;
             for (side, curve) in leaving.into_iter().enumerate() {
                 if let Source::Wave(body) = &interface.sides[side].source {
-                    waves[*body][1 - side].push_curve(&self.reached, cut(curve));
+                    let taylor =
+                        series.filter(|_| LONG).and_then(|series| series.taylor(&interface.rows().leaving[side], j));
+                    waves[*body][1 - side].push_curve(&self.reached, cut(curve), taylor);
                 }
             }
             if let (Some(soft), Some(softness)) = (&interface.soft, &mut softness)
@@ -561,6 +570,7 @@ impl<N: Bounded> Cluster<N> {
             let closed = interface.mode == Mode::Closed && interface.law == Law::Contact;
             let gap = softness.map_or(Gap::Zero, |softness| Gap::Soft(Box::new(softness)));
             interface.is_fresh = false;
+            interface.sides.iter_mut().for_each(|side| side.taylor = None);
             let force = Signal::Curve(Box::new(cut(force)));
             interface.stages.push(Stage { from: from.clone(), force, gap, closed });
         }

@@ -1,12 +1,16 @@
 //! An interface of a chain with springs, dashpots or masses: the signals that arrive at it, and its linear law.
 
+use std::sync::Arc;
+
 use super::curve::{Curve, Signal, upper};
 use super::exact::{Exact, exact_sum};
 use super::law::{Law, Mix};
 use super::node::{Gap, Source, Stage};
+use super::onset::Taylor;
 use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
 use crate::number::Bounded;
+use crate::solve::LONG;
 
 /// A spring with a dashpot beside it, in the numbers of a run.
 #[derive(Clone, Debug)]
@@ -240,6 +244,8 @@ pub(super) struct Input<N> {
     exact_delay: Exact,
     cursor: usize,
     pub(super) signal: Signal<N>,
+    /// The Taylor series at the time that is reached, if the signal has just left zero.
+    pub(super) taylor: Option<Arc<Taylor<N>>>,
     /// Arrival of the next piece, as far as it is known.
     pub(super) next: Option<Moment<N>>,
 }
@@ -247,7 +253,7 @@ pub(super) struct Input<N> {
 impl<N: Bounded> Input<N> {
     pub(super) fn new(source: Source<N>, (delay, exact_delay): (Option<N>, Exact), zero: &N) -> Self {
         let signal = Signal::Line(Line { intercept: zero.zero(), slope: zero.zero() });
-        Input { source, delay, exact_delay, cursor: 0, signal, next: None }
+        Input { source, delay, exact_delay, cursor: 0, signal, taylor: None, next: None }
     }
 
     /// Receives the first piece.
@@ -278,6 +284,7 @@ impl<N: Bounded> Input<N> {
         self.cursor += 1;
         if let Some(signal) = self.source.piece(self.delay.as_ref(), self.cursor, waves, side) {
             self.signal = signal;
+            self.taylor = if LONG { self.source.taylor(self.cursor, waves, side) } else { None };
         }
         self.next = None;
         self.look_up(waves, side);

@@ -1,11 +1,13 @@
 //! A node: the signals that arrive at it, its state, and its next event.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use super::curve::Signal;
 use super::exact::{Exact, exact_sum};
 use super::interface::Softness;
 use super::law::{Law, Leaving, Mix};
+use super::onset::Taylor;
 use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
 use crate::motion::EventKind;
@@ -18,10 +20,21 @@ pub(super) enum Source<N> {
     Nothing,
     /// The wave through the body with this index.
     Wave(usize),
-    /// Given lines, each with its beginning and the exact form of that.
-    Data(Vec<(N, Line<N>, Exact)>),
+    /// Given lines.
+    Data(Vec<DataLine<N>>),
     /// The velocity of the mass with this index in its cluster.
     Mass(usize),
+}
+
+/// A line that is given from a time on.
+#[derive(Clone, Debug)]
+pub(super) struct DataLine<N> {
+    pub(super) from: N,
+    pub(super) line: Line<N>,
+    /// Exact form of the beginning.
+    pub(super) exact: Exact,
+    /// The value at the beginning, which the line has within a rounding.
+    pub(super) first: N,
 }
 
 impl<N: Bounded> Source<N> {
@@ -31,7 +44,7 @@ impl<N: Bounded> Source<N> {
             (Source::Wave(body), Some(delay)) => {
                 waves[*body][side].pieces.get(piece).map(|piece| piece.from.clone() + delay)
             }
-            (Source::Data(lines), _) => lines.get(piece).map(|(from, ..)| from.clone()),
+            (Source::Data(lines), _) => lines.get(piece).map(|line| line.from.clone()),
             _ => None,
         }
     }
@@ -40,7 +53,19 @@ impl<N: Bounded> Source<N> {
     pub(super) fn exact_beginning(&self, delay: &Exact, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Exact {
         match self {
             Source::Wave(body) => exact_sum(&waves[*body][side].pieces.get(piece)?.exact, delay),
-            Source::Data(lines) => lines.get(piece)?.2.clone(),
+            Source::Data(lines) => lines.get(piece)?.exact.clone(),
+            _ => None,
+        }
+    }
+
+    /// Returns the Taylor series of a piece at its beginning, if it begins at exactly zero.
+    pub(super) fn taylor(&self, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<Arc<Taylor<N>>> {
+        match self {
+            Source::Wave(body) => waves[*body][side].pieces.get(piece)?.taylor.clone(),
+            Source::Data(lines) => {
+                let DataLine { line, first, .. } = lines.get(piece)?;
+                Taylor::new(first.one(), vec![first.clone(), line.slope.clone()])
+            }
             _ => None,
         }
     }
@@ -57,7 +82,7 @@ impl<N: Bounded> Source<N> {
             (Source::Wave(body), Some(delay)) => {
                 waves[*body][side].pieces.get(piece).map(|piece| piece.signal.delayed(delay))
             }
-            (Source::Data(lines), _) => lines.get(piece).map(|(_, line, _)| Signal::Line(line.clone())),
+            (Source::Data(lines), _) => lines.get(piece).map(|data| Signal::Line(data.line.clone())),
             _ => None,
         }
     }

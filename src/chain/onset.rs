@@ -5,17 +5,48 @@
 //! enters with its value, before its higher coefficients do.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use super::cluster::{Cluster, Mass};
 use super::curve::Curve;
-use super::interface::{Interface, Mode, Row};
+use super::interface::{Input, Interface, Mode, Row};
 use super::node::Source;
 use super::step::{Values, refs};
 use super::wave::is_exact_zero;
 use crate::number::{Bounded, Open};
+use crate::solve::LONG;
+
+/// The Taylor series of a signal at a break at which it leaves zero.
+#[derive(Debug)]
+pub(super) struct Taylor<N> {
+    /// The unit of time, a power of two.
+    unit: N,
+    terms: Vec<N>,
+}
+
+impl<N: Bounded> Taylor<N> {
+    /// Returns the series with these coefficients, if the first is exactly zero and another one is not.
+    pub(super) fn new(unit: N, terms: Vec<N>) -> Option<Arc<Self>> {
+        let (first, others) = terms.split_first().filter(|_| LONG)?;
+        let leaves_zero = is_exact_zero(first) && !others.iter().all(is_exact_zero);
+        leaves_zero.then(|| Arc::new(Taylor { unit, terms }))
+    }
+
+    /// Returns the coefficients in another unit of time.
+    fn in_unit(&self, unit: &N) -> Vec<N> {
+        let (ratio, mut power) = (unit.clone() / &self.unit, unit.one());
+        let scaled = |term: &N| {
+            let scaled = term.clone() * &power;
+            power = power.clone() * &ratio;
+            scaled
+        };
+        self.terms.iter().map(scaled).collect()
+    }
+}
 
 /// The values at the interfaces, order by order in the time since the one that is reached.
 pub(super) struct Series<N> {
+    unit: N,
     /// Coefficients of the states.
     states: Vec<Vec<N>>,
     /// Coefficients of the signals and the gap at each interface.
@@ -37,8 +68,13 @@ impl<N: Bounded> Cluster<N> {
     /// Computes the series at the time that is reached, if a contact touches or a mass is still.
     pub(super) fn series(&self, inputs: &[[Curve<N>; 2]]) -> Option<Series<N>> {
         let touches = self.interfaces.iter().any(|interface| interface.touches);
-        let is_needed = touches || self.masses.iter().any(|mass| mass.is_still);
         let unit = &inputs.first()?[0].unit;
+        // The page has no room for this.
+        let in_unit = |side: &Input<N>| side.taylor.as_ref().filter(|_| LONG).map(|taylor| taylor.in_unit(unit));
+        let taylors: Vec<[Option<Vec<N>>; 2]> =
+            self.interfaces.iter().map(|interface| interface.sides.each_ref().map(in_unit)).collect();
+        let known = || taylors.iter().flatten().flatten();
+        let is_needed = touches || self.masses.iter().any(|mass| mass.is_still) || known().next().is_some();
         let masses = self.masses.len();
         let velocity = |mass: &Mass<N>| match mass.is_still {
             true => mass.velocity.clone(),
@@ -52,17 +88,20 @@ impl<N: Bounded> Cluster<N> {
         let gaps = self.interfaces.iter().enumerate().map(gap);
         let mut states: Vec<Vec<N>> = self.masses.iter().map(velocity).chain(gaps).map(|state| vec![state]).collect();
         // A linear equation whose solution is zero in this many orders stays there.
-        let orders = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1) + states.len();
+        let lengths = inputs.iter().flatten().map(|curve| curve.terms.len()).chain(known().map(Vec::len));
+        let orders = lengths.max().unwrap_or(1) + states.len();
         let mut values = Vec::new();
         for k in 0..if is_needed { orders } else { return None } {
             let mut now: Vec<Values<N>> = (0..self.interfaces.len())
                 .map(|j| self.values(inputs, j, k, &|state| states[state][k].clone()))
                 .collect();
-            if k == 0 {
-                for (j, values) in now.iter_mut().enumerate() {
-                    let sides = self.interfaces[j].sides.iter().zip(values).enumerate();
-                    for (side, (_, value)) in sides.filter(|(_, (side, _))| !matches!(side.source, Source::Mass(_))) {
-                        *value = self.arriving(j, side);
+            for (j, values) in now.iter_mut().enumerate() {
+                for (side, value) in values.iter_mut().take(2).enumerate() {
+                    let is_mass = matches!(self.interfaces[j].sides[side].source, Source::Mass(_));
+                    match &taylors[j][side] {
+                        Some(terms) => *value = terms.get(k).cloned().unwrap_or_else(|| self.norm.zero()),
+                        None if k == 0 && !is_mass => *value = self.arriving(j, side),
+                        None => {}
                     }
                 }
             }
@@ -71,7 +110,7 @@ impl<N: Bounded> Cluster<N> {
             }
             values.push(now);
         }
-        Some(Series { states, values })
+        Some(Series { unit: unit.clone(), states, values })
     }
 
     /// Closes the contacts that touch at the start and close at once; returns each with its `y`.
@@ -111,6 +150,11 @@ impl<N: Bounded> Series<N> {
     /// Returns whether a state is constant until a signal changes.
     pub(super) fn is_constant(&self, state: usize) -> bool {
         self.states[state].iter().skip(1).all(is_exact_zero)
+    }
+
+    /// Returns the Taylor series of a form of the values at an interface, if it leaves zero.
+    pub(super) fn taylor(&self, row: &Row<N>, j: usize) -> Option<Arc<Taylor<N>>> {
+        Taylor::new(self.unit.clone(), self.values.iter().map(|values| row.of(refs(&values[j]))).collect())
     }
 
     /// Returns the way in which a form of the values at an interface leaves zero, and whether a coefficient is zero

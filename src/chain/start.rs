@@ -10,7 +10,7 @@ use super::exact::{Exact, Travels, exact, fixed};
 use super::interface::{Input, Interface, Soft};
 use super::law::{Law, Mix};
 use super::march::SOFT;
-use super::node::{Node, Source};
+use super::node::{DataLine, Node, Source};
 use super::varied::{Given, Varied, lift, root};
 use super::wave::{Piece, Wave};
 use crate::error::Error;
@@ -270,11 +270,14 @@ fn signal<N: Bounded>(
     points: &[(Given, Given)],
     fall: &N,
     precision: &N::Precision,
-) -> Result<Vec<(N, Line<N>, Exact)>, Error> {
+) -> Result<Vec<DataLine<N>>, Error> {
     let number = |x: &Given| lift::<N>(x, precision);
-    let constant = |value: N| Line { intercept: value, slope: fall.clone() };
-    let Some((last_time, last)) = points.last() else {
-        return Ok(vec![(fall.zero(), constant(fall.zero()), None)]);
+    let zero = (Given::constant(Rational::default()), Given::constant(Rational::default()));
+    let (last_time, last) = points.last().unwrap_or(&zero);
+    let data = |from: &Given, first: N, line: Line<N>| {
+        let time = number(from)?;
+        let first = first + fall.clone() * &time;
+        Ok::<_, Error>(DataLine { from: time, line, exact: exact(from), first })
     };
     let mut lines = Vec::new();
     for pair in points.windows(2) {
@@ -282,11 +285,12 @@ fn signal<N: Bounded>(
         if from.value() < to.value() {
             let [time, a, b] = [number(from)?, number(a)?, number(b)?];
             let slope = (b - &a) / (number(to)? - &time);
-            let intercept = a - slope.clone() * &time;
-            lines.push((time, Line { intercept, slope: slope + fall }, exact(from)));
+            let intercept = a.clone() - slope.clone() * &time;
+            lines.push(data(from, a, Line { intercept, slope: slope + fall })?);
         }
     }
-    lines.push((number(last_time)?, constant(number(last)?), exact(last_time)));
+    let last = number(last)?;
+    lines.push(data(last_time, last.clone(), Line { intercept: last, slope: fall.clone() })?);
     Ok(lines)
 }
 
@@ -386,6 +390,7 @@ fn wave<N: Bounded>(lines: Vec<(N, Line<N>, Exact)>, first: impl FnOnce(&N) -> N
         signal: Signal::Line(line),
         sum: sum + &first,
         exact,
+        taylor: None,
     });
     Wave { pieces: pieces.collect(), given }
 }

@@ -2,10 +2,12 @@
 
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use super::curve::{Curve, Signal};
 use super::exact::Exact;
 use super::interface::Moment;
+use super::onset::Taylor;
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open};
@@ -22,6 +24,8 @@ pub(super) struct Piece<N> {
     pub(super) sum: N,
     /// Exact form of the beginning, if it is known. In chains with springs, dashpots or masses.
     pub(super) exact: Exact,
+    /// The Taylor series at the beginning, if the signal is known to be exactly zero there.
+    pub(super) taylor: Option<Arc<Taylor<N>>>,
 }
 
 impl<N> Piece<N> {
@@ -118,11 +122,16 @@ impl<N: Bounded> Wave<N> {
             return;
         }
         let sum = (last.signal.integral(&last.from, time) + &last.sum + off).without_exact();
-        self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum, exact: None });
+        self.pieces.push(Piece { from: time.clone(), signal: Signal::Line(line), sum, exact: None, taylor: None });
     }
 
-    /// Continues the wave with `curve` from a time on.
-    pub(super) fn push_curve(&mut self, Moment { time, late, exact, .. }: &Moment<N>, curve: Curve<N>) {
+    /// Continues the wave with `curve` from a time on, where it may leave zero with a known Taylor series.
+    pub(super) fn push_curve(
+        &mut self,
+        Moment { time, late, exact, .. }: &Moment<N>,
+        curve: Curve<N>,
+        taylor: Option<Arc<Taylor<N>>>,
+    ) {
         let last = &self.pieces[self.pieces.len() - 1];
         let is_same = |old: &N| is_exact_zero(&(old.clone() - &curve.terms[0]));
         if curve.terms.len() == 1 && is_exact_zero(&curve.error) {
@@ -150,6 +159,7 @@ impl<N: Bounded> Wave<N> {
             signal: Signal::Curve(Box::new(curve)),
             sum: sum.without_exact(),
             exact: exact.clone(),
+            taylor,
         });
     }
 

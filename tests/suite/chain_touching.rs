@@ -227,3 +227,30 @@ time = 4
         assert!(node == other_node && kind == other_kind && (t - other).abs() < 1e-11, "{found:?} {proved:?}");
     }
 }
+
+/// Breaks that reach a contact at rest, at a time that no double holds, decide it by their Taylor series: from a bar
+/// that a third one has struck, and from a load with a kink.
+#[test]
+fn contacts_at_rest_are_decided_by_breaks_that_leave_zero() {
+    let struck = "body = [\n{ length = 1, wave_speed = 1, impedance = 1 },\n\
+                  { length = 1, wave_speed = 1.3, impedance = 3, joint = { stiffness = 20 } },\n\
+                  { length = 0.7, wave_speed = 0.9, impedance = 1, velocity = -1, joint = { stiffness = 20 } },\n]\n\
+                  ends.bottom = { gap = 0, stiffness = 20 }\ngravity.acceleration = 0.5\nrun.time = 5";
+    let loaded = "body = [\n{ length = 1, wave_speed = 1, impedance = 1 },\n\
+                  { length = 1, wave_speed = 3, impedance = 2, joint = { stiffness = 7 } },\n]\n\
+                  [ends]\nbottom = 'fixed'\ntop = { force = [[0, 0], [0.4, 0], [1, -1]] }\n[run]\ntime = 2";
+    let [default, proved] = [Numbers::Double(None), Numbers::Certified(15)];
+    // The wave needs 1/1.3 from the struck joint to the one below, and 1/3 from the load to the joint.
+    let cases = [(struck, default, 1.0 / 1.3), (struck, proved, 1.0 / 1.3), (loaded, default, 0.4 + 1.0 / 3.0)];
+    for (scene, numbers, at) in cases {
+        let chain = ChainScene::parse(scene).unwrap().chain;
+        assert!(is_decided_by_doubles(&chain), "{scene}");
+        let history = chain.solve(numbers).unwrap();
+        assert!(history.warning().is_none(), "{numbers}: {scene}");
+        let found = events(&history);
+        let is_struck = |(node, kind, t): &(usize, EventKind, f64)| {
+            *node == 1 && *kind == EventKind::Impact && (t - at).abs() < 1e-15
+        };
+        assert!(found.iter().any(is_struck), "{numbers}: {found:?}");
+    }
+}
