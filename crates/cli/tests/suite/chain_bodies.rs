@@ -329,7 +329,8 @@ fn forces_of_a_whole_chain_are_written_in_pieces() {
 fn soft_chains_in_doubt_are_drawn() {
     let bar = "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n";
     let scene = format!(
-        "{bar}{bar}velocity = -1\njoint = {{ stiffness = 20 }}\n[ends]\nbottom = \"ground\"\n[run]\ntime = 3\n"
+        "{bar}{bar}velocity = [[0, 0], [\"1/3\", 0], [1, -1]]\njoint = {{ stiffness = 20 }}\n\
+         [ends]\nbottom = \"fixed\"\n[run]\ntime = 3\n"
     );
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("front.svg").display().to_string();
