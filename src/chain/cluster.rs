@@ -22,7 +22,6 @@ use super::step::{Linear, Step, degree, in_unit, power};
 use super::wave::{Wave, is_exact_zero};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open, Rational};
-use crate::solve::LONG;
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]
@@ -193,8 +192,7 @@ impl<N: Bounded> Cluster<N> {
         let solved = (&inputs[..], &step, &errors[..]);
         let outputs: Vec<Output<N>> = (0..self.interfaces.len()).map(|j| self.output(j, solved)).collect();
         let found = self.events(&outputs, solved, series.as_ref())?;
-        let earlier = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
-        let first = found.iter().map(|(_, _, at)| at.clone()).reduce(earlier);
+        let first = found.iter().map(|(_, _, at)| at.clone()).reduce(Moment::earlier);
         let (width, next) = match &first {
             Some(at) => {
                 let (stored, rounding) = (origin.clone() + &at.at).centred();
@@ -349,11 +347,10 @@ impl<N: Bounded> Cluster<N> {
     /// Returns the next time at which a signal changes, or up to which signals are known.
     fn end(&self, horizon: Option<Moment<N>>) -> Moment<N> {
         let fronts = self.interfaces.iter().flat_map(|interface| &interface.sides).filter_map(|side| side.next.clone());
-        let first = |a: Moment<N>, b: Moment<N>| if b.at.below(&a.at) == Ok(true) { b } else { a };
-        let end = horizon.into_iter().fold(self.until.clone(), first);
+        let end = horizon.into_iter().fold(self.until.clone(), Moment::earlier);
         // Of times that agree, that of a break has the exact form.
-        let sooner = |a: Moment<N>, b: Moment<N>| if b.meets(&a) || b.at.below(&a.at) == Ok(true) { b } else { a };
-        fronts.reduce(first).map_or(end.clone(), |front| sooner(end, front))
+        let sooner = |a: Moment<N>, b: Moment<N>| if b.meets(&a) { b } else { a.earlier(b) };
+        fronts.reduce(Moment::earlier).map_or(end.clone(), |front| sooner(end, front))
     }
 
     /// Returns `y` of an interface after the time `at` in a step, which is known within its bound.
@@ -548,8 +545,7 @@ impl<N: Bounded> Cluster<N> {
             let Output { force, leaving, mut softness } = output;
             for (side, curve) in leaving.into_iter().enumerate() {
                 if let Source::Wave(body) = &interface.sides[side].source {
-                    let taylor =
-                        series.filter(|_| LONG).and_then(|series| series.taylor(&interface.rows().leaving[side], j));
+                    let taylor = series.and_then(|series| series.taylor(&interface.rows().leaving[side], j));
                     waves[*body][1 - side].push_curve(&self.reached, cut(curve), taylor);
                 }
             }

@@ -115,6 +115,17 @@ pub(super) fn shifted<N: Bounded>(terms: &[N], by: &N) -> Vec<N> {
     terms
 }
 
+/// Returns the coefficients for a unit of time that is `ratio` as long.
+pub(super) fn stretched<N: Bounded>(terms: &[N], ratio: &N) -> Vec<N> {
+    let mut power = ratio.one();
+    let scaled = |term: &N| {
+        let scaled = term.clone() * &power;
+        power = power.clone() * ratio;
+        scaled
+    };
+    terms.iter().map(scaled).collect()
+}
+
 /// Returns the stored values of coefficients, and a bound of what the polynomial loses with their errors.
 pub(super) fn centred<N: Bounded>(terms: Vec<N>, width: &N) -> (Vec<N>, N) {
     let (stored, errors): (Vec<N>, Vec<N>) = terms.iter().map(N::centred).unzip();
@@ -191,14 +202,7 @@ impl<N: Bounded> Curve<N> {
         if self.unit.alike(unit) {
             return self.clone();
         }
-        let ratio = unit.clone() / &self.unit;
-        let mut power = unit.one();
-        let scaled = |term: &N| {
-            let scaled = term.clone() * &power;
-            power = power.clone() * &ratio;
-            scaled
-        };
-        let terms: Vec<N> = self.terms.iter().map(scaled).collect();
+        let terms = stretched(&self.terms, &(unit.clone() / &self.unit));
         let (terms, error) = centred(terms, &(self.width.clone() / unit));
         let error = if is_exact_zero(&error) { self.error.clone() } else { error + &self.error };
         Curve { unit: unit.clone(), terms: terms.into(), error, ..self.clone() }

@@ -10,7 +10,6 @@ use super::onset::Taylor;
 use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
 use crate::number::Bounded;
-use crate::solve::LONG;
 
 /// A spring with a dashpot beside it, in the numbers of a run.
 #[derive(Clone, Debug)]
@@ -41,6 +40,11 @@ impl<N: Bounded> Moment<N> {
         let late = upper(late);
         let time = if is_exact_zero(&late) { at.clone() } else { at.clone().widened(&late) };
         Moment { time, at, late, exact }
+    }
+
+    /// Returns the moment with the earlier stored value; of equal ones, this one.
+    pub(super) fn earlier(self, other: Self) -> Self {
+        if other.at.below(&self.at) == Ok(true) { other } else { self }
     }
 
     /// Returns whether both times agree within their bounds.
@@ -284,7 +288,7 @@ impl<N: Bounded> Input<N> {
         self.cursor += 1;
         if let Some(signal) = self.source.piece(self.delay.as_ref(), self.cursor, waves, side) {
             self.signal = signal;
-            self.taylor = if LONG { self.source.taylor(self.cursor, waves, side) } else { None };
+            self.taylor = self.source.taylor(self.cursor, waves, side);
         }
         self.next = None;
         self.look_up(waves, side);

@@ -12,6 +12,7 @@ use super::wave::{Wave, is_exact_zero};
 use crate::lattice::Line;
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open};
+use crate::solve::LONG;
 
 /// Origin of a signal that arrives at a node.
 #[derive(Clone, Debug)]
@@ -58,9 +59,11 @@ impl<N: Bounded> Source<N> {
         }
     }
 
-    /// Returns the Taylor series of a piece at its beginning, if it begins at exactly zero.
+    /// Returns the Taylor series of a piece at its beginning, if it begins at exactly zero. None in builds
+    /// without long numbers.
     pub(super) fn taylor(&self, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<Arc<Taylor<N>>> {
         match self {
+            _ if !LONG => None,
             Source::Wave(body) => waves[*body][side].pieces.get(piece)?.taylor.clone(),
             Source::Data(lines) => {
                 let DataLine { line, first, .. } = lines.get(piece)?;

@@ -2,13 +2,13 @@
 //!
 //! **Source**: an analytic solution leaves zero with the sign of its first Taylor coefficient that is not zero. The
 //! coefficients follow from the states and from those of the arriving signals, order by order. The bound of a signal
-//! enters with its value, before its higher coefficients do.
+//! enters with its value, before its higher coefficients do. A signal that has just left zero brings its own series.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::cluster::{Cluster, Mass};
-use super::curve::Curve;
+use super::curve::{Curve, stretched};
 use super::interface::{Input, Interface, Mode, Row};
 use super::node::Source;
 use super::step::{Values, refs};
@@ -27,25 +27,15 @@ pub(super) struct Taylor<N> {
 impl<N: Bounded> Taylor<N> {
     /// Returns the series with these coefficients, if the first is exactly zero and another one is not.
     pub(super) fn new(unit: N, terms: Vec<N>) -> Option<Arc<Self>> {
-        let (first, others) = terms.split_first().filter(|_| LONG)?;
+        let (first, others) = terms.split_first()?;
         let leaves_zero = is_exact_zero(first) && !others.iter().all(is_exact_zero);
         leaves_zero.then(|| Arc::new(Taylor { unit, terms }))
-    }
-
-    /// Returns the coefficients in another unit of time.
-    fn in_unit(&self, unit: &N) -> Vec<N> {
-        let (ratio, mut power) = (unit.clone() / &self.unit, unit.one());
-        let scaled = |term: &N| {
-            let scaled = term.clone() * &power;
-            power = power.clone() * &ratio;
-            scaled
-        };
-        self.terms.iter().map(scaled).collect()
     }
 }
 
 /// The values at the interfaces, order by order in the time since the one that is reached.
 pub(super) struct Series<N> {
+    /// The unit of time.
     unit: N,
     /// Coefficients of the states.
     states: Vec<Vec<N>>,
@@ -65,12 +55,15 @@ pub(super) enum Onset {
 }
 
 impl<N: Bounded> Cluster<N> {
-    /// Computes the series at the time that is reached, if a contact touches or a mass is still.
+    /// Computes the series at the time that is reached, if a contact touches, a mass is still, or a signal has just left
+    /// zero.
     pub(super) fn series(&self, inputs: &[[Curve<N>; 2]]) -> Option<Series<N>> {
         let touches = self.interfaces.iter().any(|interface| interface.touches);
         let unit = &inputs.first()?[0].unit;
-        // The page has no room for this.
-        let in_unit = |side: &Input<N>| side.taylor.as_ref().filter(|_| LONG).map(|taylor| taylor.in_unit(unit));
+        let in_unit = |side: &Input<N>| {
+            let taylor = side.taylor.as_ref().filter(|_| LONG)?;
+            Some(stretched(&taylor.terms, &(unit.clone() / &taylor.unit)))
+        };
         let taylors: Vec<[Option<Vec<N>>; 2]> =
             self.interfaces.iter().map(|interface| interface.sides.each_ref().map(in_unit)).collect();
         let known = || taylors.iter().flatten().flatten();
@@ -152,8 +145,12 @@ impl<N: Bounded> Series<N> {
         self.states[state].iter().skip(1).all(is_exact_zero)
     }
 
-    /// Returns the Taylor series of a form of the values at an interface, if it leaves zero.
+    /// Returns the Taylor series of a form of the values at an interface, if it leaves zero. Builds without long numbers,
+    /// such as the page, have no room for it.
     pub(super) fn taylor(&self, row: &Row<N>, j: usize) -> Option<Arc<Taylor<N>>> {
+        if !LONG {
+            return None;
+        }
         Taylor::new(self.unit.clone(), self.values.iter().map(|values| row.of(refs(&values[j]))).collect())
     }
 

@@ -546,8 +546,8 @@ fn fractions_and_bodies_by_themselves_are_refused() {
     near(&release, 1.0 + std::f64::consts::FRAC_PI_2, 1e-14);
 }
 
-/// The start has a front that rises from zero at 1/3 and closes a contact, which no attempt decides: doubles with the events of the longest
-/// attempt answer within their bounds.
+/// The start has a front that rises from zero at 1/3 and closes a contact, which no attempt decides: doubles with the
+/// events of the longest attempt answer within their bounds.
 #[test]
 fn doubles_answer_where_all_attempts_have_the_same_doubt() {
     let scene = "body = [\n{ length = 1, wave_speed = 1, impedance = 1 },\n\
