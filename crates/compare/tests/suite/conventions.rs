@@ -10,7 +10,7 @@ const END: f64 = 7.5;
 
 /// Returns the run of `rod` by `scheme` through three contacts.
 fn bar(rod: Rod, scheme: Scheme) -> Vec<Row> {
-    rod.run(scheme, END, |_| true)
+    rod.run(scheme, END)
 }
 
 pub(crate) fn with(rows: &[Row], change: impl Fn(&mut Row)) -> Vec<Row> {

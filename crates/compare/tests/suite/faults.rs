@@ -60,7 +60,7 @@ fn damping_is_named() {
 #[test]
 fn damping_of_schemes_is_named() {
     for scheme in [Scheme::Moreau(0.5), Scheme::Theta(0.5, 0.5), Scheme::Hht(4.0)] {
-        let rows = Rod { elements: 80, damping: 0.3, ..BAR }.run(scheme, END, |_| true);
+        let rows = Rod { elements: 80, damping: 0.3, ..BAR }.run(scheme, END);
         let found = hints(&compare("doyen-ern-piperno", &rows, &Options::default()));
         assert_eq!(kinds(&found)[0], "damping", "{scheme:?}: {found:#?}");
         assert!((number(&found[0], "value") - 0.3).abs() <= 0.06, "{scheme:?}: {found:#?}");
@@ -128,7 +128,7 @@ fn soft_contact_is_named() {
     let bar = scene("doyen-ern-piperno");
     for (spring, elements) in [(0.125, 80), (0.25, 50)] {
         let rod = Rod { elements, ..BAR };
-        let rows = rod.run(Scheme::Hht(spring), END, |_| true);
+        let rows = rod.run(Scheme::Hht(spring), END);
         let softness = BAR.length / elements as f64 / spring;
         for names in [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate", "E_total"][..], &["t", "u", "force"]] {
             let found = hints(&compare_columns(&bar, &columns_of(&rows, names), &Options::default()));
@@ -159,7 +159,7 @@ const MANY_AND_FEW: [&[&str]; 2] =
 fn stiff_penalties_on_fine_meshes_are_named() {
     for (gravity, penalty) in [0.0, 0.3].into_iter().flat_map(|g| [20.0, 40.0, 100.0].map(|k| (g, k))) {
         let rod = Rod { gravity, ..UNIT };
-        let rows = rod.run(Scheme::Hht(penalty / rod.elements as f64), END, |_| true);
+        let rows = rod.run(Scheme::Hht(penalty / rod.elements as f64), END);
         for names in MANY_AND_FEW {
             let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
             let found = hints(&report);
@@ -178,7 +178,7 @@ fn rigid_contacts_are_not_soft() {
     let rigid = SCHEMES.into_iter().filter(|scheme| !matches!(scheme, Scheme::Penalty | Scheme::Hht(_)));
     for (scheme, elements) in rigid.flat_map(|scheme| [20, 100, 400].map(|elements| (scheme, elements))) {
         for gravity in [0.0, 0.3] {
-            let rows = Rod { gravity, elements, ..UNIT }.run(scheme, END, |_| true);
+            let rows = Rod { gravity, elements, ..UNIT }.run(scheme, END);
             for names in MANY_AND_FEW {
                 let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
                 let found = hints(&report);
@@ -195,7 +195,7 @@ fn another_stiffness_is_named() {
     let options = Options { contact_stiffness: Some("20".parse().unwrap()), ..Options::default() };
     for (gravity, share) in [0.0, 0.3].into_iter().flat_map(|g| [-0.5, 0.0, 0.5].map(|p| (g, p))) {
         let rod = Rod { gravity, elements: 100, ..UNIT };
-        let rows = rod.run(Scheme::Hht(20.0 * (1.0 + share) / rod.elements as f64), END, |_| true);
+        let rows = rod.run(Scheme::Hht(20.0 * (1.0 + share) / rod.elements as f64), END);
         // The energy of the spring is not that of the rod.
         for names in [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate"][..], &["t", "u", "force"]] {
             let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &options);
@@ -219,7 +219,7 @@ fn another_stiffness_is_named() {
 #[test]
 fn causes_that_are_alike_are_both_listed() {
     let bar = scene("rod = { length = 10, modulus = 900, density = 1, area = 1 }\nimpact.speed = 10\nrun.time = 3\n");
-    let rows = Rod { elements: 16, gravity: 0.0, ..BAR }.run(Scheme::Hht(1.0), 3.0, |_| true);
+    let rows = Rod { elements: 16, gravity: 0.0, ..BAR }.run(Scheme::Hht(1.0), 3.0);
     let found = hints(&compare_columns(&bar, &columns_of(&rows, &["t", "u_top"]), &Options::default()));
     let kinds_found = kinds(&found);
     assert!(kinds_found.contains(&"soft_contact") && kinds_found.contains(&"length"), "{found:#?}");
@@ -241,7 +241,7 @@ fn causes_that_are_alike_are_both_listed() {
 #[test]
 fn velocities_at_whole_steps_are_not_between_two() {
     let rod = Rod { elements: 80, ..BAR };
-    let right = rod.run(Scheme::Penalty, END, |_| true);
+    let right = rod.run(Scheme::Penalty, END);
     let dt = right[1].t;
     let lag = rod.gravity * dt / 2.0;
     let late = with(&right, |row| {

@@ -77,6 +77,11 @@ pub(crate) const SCHEMES: [Scheme; 9] = [
     Scheme::Hht(4.0),
 ];
 
+/// Multiples of `dt`, from this one on, up to `end`.
+fn times(first: u32, dt: f64, end: f64) -> impl Iterator<Item = f64> {
+    (first..).map(move |n| f64::from(n) * dt).take_while(move |t| *t <= end)
+}
+
 impl Rod {
     fn wave_speed(&self) -> f64 {
         (self.modulus / self.density).sqrt()
@@ -128,28 +133,35 @@ impl Rod {
         }
     }
 
-    /// The motion up to `end`; the ground is there where `ground` says so of the time.
-    pub(crate) fn run(&self, scheme: Scheme, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    /// Places, velocities and the output at the start.
+    fn start(&self) -> (Vec<f64>, Vec<f64>, Vec<Row>) {
+        let (u, v) = (vec![0.0; self.elements + 1], vec![-self.speed; self.elements + 1]);
+        let rows = vec![self.row(0.0, &u, &v, &self.masses(), 0.0)];
+        (u, v, rows)
+    }
+
+    /// The motion up to `end`.
+    pub(crate) fn run(&self, scheme: Scheme, end: f64) -> Vec<Row> {
         match scheme {
-            Scheme::Moreau(share) => self.theta((0.0, share), end, ground),
-            Scheme::Theta(theta, share) => self.theta((theta, share), end, ground),
-            Scheme::Hht(spring) => self.hht(spring, end, ground),
-            Scheme::Penalty => self.penalty(end, ground),
-            Scheme::Projection => self.projection(end, ground),
-            Scheme::Redistribution => self.redistribution(end, ground),
+            Scheme::Moreau(share) => self.theta((0.0, share), end),
+            Scheme::Theta(theta, share) => self.theta((theta, share), end),
+            Scheme::Hht(spring) => self.hht(spring, end),
+            Scheme::Penalty => self.penalty(end),
+            Scheme::Projection => self.projection(end),
+            Scheme::Redistribution => self.redistribution(end),
         }
     }
 
-    fn penalty(&self, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    fn penalty(&self, end: f64) -> Vec<Row> {
         let (masses, dt) = (self.masses(), self.width() / self.wave_speed());
         let zero = vec![0.0; masses.len()];
-        let step = |now: &[f64], last: &[f64], t: f64| -> (Vec<f64>, f64) {
+        let step = |now: &[f64], last: &[f64]| -> (Vec<f64>, f64) {
             let forces = self.forces(now);
             let mut next: Vec<f64> =
                 (0..now.len()).map(|i| 2.0 * now[i] - last[i] + dt * dt * forces[i] / masses[i]).collect();
             let free = next[0];
             // A spring m₀/dt² below the ground, at the new time.
-            next[0] = if free < 0.0 && ground(t) { free / 2.0 } else { free };
+            next[0] = if free < 0.0 { free / 2.0 } else { free };
             let push = masses[0] * (next[0] - free) / (dt * dt);
             (next, push)
         };
@@ -164,12 +176,8 @@ impl Rod {
             kinetic + k * strain / 2.0 + self.gravity * height
         };
         let mut rows = Vec::new();
-        for n in 0.. {
-            let t = n as f64 * dt;
-            if t > end {
-                break;
-            }
-            let (next, force) = step(&now, &last, t);
+        for t in times(0, dt, end) {
+            let (next, force) = step(&now, &last);
             let v: Vec<f64> = next.iter().zip(&last).map(|(a, b)| (a - b) / (2.0 * dt)).collect();
             let energy = f64::midpoint(half(&last, &now), half(&now, &next));
             rows.push(Row { energy, ..self.row(t, &now, &v, &masses, force) });
@@ -202,17 +210,11 @@ impl Rod {
     }
 
     /// The θ-scheme for the velocities and the places, θ = 0 being symplectic Euler, with an impact that stops.
-    fn theta(&self, (theta, share): (f64, f64), end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    fn theta(&self, (theta, share): (f64, f64), end: f64) -> Vec<Row> {
         let (masses, dt) = (self.masses(), share * self.width() / self.wave_speed());
         let count = masses.len();
-        let mut u = vec![0.0; count];
-        let mut v = vec![-self.speed; count];
-        let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
-        for n in 1.. {
-            let t = n as f64 * dt;
-            if t > end {
-                break;
-            }
+        let (mut u, mut v, mut rows) = self.start();
+        for t in times(1, dt, end) {
             let part = if theta == 0.0 { 1.0 } else { theta };
             let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * theta * (1.0 - theta) * v[i]).collect();
             let forces = self.forces(&guess);
@@ -222,7 +224,7 @@ impl Rod {
             let mut next = self.solve(a, 0.0, &right, None);
             let reach = u[0] + dt * ((1.0 - part) * v[0] + part * next[0]);
             let mut force = 0.0;
-            if (u[0] <= 0.0 || reach < 0.0) && next[0] < 0.0 && ground(t) {
+            if (u[0] <= 0.0 || reach < 0.0) && next[0] < 0.0 {
                 next = self.solve(a, 0.0, &right, Some(0.0));
                 let k = self.stiffness();
                 force = (a * k * (next[0] - next[1]) - right[0]) / dt;
@@ -237,19 +239,13 @@ impl Rod {
     }
 
     /// Newmark's scheme with a force of the time `1 + α`, and a spring at the ground.
-    fn hht(&self, spring: f64, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    fn hht(&self, spring: f64, end: f64) -> Vec<Row> {
         let (masses, dt, alpha) = (self.masses(), self.width() / self.wave_speed() / 2.0, -0.1);
         let (beta, gamma) = ((1.0_f64 - alpha).powi(2) / 4.0, 0.5 - alpha);
         let (count, spring) = (masses.len(), spring * self.stiffness());
-        let mut u = vec![0.0; count];
-        let mut v = vec![-self.speed; count];
+        let (mut u, mut v, mut rows) = self.start();
         let mut a = vec![-self.gravity + 2.0 * self.damping * self.speed; count];
-        let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
-        for n in 1.. {
-            let t = n as f64 * dt;
-            if t > end {
-                break;
-            }
+        for t in times(1, dt, end) {
             let whole = 1.0 + alpha;
             let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * v[i] + dt * dt * (0.5 - beta) * a[i]).collect();
             let middle: Vec<f64> = (0..count).map(|i| whole * guess[i] - alpha * u[i]).collect();
@@ -262,7 +258,7 @@ impl Rod {
             };
             let free = of(false);
             let depth = |a: &[f64]| middle[0] + whole * beta * dt * dt * a[0];
-            let touches = depth(&free) < 0.0 && ground(t);
+            let touches = depth(&free) < 0.0;
             let next = if touches { of(true) } else { free };
             let push = if touches { -spring * depth(&next) } else { 0.0 };
             u = (0..count).map(|i| guess[i] + beta * dt * dt * next[i]).collect();
@@ -275,45 +271,18 @@ impl Rod {
         rows
     }
 
-    fn projection(&self, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    fn projection(&self, end: f64) -> Vec<Row> {
         let (masses, dt) = (self.masses(), self.width() / self.wave_speed());
-        let (k, quarter) = (self.stiffness(), dt * dt / 4.0);
-        let count = masses.len();
-        // (M + dt²/4 K) a = right, by elimination; with the first unknown given where it is.
-        let solve = |right: &[f64], first: Option<f64>| -> Vec<f64> {
-            let diagonal = |i: usize| masses[i] + quarter * k * if i == 0 || i == count - 1 { 1.0 } else { 2.0 };
-            let beside = -quarter * k;
-            let (mut upper, mut a) = (vec![0.0; count], vec![0.0; count]);
-            for i in 0..count {
-                if let (0, Some(first)) = (i, first) {
-                    a[0] = first;
-                    continue;
-                }
-                let below = if i == 0 { 0.0 } else { beside };
-                let pivot = diagonal(i) - below * if i == 0 { 0.0 } else { upper[i - 1] };
-                upper[i] = beside / pivot;
-                a[i] = (right[i] - below * if i == 0 { 0.0 } else { a[i - 1] }) / pivot;
-            }
-            for i in (0..count - 1).rev() {
-                a[i] -= upper[i] * a[i + 1];
-            }
-            a
-        };
-        let mut u = vec![0.0; count];
-        let mut v = vec![-self.speed; count];
+        let (quarter, count) = (dt * dt / 4.0, masses.len());
+        let (mut u, mut v, mut rows) = self.start();
         let mut a: Vec<f64> = vec![-self.gravity; count];
-        let mut rows = vec![self.row(0.0, &u, &v, &masses, 0.0)];
-        for n in 1.. {
-            let t = n as f64 * dt;
-            if t > end {
-                break;
-            }
+        for t in times(1, dt, end) {
             let guess: Vec<f64> = (0..count).map(|i| u[i] + dt * v[i] + quarter * a[i]).collect();
             let right = self.forces(&guess);
-            let mut next = solve(&right, None);
-            let lands = guess[0] + quarter * next[0] < 0.0 && ground(t);
+            let mut next = self.solve(quarter, 0.0, &right, None);
+            let lands = guess[0] + quarter * next[0] < 0.0;
             if lands {
-                next = solve(&right, Some(-guess[0] / quarter));
+                next = self.solve(quarter, 0.0, &right, Some(-guess[0] / quarter));
             }
             u = (0..count).map(|i| guess[i] + quarter * next[i]).collect();
             v = (0..count).map(|i| v[i] + dt / 2.0 * (a[i] + next[i])).collect();
@@ -328,7 +297,7 @@ impl Rod {
         rows
     }
 
-    fn redistribution(&self, end: f64, ground: impl Fn(f64) -> bool) -> Vec<Row> {
+    fn redistribution(&self, end: f64) -> Vec<Row> {
         let (mut masses, dt) = (self.masses(), self.width() / self.wave_speed() / 2.0);
         let (k, count, weight) = (self.stiffness(), masses.len(), masses[0] * self.gravity);
         // m₀ goes as m₀ (2, −1) to the nodes 1 and 2: the same sum and the same first moment.
@@ -336,9 +305,9 @@ impl Rod {
         masses[2] -= masses[0];
         masses[0] = 0.0;
         // The end without mass is in equilibrium.
-        let place = |u: &mut Vec<f64>, t: f64| -> f64 {
+        let place = |u: &mut Vec<f64>| -> f64 {
             u[0] = u[1] - weight / k;
-            if u[0] >= 0.0 || !ground(t) {
+            if u[0] >= 0.0 {
                 return 0.0;
             }
             u[0] = 0.0;
@@ -350,18 +319,14 @@ impl Rod {
         };
         let mut u = vec![0.0; count];
         let mut v = vec![-self.speed; count];
-        let mut force = place(&mut u, 0.0);
+        let mut force = place(&mut u);
         let mut a = accelerations(&u);
         let mut rows = Vec::new();
-        for n in 0.. {
-            let t = n as f64 * dt;
-            if t > end {
-                break;
-            }
+        for t in times(0, dt, end) {
             v[0] = if force > 0.0 { 0.0 } else { v[1] };
             rows.push(self.row(t, &u, &v, &masses, force));
             u = (0..count).map(|i| u[i] + dt * v[i] + dt * dt / 2.0 * a[i]).collect();
-            force = place(&mut u, t + dt);
+            force = place(&mut u);
             let next = accelerations(&u);
             v = (0..count).map(|i| v[i] + dt / 2.0 * (a[i] + next[i])).collect();
             a = next;

@@ -17,7 +17,7 @@ const STEEL_END: f64 = 1.2e-3;
 
 /// Returns runs with one fault of the size that a code may have: its kind, its value, and the run.
 fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
-    let run = |rod: Rod| rod.run(scheme, END, |_| true);
+    let run = |rod: Rod| rod.run(scheme, END);
     let right = run(rod);
     let dt = right[1].t;
     let ends = |factor: f64| Rod { ends: factor, ..rod };
@@ -64,7 +64,7 @@ fn faults(rod: Rod, scheme: Scheme) -> Vec<(&'static str, f64, Vec<Row>)> {
 
 /// Returns a run with a value of the scene or the clock off by the share `p`, or late by the time `p`.
 fn off(rod: Rod, scheme: Scheme, kind: &str, p: f64) -> Vec<Row> {
-    let run = |rod: Rod| rod.run(scheme, END, |_| true);
+    let run = |rod: Rod| rod.run(scheme, END);
     match kind {
         "wave_speed" => run(Rod { modulus: rod.modulus * (1.0 + p) * (1.0 + p), ..rod }),
         "mass" => run(Rod { density: rod.density * (1.0 + p), ..rod }),
@@ -96,7 +96,7 @@ fn said(scene: &str, rows: &[Row]) -> Said {
 
 /// The right run of each scheme in 80 elements, as both tests of faults need it.
 static RIGHT: LazyLock<Vec<Said>> = LazyLock::new(|| {
-    let right = |scheme| said("doyen-ern-piperno", &Rod { elements: 80, ..BAR }.run(scheme, END, |_| true));
+    let right = |scheme| said("doyen-ern-piperno", &Rod { elements: 80, ..BAR }.run(scheme, END));
     SCHEMES.map(right).into()
 });
 
@@ -135,7 +135,7 @@ fn right_runs_get_no_hint() {
     }
     let mut alarms = Vec::new();
     for (scene, rod, scheme, end) in &runs {
-        let hints = said(scene, &rod.run(*scheme, *end, |_| true)).hints;
+        let hints = said(scene, &rod.run(*scheme, *end)).hints;
         if !hints.is_empty() {
             alarms.push(format!("{scene}, {scheme:?}, {}: {hints:?}", rod.elements));
         }
