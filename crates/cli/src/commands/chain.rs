@@ -4,9 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
-use crate::output::{
-    Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, SERIES, Worth, json_bytes, rows_bytes,
-};
+use crate::output::{Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, SERIES, json_bytes, rows_bytes};
 use crate::progress::Progress;
 use crate::source::nearest;
 use crate::terminal;
@@ -328,8 +326,8 @@ impl ChainRows<'_> {
                 Column::new(column.name(chain)).with_meaning(column.meaning(chain)).with_unit(unit)
             }))
             .collect();
-        let worth = Worth::new(self.uncertainty, self.bare);
-        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, worth, digits(*numbers));
+        let bounds = (self.uncertainty, self.bare);
+        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, bounds, digits(*numbers));
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         for part in times.chunks(CHUNK) {
             let mut cells = vec![Vec::new(); heads.len()];

@@ -13,7 +13,7 @@ use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
 use crate::output::{
-    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, Worth, code, derivative_rows, derivative_table,
+    Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
 };
 use crate::quantities::{NameParser, Scope, has_material};
 use crate::source::AnyScene;
@@ -332,11 +332,11 @@ impl Rows<'_> {
             by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
         let columns = self.quantities.iter().map(|quantity| Column::from_quantity(*quantity, &info.units));
         let columns: Vec<Column> = columns.chain(derived_columns).collect();
-        let worth = Worth::new(self.args.uncertainty, self.args.bare);
+        let bounds = (self.args.uncertainty, self.args.bare);
         let writer = |destination: &Destination| {
             // A table has derivatives below it.
             let count = if destination.format == Format::Table { self.quantities.len() } else { columns.len() };
-            RowWriter::new(destination.format, &columns[..count], worth, info.digits)
+            RowWriter::new(destination.format, &columns[..count], bounds, info.digits)
         };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let mut write = |cells: &[Vec<Cell>]| writers.iter_mut().try_for_each(|writer| writer.push(cells));

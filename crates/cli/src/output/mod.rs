@@ -38,7 +38,7 @@ pub(crate) use header::Header;
 pub(crate) use orbits::{OrbitRow, orbits_data, orbits_svg};
 pub(crate) use outline::outline;
 pub(crate) use regimes::{regimes_data, regimes_npz, regimes_svg, regimes_text, threshold_data};
-pub(crate) use rows::{Layout, RowWriter, Worth};
+pub(crate) use rows::{Layout, RowWriter};
 pub(crate) use run_info::RunInfo;
 pub(crate) use schema::schema;
 pub(crate) use solve::{HistoryPart, HistoryTables, LEGEND, SERIES, STRAIGHT_ERROR};

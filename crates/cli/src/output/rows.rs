@@ -26,36 +26,15 @@ pub(crate) struct Layout {
     pub(crate) keys: Option<usize>,
 }
 
-/// Marks of what the digits of a number are worth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Worth {
-    /// The greatest bound of each column, above the rows.
-    Header,
-    /// The same, and beside each column of numbers one of their bounds.
-    Columns,
-    /// No comments above a CSV and no columns of bounds: digits beyond the bound are left out, but in keys.
-    Digits,
-    /// Columns of bounds without comments above a CSV.
-    BareColumns,
-}
-
-impl Worth {
-    /// Returns the marks for columns of bounds, and for a CSV without comments.
-    pub(crate) fn new(bounds: bool, bare: bool) -> Self {
-        match (bounds, bare) {
-            (false, false) => Worth::Header,
-            (true, false) => Worth::Columns,
-            (false, true) => Worth::Digits,
-            (true, true) => Worth::BareColumns,
-        }
-    }
-}
-
 /// Rows that are kept in temporary files until their bounds, which stand above them, are known.
 #[derive(Debug)]
 pub(crate) struct RowWriter {
     format: Format,
-    worth: Worth,
+    /// Whether a CSV has no comments above it. Without columns of bounds, digits beyond the bound are then left out, but
+    /// in keys.
+    bare: bool,
+    /// Whether each column of numbers has one of their bounds beside it, rather than the greatest above the rows alone.
+    with_bounds: bool,
     /// Columns, each with the place of its values.
     columns: Vec<(Column, usize)>,
     /// Digits of a long number; 0 for doubles and fractions.
@@ -71,13 +50,17 @@ pub(crate) struct RowWriter {
 const BUFFER: usize = 1 << 16;
 
 impl RowWriter {
-    /// Returns a writer without rows.
-    pub(crate) fn new(format: Format, columns: &[Column], worth: Worth, digits: u32) -> Result<Self, Failure> {
-        let bounds = matches!(worth, Worth::Columns | Worth::BareColumns);
+    /// Returns a writer without rows, for columns of bounds or none, and for a CSV with comments or a bare one.
+    pub(crate) fn new(
+        format: Format,
+        columns: &[Column],
+        (with_bounds, bare): (bool, bool),
+        digits: u32,
+    ) -> Result<Self, Failure> {
         let mut all = Vec::new();
         for (place, column) in columns.iter().enumerate() {
             all.push((column.clone(), place));
-            if bounds && column.kind == Kind::Number {
+            if with_bounds && column.kind == Kind::Number {
                 all.push((column.bounds(), place));
             }
         }
@@ -85,7 +68,7 @@ impl RowWriter {
         let kept = (0..files).map(|_| Ok(BufWriter::with_capacity(BUFFER, tempfile::tempfile()?)));
         let kept = kept.collect::<io::Result<_>>().map_err(cannot("keep the rows"))?;
         let bounds = vec![Bound::from_log2(f64::NEG_INFINITY); all.len()];
-        Ok(RowWriter { format, worth, columns: all, digits, kept, table: Vec::new(), bounds, count: 0 })
+        Ok(RowWriter { format, bare, with_bounds, columns: all, digits, kept, table: Vec::new(), bounds, count: 0 })
     }
 
     /// Adds rows, given column by column.
@@ -134,7 +117,7 @@ impl RowWriter {
 
     /// Writes all rows to `destination`.
     pub(crate) fn finish(self, header: &Header<'_>, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
-        let RowWriter { format, worth, columns, kept, table, bounds, count, .. } = self;
+        let RowWriter { format, bare, columns, kept, table, bounds, count, .. } = self;
         let columns: Vec<Column> = columns.into_iter().map(|(column, _)| column).collect();
         let names = || columns.iter().map(|column| column.csv_name()).collect::<Vec<&str>>();
         let rewound = |file: BufWriter<File>| {
@@ -179,10 +162,7 @@ impl RowWriter {
                 npz.finish()
             }
             _ => {
-                let comments = match worth {
-                    Worth::Digits | Worth::BareColumns => String::new(),
-                    Worth::Header | Worth::Columns => header.comments(&columns, &bounds),
-                };
+                let comments = if bare { String::new() } else { header.comments(&columns, &bounds) };
                 writeln!(file, "{comments}{}", names().join(","))?;
                 io::copy(&mut kept[0], file).map(drop)
             }
@@ -238,7 +218,7 @@ impl RowWriter {
             }
             // Keys keep the digits that tell rows apart.
             (Cell::Number(value), Kind::Number | Kind::Word)
-                if value.is_double() && self.worth == Worth::Digits && !is_key && !value.is_exact() =>
+                if value.is_double() && self.bare && !self.with_bounds && !is_key && !value.is_exact() =>
             {
                 add("", &value.to_digits(DOUBLE_DIGITS));
             }
