@@ -24,7 +24,7 @@ fn count(groups: &Groups) -> String {
     let cases: Vec<&CheckedCase> = groups.iter().flat_map(|(_, cases)| cases).collect();
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for checked in &cases {
-        let name = checked.verdict.name();
+        let name = <&str>::from(checked.verdict);
         match counts.iter_mut().find(|(known, _)| *known == name) {
             Some((_, count)) => *count += 1,
             None => counts.push((name, 1)),
@@ -41,11 +41,11 @@ pub(crate) fn check_table(groups: &Groups, published: &[PublishedScene]) -> Stri
         out += &format!("{}\n\n", group.title);
         for checked in cases {
             let case = checked.case;
-            out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict.name());
+            out += &format!("{}: {} ({}): {}\n", case.name, case.about, case.source, checked.verdict);
             for CheckedQuestion { label, truth, routes } in &checked.questions {
                 let rows = routes.iter().map(|row| {
                     let (found, right) = (row.answer(), digits(row.digits));
-                    let outcome = row.outcome.name().to_string();
+                    let outcome = row.outcome.to_string();
                     vec![row.route.clone(), row.promise.to_string(), outcome, found, right, duration(row.seconds)]
                 });
                 out += &format!("  {label} = {truth}\n");
@@ -75,7 +75,7 @@ fn published_and_counts(groups: &Groups, published: &[PublishedScene]) -> String
 pub(crate) fn check_summary(groups: &Groups, published: &[PublishedScene]) -> String {
     let cases = groups.iter().flat_map(|(group, cases)| cases.iter().map(move |checked| (group, checked)));
     let rows = cases.map(|(group, checked)| {
-        vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.name().to_string()]
+        vec![group.name.to_string(), checked.case.name.to_string(), checked.verdict.to_string()]
     });
     let cases = table(&["group", "case", "verdict"], rows.collect(), 3) + "\n\n";
     let below = published_and_counts(groups, published);
@@ -98,13 +98,13 @@ pub(crate) fn check_page(groups: &Groups, published: &[PublishedScene]) -> Strin
         out += &format!("## {}\n\n{}\n\n", group.title, group.lesson);
         for checked in cases {
             let case = checked.case;
-            out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict.name(), case.source, case.about);
+            out += &format!("### `{}`: {}\n\n{}: {}.\n\n", case.name, checked.verdict, case.source, case.about);
             for CheckedQuestion { label, truth, routes } in &checked.questions {
                 // A jump at a point, `[v_x](0, t₁)`, is no link.
                 let label = label.replace("](", "]\\(");
                 out += &format!("{label} = **{}**\n\n| route | promises | |\n|---|---|---|\n", truth);
                 for row in routes {
-                    out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome.name());
+                    out += &format!("| {} | {} | {} |\n", row.route, row.promise, row.outcome);
                 }
                 out += "\n";
             }
@@ -133,7 +133,7 @@ pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Json 
                 json!({
                     "route": row.route,
                     "promise": row.promise.to_string(),
-                    "outcome": row.outcome.name(),
+                    "outcome": row.outcome.to_string(),
                     "found": row.answer(),
                     "digits": right,
                     "seconds": row.seconds,
@@ -147,7 +147,7 @@ pub(crate) fn check_json(groups: &Groups, published: &[PublishedScene]) -> Json 
             "group": group.name,
             "source": case.source,
             "about": case.about,
-            "verdict": checked.verdict.name(),
+            "verdict": checked.verdict.to_string(),
             "questions": asked.collect::<Vec<_>>(),
         })
     });

@@ -51,7 +51,7 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
         let timing = &row.timing;
         let mark = if row.chosen { "← the plan" } else { "" };
         vec![
-            (Column::new("route").text(), row.family.name().into()),
+            (Column::new("route").text(), row.family.to_string().into()),
             (Column::new("setting").text(), row.setting.clone().into()),
             (Column::table("").text(), mark.into()),
             (Column::table("error").named("error"), error(row).into()),
@@ -65,10 +65,9 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
             (Column::data("chosen"), row.chosen.into()),
         ]
     };
-    let left_out = cost
-        .left_out
-        .iter()
-        .map(|item| json!({ "route": item.family.name(), "setting": item.setting, "because": item.why.to_string() }));
+    let left_out = cost.left_out.iter().map(
+        |item| json!({ "route": item.family.to_string(), "setting": item.setting, "because": item.why.to_string() }),
+    );
     let mut below = "\n\nerror: relative, against ".to_string();
     below += &match cost.truth.log10_half_width {
         width if width == f64::NEG_INFINITY => "the exact fraction".into(),
@@ -78,7 +77,7 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
     below += "\ntime:  median of the runs, and the distance of their quartiles\n";
     for item in &cost.left_out {
         let setting = item.setting.as_ref().map_or_else(String::new, |setting| format!(", {setting}"));
-        below += &format!("not here: {}{setting}: {}\n", item.family.name(), item.why);
+        below += &format!("not here: {}{setting}: {}\n", item.family, item.why);
     }
     let truth = cost.truth.to_f64();
     let above = title.map_or_else(String::new, |title| format!("{title}\n"));
@@ -217,7 +216,7 @@ pub(crate) fn cost_svg(cost: &CostTable, title: Option<&str>) -> String {
         let (color, mark) = color_and_mark(rows[0].family);
         panel.lines("curve", lines.clone(), Stroke::new(color, 0.3));
         panel.marks("marks", lines.concat(), mark, color);
-        panel.legend.push(Key::mark(rows[0].family.name(), mark, color));
+        panel.legend.push(Key::mark(rows[0].family.to_string(), mark, color));
     }
     let chosen: Vec<DVec2> = cost.rows.iter().filter(|row| row.chosen).map(place).collect();
     for mark in [Mark::Ring, Mark::Star] {

@@ -41,12 +41,11 @@ impl std::fmt::Display for Promise {
 
 /// The outcome of a promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Outcome {
     /// The promise is kept.
-    #[strum(serialize = "kept")]
     Kept,
     /// The route promises nothing, and loses digits as foreseen.
-    #[strum(serialize = "breaks")]
     Breaks,
     /// The route leaves the answer undecided, as its promise allows.
     #[strum(serialize = "says so")]
@@ -56,41 +55,23 @@ pub enum Outcome {
     Failed,
 }
 
-impl Outcome {
-    /// Returns the name in output.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
-
 /// The verdict on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Verdict {
     /// Every route keeps what it promises.
-    #[strum(serialize = "holds")]
     Holds,
     /// The paper is right.
-    #[strum(serialize = "reproduced")]
     Reproduced,
     /// The paper is wrong, and the catalogue has the truth.
-    #[strum(serialize = "corrected")]
     Corrected,
     /// The paper means the right thing and prints another.
-    #[strum(serialize = "misprint")]
     Misprint,
     /// The paper leaves a question open, and the catalogue has the answer.
-    #[strum(serialize = "settled")]
     Settled,
     /// Some route does not keep what it promises.
     #[strum(serialize = "FAILED")]
     Failed,
-}
-
-impl Verdict {
-    /// Returns the name in output.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
 }
 
 /// A route to a question, with its answer.

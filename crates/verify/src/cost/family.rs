@@ -3,22 +3,22 @@
 use crate::error::VerifyError;
 
 /// A family of routes, with one name in a table and one colour in a picture; in the order in which they are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::Display, strum::IntoStaticStr)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::Display, strum::IntoStaticStr, strum::VariantArray,
+)]
+#[strum(serialize_all = "lowercase")]
 pub enum Family {
     /// The closed form of the first contact.
     #[strum(serialize = "closed form")]
     ClosedForm,
     /// The lattice: undamped, from event to event.
-    #[strum(serialize = "lattice")]
     Lattice,
     /// The chain, from node to node.
-    #[strum(serialize = "chain")]
     Chain,
     /// Characteristic cells with the settings of the plan.
     #[strum(serialize = "cells, planned")]
     PlannedCells,
     /// Characteristic cells in doubles, to a given number of digits.
-    #[strum(serialize = "cells")]
     Cells,
     /// The sum over modes.
     #[strum(serialize = "modal sum")]
@@ -30,15 +30,7 @@ pub enum Family {
     #[strum(serialize = "finite differences")]
     Differences,
     /// Intervals with ends rounded outwards.
-    #[strum(serialize = "enclosures")]
     Enclosures,
-}
-
-impl Family {
-    /// Returns the name in output.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
 }
 
 /// A reason to leave a route out of the table.

@@ -94,7 +94,7 @@ pub fn work_precision(
     // The next setting of each ladder stands last.
     let mut waiting: Vec<Ladder> = all.into_iter().map(|ladder| ladder.into_iter().rev().collect()).collect();
     while let Some((candidate, ladder)) = cheapest(&mut waiting) {
-        observe(spent() / seconds, &format!("{}, {}", candidate.family.name(), candidate.setting));
+        observe(spent() / seconds, &format!("{}, {}", candidate.family, candidate.setting));
         // Rows of long numbers make the truth as dear as they are.
         let share = if candidate.digits > 20 { FOR_TRUTH } else { 1.0 };
         let left = seconds - spent();
