@@ -104,7 +104,7 @@ impl Request {
         let Some(field) = &scene.field else { return };
         let limits = scenes.iter().filter_map(|scene| scene.field.as_ref()).map(|field| field.color_limit);
         let limit = limits.fold(0.0, f64::max);
-        panel.add("cells", raised(field_shape(field, scene, limit), height));
+        panel.add("cells", field_shape(field, scene, limit, height));
         let (measure, symbol, _) = self.field_name(scene);
         let axis = Axis::new(symbol, scene.units.name(measure), [-limit, limit]);
         let text = axis.short(limit);
@@ -141,29 +141,6 @@ impl Request {
             panel.legend.push(Key::line("rigid mass", RIGID));
         }
         panel
-    }
-}
-
-/// Returns a shape raised by `height`.
-fn raised(shape: Shape, height: f64) -> Shape {
-    let up = DVec2::new(0.0, height);
-    match shape {
-        Shape::Field(pieces) => Shape::Field(
-            pieces
-                .into_iter()
-                .map(|piece| FieldPiece {
-                    corners: piece.corners.into_iter().map(|corner| corner + up).collect(),
-                    at: piece.at + up,
-                    ..piece
-                })
-                .collect(),
-        ),
-        Shape::Rectangles(all) => Shape::Rectangles(
-            all.into_iter()
-                .map(|(color, corners)| (color, corners.into_iter().map(|pair| pair.map(|at| at + up)).collect()))
-                .collect(),
-        ),
-        shape => shape,
     }
 }
 
@@ -422,22 +399,25 @@ fn energy(scene: &SceneData, scenes: &[SceneData]) -> Panel {
     panel
 }
 
-/// Returns a field as a shape, in colours that end at `limit`.
-fn field_shape(field: &FieldMap, scene: &SceneData, limit: f64) -> Shape {
+/// Returns a field as a shape raised by `height`, in colours that end at `limit`.
+fn field_shape(field: &FieldMap, scene: &SceneData, limit: f64, height: f64) -> Shape {
+    let up = DVec2::new(0.0, height);
     let unit = if limit > 0.0 { limit } else { 1.0 };
     match &field.values {
         FieldValues::Linear(pieces) => {
             let scaled = |piece: &FieldPiece| FieldPiece {
                 value: piece.value / unit,
                 slope: piece.slope / unit,
-                ..piece.clone()
+                corners: piece.corners.iter().map(|corner| corner + up).collect(),
+                at: piece.at + up,
             };
             Shape::Field(pieces.iter().map(scaled).collect())
         }
         FieldValues::Grid(values) => {
             let [from, to] = scene.span;
             let time = |column: usize| from + (to - from) * column as f64 / COLUMNS as f64;
-            let corner = |column, row: usize| DVec2::new(time(column), scene.rod.length * row as f64 / ROWS as f64);
+            let corner =
+                |column, row: usize| up + DVec2::new(time(column), scene.rod.length * row as f64 / ROWS as f64);
             // Colours are few, so that neighbours often are one rectangle.
             let color = |value: &f64| (value / unit * 24.0).round() as i32;
             let mut rectangles: BTreeMap<i32, Vec<[DVec2; 2]>> = BTreeMap::new();
