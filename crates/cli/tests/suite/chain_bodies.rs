@@ -1,8 +1,6 @@
 //! Bodies of chains, which every subcommand takes as rods.
 
-use std::path::Path;
-
-use crate::command::{Run, json, quiet, refused, run as run_all, run_with};
+use crate::command::{Folder, Run, json, quiet, refused, run as run_all, run_with};
 
 /// Returns code and standard output of the command.
 fn run_coded(arguments: &str) -> (Option<i32>, String) {
@@ -101,12 +99,10 @@ fn chains_have_units() {
 
 #[test]
 fn data_of_a_body_are_compared() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("run.csv");
+    let folder = Folder::new();
     let times = "--quantity t,u_end,v_end,force,h --times 0..0.5:101 --format csv --bare";
-    std::fs::write(&file, run(&format!("sample openfoam-7-1-2 --body 2 {times}"))).unwrap();
-    let compared =
-        |body: u32, more: &str| run_coded(&format!("compare openfoam-7-1-2 {} --body {body} {more}", file.display())).0;
+    let file = folder.write("run.csv", run(&format!("sample openfoam-7-1-2 --body 2 {times}")));
+    let compared = |body: u32, more: &str| run_coded(&format!("compare openfoam-7-1-2 {file} --body {body} {more}")).0;
     assert_eq!(compared(2, "--fail-above u.linf=1e-12,force.linf=1e-12,missed=0"), Some(0));
     assert_eq!(compared(1, "--fail-above u.linf=1e-3"), Some(1));
 }
@@ -117,11 +113,10 @@ fn a_body_is_swept_and_drawn() {
     // Equal bars: Zv/2 = 0.035; the chain itself: 7/170.
     let force = |row: usize| swept.lines().nth(row + 1).unwrap().split(',').nth(2).unwrap().parse::<f64>().unwrap();
     assert!((force(0) - 0.035).abs() < 1e-15 && (force(1) - 7.0 / 170.0).abs() < 1e-15, "{swept}");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     for (options, panels) in [("", 4), ("--body 2", 4), ("--quantity xt,force", 2)] {
-        let picture = folder.path().join("picture.svg");
-        run(&format!("plot schwarz-three-bars {options} -o {}", picture.display()));
-        let svg = std::fs::read_to_string(Path::new(&picture)).unwrap();
+        run(&format!("plot schwarz-three-bars {options} -o {}", folder.path("picture.svg")));
+        let svg = folder.read("picture.svg");
         assert_eq!(svg.matches("class=\"panel\"").count(), panels, "{options}");
     }
 }
@@ -214,10 +209,9 @@ fn bodies_that_are_not_there_are_refused() {
 /// A chain with a mass: its bar is a rod like others, and the pictures show both.
 #[test]
 fn a_bar_below_a_mass_is_compared_and_drawn() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    run(&format!("plot saint-venant-mass -o {}", path("both.svg")));
-    let svg = std::fs::read_to_string(path("both.svg")).unwrap();
+    let folder = Folder::new();
+    run(&format!("plot saint-venant-mass -o {}", folder.path("both.svg")));
+    let svg = folder.read("both.svg");
     assert_eq!(svg.matches("class=\"panel\"").count(), 4);
     for text in ["rigid mass", "mass", "rod"] {
         assert!(svg.contains(&format!(">{text}<")), "{text}");
@@ -225,24 +219,25 @@ fn a_bar_below_a_mass_is_compared_and_drawn() {
     // A panel has a curve of each body.
     let panel = svg.split("class=\"panel\"").find(|panel| panel.contains(">energy<")).unwrap();
     assert_eq!(panel.matches("class=\"curve\"").count(), 2, "{panel}");
-    run(&format!("plot saint-venant-mass --body 1 --to 5 -o {}", path("bar.svg")));
+    run(&format!("plot saint-venant-mass --body 1 --to 5 -o {}", folder.path("bar.svg")));
     let times = "--quantity t,force,u_top,h --times 0..12:241 --format csv --bare";
-    std::fs::write(path("run.csv"), run(&format!("sample saint-venant-mass --body 1 {times}"))).unwrap();
+    let data = folder.write("run.csv", run(&format!("sample saint-venant-mass --body 1 {times}")));
     let fails = "--fail-above force.linf_off_jumps=1e-9,u_top.linf=1e-9,h.linf=1e-9";
-    let compared = |scene: &str| run_coded(&format!("compare {scene} {} --body 1 {fails}", path("run.csv"))).0;
+    let compared = |scene: &str| run_coded(&format!("compare {scene} {data} --body 1 {fails}")).0;
     assert_eq!([compared("saint-venant-mass"), compared("saint-venant-mass-4")], [Some(0), Some(1)]);
     // The force jumps by twice as much as at an impact, which is no hint; nothing in the chain yields.
-    let report = run(&format!("compare saint-venant-mass {} --body 1", path("run.csv")));
+    let report = run(&format!("compare saint-venant-mass {data} --body 1"));
     assert!(report.contains("no hint") && !report.contains("yields"), "{report}");
     refused(&["solve", "saint-venant-mass", "--body", "2"], &["found a rigid mass", "v_end.2"]);
     refused(&["solve", "saint-venant-mass", "--exact"], &["exponentials"]);
     let swinging = "[[body]]\nmass = 1\n[[body]]\nmass = 1\njoint = { stiffness = 3, bonded = true }\n\
                     [ends]\nbottom = { stiffness = 4 }\n[run]\ntime = 4\n";
     // Masses have no waves, but forces, places and energies.
-    let Run { code, err, .. } = run_with(&["plot", "-", "--quantity", "xt,force", "-o", &path("none.svg")], swinging);
+    let Run { code, err, .. } =
+        run_with(&["plot", "-", "--quantity", "xt,force", "-o", &folder.path("none.svg")], swinging);
     assert_eq!((code, err.contains("a chain without bars")), (Some(2), true), "{err}");
-    assert_eq!(run_with(&["plot", "-", "-o", &path("masses.svg")], swinging).code, Some(0));
-    let svg = std::fs::read_to_string(path("masses.svg")).unwrap();
+    assert_eq!(run_with(&["plot", "-", "-o", &folder.path("masses.svg")], swinging).code, Some(0));
+    let svg = folder.read("masses.svg");
     assert_eq!(svg.matches("class=\"panel\"").count(), 3);
 }
 
@@ -287,8 +282,8 @@ fn chains_have_golden_files() {
         let Run { out, .. } = run_with(&["reference", "-", "--exact", "--quantity", "force.1", "--bare"], &scene);
         assert_eq!(out.lines().count(), rows, "{out}");
     }
-    let file = tempfile::tempdir().unwrap();
-    let path = file.path().join("golden.npz").display().to_string();
+    let folder = Folder::new();
+    let path = folder.path("golden.npz");
     quiet(&["reference", "openfoam-7-1-2", "-o", &path]);
     let bounds = ["--fail-above", "force.linf=1e-12,u.linf=1e-12", "--quiet"];
     let compared = json(&[&["compare", "openfoam-7-1-2", &path, "--format", "json"][..], &bounds].concat());
@@ -332,11 +327,11 @@ fn soft_chains_in_doubt_are_drawn() {
         "{bar}{bar}velocity = [[0, 0], [\"1/3\", 0], [1, -1]]\njoint = {{ stiffness = 20 }}\n\
          [ends]\nbottom = \"fixed\"\n[run]\ntime = 3\n"
     );
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("front.svg").display().to_string();
+    let folder = Folder::new();
+    let path = folder.path("front.svg");
     let Run { code, err, .. } = run_with(&["plot", "-", "-o", &path], &scene);
     assert_eq!((code, err.matches("that coincide").count()), (Some(0), 1), "{err}");
-    let svg = std::fs::read_to_string(&path).unwrap();
+    let svg = folder.read("front.svg");
     assert_eq!(svg.matches("class=\"panel\"").count(), 4);
 }
 

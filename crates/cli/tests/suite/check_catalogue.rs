@@ -1,15 +1,10 @@
 //! The catalogue of hard cases and of the paper's claims, run once by the command: all promises are kept.
 
-use std::process::Command;
-
-fn check(args: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).arg("check").args(args).output().unwrap();
-    (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
-}
+use crate::command::{Run, json, refused, run};
 
 #[test]
 fn every_promise_is_kept() {
-    let (code, page, err) = check(&["--format", "markdown"]);
+    let Run { code, out: page, err } = run(&["check", "--format", "markdown"]);
     let failed: Vec<&str> = page.lines().filter(|line| line.contains("FAILED")).collect();
     assert_eq!((code, err.as_str(), failed), (Some(0), "", Vec::new()));
     // What the theory gives: late bounces to the last digit; (4.75), (4.74) and Figure 7 for r = 0.1, 0.2, 0.3.
@@ -36,11 +31,7 @@ fn every_promise_is_kept() {
 
 #[test]
 fn the_command() {
-    let (code, out, err) = check(&["--only", "corollary-1", "--format", "json"]);
-    assert_eq!((code, err.as_str()), (Some(0), ""));
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let json = json(&["check", "--only", "corollary-1", "--format", "json"]);
     assert_eq!((&json["schema"], &json["cases"][0]["verdict"]), (&1.into(), &"reproduced".into()));
-    let (code, out, err) = check(&["--only", "corollary-9"]);
-    assert_eq!((code, out.as_str()), (Some(2), ""));
-    assert!(err.contains("found --only corollary-9, expected a group"), "{err}");
+    refused(&["check", "--only", "corollary-9"], &["found --only corollary-9, expected a group"]);
 }

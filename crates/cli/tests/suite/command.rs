@@ -1,11 +1,13 @@
 //! The command line: what stands on standard output and standard error, and the exit code.
 
 use std::io::Write;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use dalembert::Quantity;
 use dalembert::quantity::Needs;
 use serde_json::Value;
+use tempfile::TempDir;
 
 use crate::command_samples::column;
 
@@ -16,9 +18,88 @@ pub(crate) struct Run {
     pub(crate) err: String,
 }
 
+impl Run {
+    /// Standard error with one space between two words.
+    pub(crate) fn words(&self) -> String {
+        self.err.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    /// The standard output of a run that ends with this code.
+    #[track_caller]
+    pub(crate) fn text(&self, code: i32) -> String {
+        assert_eq!(self.code, Some(code), "{}", self.err);
+        self.out.clone()
+    }
+
+    /// Holds a run to be refused, as [`refused`] does, and returns the words of standard error.
+    #[track_caller]
+    fn refused(&self, args: &[&str], said: &[&str]) -> String {
+        let Run { code, out, err } = self;
+        assert_eq!((*code, out.as_str()), (Some(2), ""), "{args:?}: {err}");
+        assert!(!err.contains('\u{1b}'), "{args:?}: colour off a terminal");
+        let words = self.words();
+        for text in said {
+            assert!(words.contains(text), "{args:?}: no `{text}` in\n{err}");
+        }
+        words
+    }
+}
+
+/// A folder in which commands run.
+pub(crate) struct Folder(TempDir);
+
+impl Folder {
+    pub(crate) fn new() -> Folder {
+        Folder(TempDir::new().unwrap())
+    }
+
+    /// The path of a file in it, or of itself where the name is empty.
+    pub(crate) fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().trim_end_matches('/').to_string()
+    }
+
+    /// Writes a file, and returns its path.
+    pub(crate) fn write(&self, name: &str, text: impl AsRef<[u8]>) -> String {
+        std::fs::write(self.path(name), text).unwrap();
+        self.path(name)
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub(crate) fn has(&self, name: &str) -> bool {
+        Path::new(&self.path(name)).exists()
+    }
+
+    /// The number of files in it.
+    pub(crate) fn count(&self) -> usize {
+        self.0.path().read_dir().unwrap().count()
+    }
+
+    pub(crate) fn run(&self, args: &[&str]) -> Run {
+        run_in(Some(self.0.path()), args, "")
+    }
+
+    #[track_caller]
+    pub(crate) fn json(&self, args: &[&str]) -> Value {
+        serde_json::from_str(&self.run(&[args, &["--format", "json"]].concat()).text(0)).unwrap()
+    }
+
+    #[track_caller]
+    pub(crate) fn refused(&self, args: &[&str], said: &[&str]) -> String {
+        self.run(args).refused(args, said)
+    }
+}
+
 pub(crate) fn run_with(args: &[&str], input: &str) -> Run {
+    run_in(None, args, input)
+}
+
+fn run_in(folder: Option<&Path>, args: &[&str], input: &str) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_dalembert"))
         .args(args)
+        .current_dir(folder.unwrap_or(Path::new(".")))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -52,13 +133,7 @@ pub(crate) fn refused(args: &[&str], said: &[&str]) {
 
 #[track_caller]
 pub(crate) fn refused_with(args: &[&str], input: &str, said: &[&str]) {
-    let Run { code, out, err } = run_with(args, input);
-    assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}: {err}");
-    assert!(!err.contains('\u{1b}'), "{args:?}: colour off a terminal");
-    let words = err.split_whitespace().collect::<Vec<_>>().join(" ");
-    for text in said {
-        assert!(words.contains(text), "{args:?}: no `{text}` in\n{err}");
-    }
+    run_with(args, input).refused(args, said);
 }
 
 pub(crate) fn json(args: &[&str]) -> Value {

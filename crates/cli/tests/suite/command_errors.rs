@@ -1,6 +1,6 @@
 //! What the command refuses, and what it leaves then.
 
-use crate::command::{Run, SCENE, quiet, refused, refused_with, run, run_with};
+use crate::command::{Folder, Run, SCENE, quiet, refused, refused_with, run, run_with};
 
 #[test]
 fn bad_scenes_are_refused_where_they_are_wrong() {
@@ -54,11 +54,10 @@ fn misspelt_names_get_suggestions() {
     refused(&["check", "--only", "figur-4"], &["did you mean `figure-4`?"]);
     refused(&["figures", "--only", "tenth-bonce", "-o", "figures"], &["did you mean tenth-bounce?"]);
     refused_with(&["solve", "-"], &SCENE.replace("speed = 3", "sped = 3"), &["did you mean speed?"]);
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    std::fs::write(path("my_rod.toml"), SCENE).unwrap();
-    refused(&["solve", &path("my_rd.toml")], &["did you mean `", "my_rod.toml`?"]);
-    refused(&["solve", &path("my_rod")], &["my_rod.toml`?"]);
+    let folder = Folder::new();
+    folder.write("my_rod.toml", SCENE);
+    refused(&["solve", &folder.path("my_rd.toml")], &["did you mean `", "my_rod.toml`?"]);
+    refused(&["solve", &folder.path("my_rod")], &["my_rod.toml`?"]);
 }
 
 #[test]
@@ -88,25 +87,22 @@ fn what_was_expected_is_said() {
 
 #[test]
 fn files_are_written_whole_or_not_at_all() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let content = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
-    let names = || std::fs::read_dir(folder.path()).unwrap().count();
+    let folder = Folder::new();
 
     // The ending of the file chooses the format; nothing stands on standard output.
     for (file, format) in [("a.json", "json"), ("a.csv", "csv"), ("a.txt", "table")] {
-        assert_eq!(quiet(&["solve", "paper-strong", "-o", &path(file)]), "");
-        assert_eq!(content(file), quiet(&["solve", "paper-strong", "--format", format, "-o", "-"]));
+        assert_eq!(quiet(&["solve", "paper-strong", "-o", &folder.path(file)]), "");
+        assert_eq!(folder.read(file), quiet(&["solve", "paper-strong", "--format", format, "-o", "-"]));
     }
-    assert_eq!(names(), 3);
+    assert_eq!(folder.count(), 3);
 
     // A run that fails leaves an old file as it was.
     refused(
-        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &path("a.txt")],
+        &["sample", "paper-strong", "--quantity", "end", "--times", "-1", "-o", &folder.path("a.txt")],
         &["found time -1"],
     );
-    assert_eq!(content("a.txt"), quiet(&["solve", "paper-strong"]));
-    refused(&["solve", "paper-strong", "-o", &path("missing/a.json")], &["cannot write", "no folder"]);
-    refused(&["solve", "paper-strong", "-o", &folder.path().to_string_lossy()], &["cannot write"]);
-    assert_eq!(names(), 3, "nothing is left behind");
+    assert_eq!(folder.read("a.txt"), quiet(&["solve", "paper-strong"]));
+    refused(&["solve", "paper-strong", "-o", &folder.path("missing/a.json")], &["cannot write", "no folder"]);
+    refused(&["solve", "paper-strong", "-o", &folder.path("")], &["cannot write"]);
+    assert_eq!(folder.count(), 3, "nothing is left behind");
 }

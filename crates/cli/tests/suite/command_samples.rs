@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::command::{Run, json, keys, quiet, refused, refused_with, run_with};
+use crate::command::{Folder, Run, json, keys, quiet, refused, refused_with, run_with};
 
 /// The values of a column, row by row.
 #[track_caller]
@@ -130,12 +130,10 @@ fn published_values_beside_ours() {
     assert_eq!(run_with(&["scenes", "-", "--targets"], &wide).code, Some(0));
 
     // All scenes of a folder, and all that are built in.
-    let folder = tempfile::TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name);
-    std::fs::write(path("a.toml"), scene).unwrap();
-    std::fs::write(path("b.toml"), &wide).unwrap();
-    std::fs::write(path("notes.txt"), "no scene").unwrap();
-    let shown = folder.path().display().to_string();
+    let folder = Folder::new();
+    let scenes = [folder.write("a.toml", scene), folder.write("b.toml", &wide)];
+    folder.write("notes.txt", "no scene");
+    let shown = folder.path("");
     let Run { out, code, .. } = run_with(&["scenes", &shown, "--targets", "--format", "json"], "");
     let rows: Value = serde_json::from_str(&out).unwrap();
     let said = |k: usize| (rows[k]["scene"].as_str().unwrap().ends_with("b.toml"), &rows[k]["agrees"]);
@@ -154,8 +152,7 @@ fn published_values_beside_ours() {
     let all = all.as_array().unwrap();
     let is_expected = |row: &Value| row["agrees"] == Value::Bool(row["expected"] == "agrees");
     assert!(all.len() >= 90 && all.iter().all(is_expected));
-    std::fs::remove_file(path("a.toml")).unwrap();
-    std::fs::remove_file(path("b.toml")).unwrap();
+    scenes.iter().for_each(|scene| std::fs::remove_file(scene).unwrap());
     refused(&["scenes", &shown, "--targets"], &["found no .toml in the folder"]);
     let missing = scene.replace("published = 2.5", "contact = 3\npublished = 2.5");
     refused_with(&["scenes", "-", "--targets"], &missing, &["found contact number 3 asked for"]);

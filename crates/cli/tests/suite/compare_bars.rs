@@ -1,11 +1,8 @@
 //! `dalembert compare` with data of several bodies of a chain.
 
-use std::fs;
-
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::compare_command::{json, run, text};
+use crate::command::Folder;
 
 /// A bar at −1 meets an equal one at rest at t = 1: both are in contact until t = 3, with the force 1/2, and exchange
 /// their velocities.
@@ -15,10 +12,10 @@ const SCENE: &str = "title = \"Two bars\"\n[[body]]\nlength = 1\nwave_speed = 1\
 const DATA: &str = "t,v_top.1,u_end.2,force.1,gap.1,n\n0,0,0,0,1,1\n0.5,0,-0.5,0,0.5,2\n1.5,-0.5,-1.25,0.55,0,3\n\
     2.5,-0.5,-1.75,0.55,0,4\n3.5,-1,-2,0,0.5,5\n4,-1,-2,0,1,6\n";
 
-fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("bars.toml"), SCENE).unwrap();
-    fs::write(folder.path().join("run.csv"), DATA).unwrap();
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("bars.toml", SCENE);
+    folder.write("run.csv", DATA);
     folder
 }
 
@@ -38,10 +35,9 @@ fn agree(found: &[(&str, f64)], expected: &[(&str, f64)]) {
 #[test]
 fn each_bar_is_compared_with_its_columns() {
     let folder = folder();
-    let output = run(folder.path(), &["compare", "bars.toml", "run.csv", "--format", "json"]);
-    let warning = String::from_utf8_lossy(&output.stderr).to_string();
-    assert_eq!(warning, "warning: not compared: gap.1; `sample` has the exact values\n");
-    let report: Value = serde_json::from_str(&text(&output, 0)).unwrap();
+    let output = folder.run(&["compare", "bars.toml", "run.csv", "--format", "json"]);
+    assert_eq!(output.err, "warning: not compared: gap.1; `sample` has the exact values\n");
+    let report: Value = serde_json::from_str(&output.text(0)).unwrap();
     assert_eq!((&report["title"], &report["bodies"][0]["name"]), (&"Two bars".into(), &"target".into()));
     let bodies = report["bodies"].as_array().unwrap();
     assert_eq!(bodies.iter().map(|body| body["body"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
@@ -50,14 +46,14 @@ fn each_bar_is_compared_with_its_columns() {
     assert_eq!(bodies[1]["files"][0]["notes"], serde_json::json!(["not used: n"]));
 
     // One body alone, by either kind of names.
-    let one = json(folder.path(), &["compare", "bars.toml", "run.csv", "--body", "2"]);
+    let one = folder.json(&["compare", "bars.toml", "run.csv", "--body", "2"]);
     assert_eq!(one["title"], "Two bars: body 2");
     agree(&norms(&one), &[("u_end", 0.0), ("force", 0.1)]);
     let map = ["--map", "t=t,u=u_end.2"];
-    let one = json(folder.path(), &[&["compare", "bars.toml", "run.csv", "--body", "2"][..], &map].concat());
+    let one = folder.json(&[&["compare", "bars.toml", "run.csv", "--body", "2"][..], &map].concat());
     agree(&norms(&one), &[("u_end", 0.0)]);
     let map = ["--map", "t=t,u.2=u_end.2"];
-    let all = json(folder.path(), &[&["compare", "bars.toml", "run.csv"][..], &map].concat());
+    let all = folder.json(&[&["compare", "bars.toml", "run.csv"][..], &map].concat());
     assert_eq!(all["bodies"].as_array().unwrap().len(), 1);
     agree(&norms(&all["bodies"][0]["files"][0]), &[("u_end", 0.0)]);
 }
@@ -65,10 +61,10 @@ fn each_bar_is_compared_with_its_columns() {
 #[test]
 fn tables_and_rows_have_every_bar() {
     let folder = folder();
-    let table = text(&run(folder.path(), &["compare", "bars.toml", "run.csv"]), 0);
+    let table = folder.run(&["compare", "bars.toml", "run.csv"]).text(0);
     let titles: Vec<&str> = table.lines().filter(|line| line.starts_with("Two bars")).collect();
     assert_eq!(titles, ["Two bars: target", "Two bars: body 2"]);
-    let rows = text(&run(folder.path(), &["compare", "bars.toml", "run.csv", "--format", "csv"]), 0);
+    let rows = folder.run(&["compare", "bars.toml", "run.csv", "--format", "csv"]).text(0);
     let header: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
     let of = |name: &str| ["ours", "theirs", "difference"].map(|whose| format!("{name}_{whose}")).to_vec();
     assert_eq!(header[..], [vec!["t".to_string()], of("v_top.1"), of("u_end.2"), of("force.1")].concat());
@@ -79,9 +75,9 @@ fn tables_and_rows_have_every_bar() {
 fn bounds_hold_for_the_bars_that_have_what_they_bound() {
     let folder = folder();
     let outcome = |bounds: &str, code: i32| {
-        let output = run(folder.path(), &["compare", "bars.toml", "run.csv", "--quiet", "--fail-above", bounds]);
-        text(&output, code);
-        String::from_utf8_lossy(&output.stderr).to_string()
+        let output = folder.run(&["compare", "bars.toml", "run.csv", "--quiet", "--fail-above", bounds]);
+        output.text(code);
+        output.err
     };
     assert_eq!(outcome("force.1.l2=0.11,u_end.2.l2=1e-9,v_top.linf=1e-9", 0), "");
     let failed = "failed: run.csv, body 2: expected force.l2 ≤ 5e-2, found 1.000e-1\n";
@@ -94,33 +90,32 @@ fn bounds_hold_for_the_bars_that_have_what_they_bound() {
 #[test]
 fn what_needs_one_body_is_refused() {
     let folder = folder();
-    fs::write(folder.path().join("plain.csv"), "t,u\n0,0\n1,1\n").unwrap();
+    folder.write("plain.csv", "t,u\n0,0\n1,1\n");
     let refused = |args: &[&str]| {
-        let output = run(folder.path(), &[&["compare", "bars.toml"], args].concat());
-        assert_eq!(text(&output, 2), "");
-        String::from_utf8_lossy(&output.stderr).lines().next().unwrap().to_string()
+        let output = folder.run(&[&["compare", "bars.toml"], args].concat());
+        assert_eq!(output.text(2), "");
+        output.err.lines().next().unwrap().to_string()
     };
     let expected = "columns with the number of a bar or the name of a joint, such as u_end.2 and force.1";
     assert_eq!(refused(&["plain.csv"]), format!("error: found 2 bodies in `bars.toml`, expected {expected}"));
     assert_eq!(refused(&["run.csv", "-o", "run.svg"]), "error: found a picture of all bodies, expected one body");
     assert_eq!(refused(&["run.csv", "--fit", "length"]), "error: found --fit of all bodies, expected one body");
     assert!(refused(&["run.csv", "--body", "3"]).contains("expected a body from 1, the lowest, to 2"));
-    assert!(!folder.path().join("run.svg").exists());
+    assert!(!folder.has("run.svg"));
 }
 
 /// A wrong value of a neighbour, of a joint or of a start is named by its place.
 #[test]
 fn values_of_a_chain_are_causes() {
-    let folder = TempDir::new().unwrap();
-    let folder = folder.path();
-    let source = text(&run(folder, &["scenes", "openfoam-7-1-2"]), 0);
+    let folder = Folder::new();
+    let source = folder.run(&["scenes", "openfoam-7-1-2"]).text(0);
     let hints = |wrong: &str, right: &str| {
         assert!(source.contains(right), "{source}");
-        fs::write(folder.join("wrong.toml"), source.replace(right, wrong)).unwrap();
+        folder.write("wrong.toml", source.replace(right, wrong));
         let columns = ["--quantity", "u_top,v_top,force_top", "--times", "0..0.5:1001", "--side", "right"];
         let sampled = ["sample", "wrong.toml", "--body", "1", "--format", "csv", "-o", "run.csv"];
-        text(&run(folder, &[&sampled, &columns[..]].concat()), 0);
-        let report = json(folder, &["compare", "openfoam-7-1-2", "run.csv", "--body", "1"]);
+        folder.run(&[&sampled, &columns[..]].concat()).text(0);
+        let report = folder.json(&["compare", "openfoam-7-1-2", "run.csv", "--body", "1"]);
         let hint = |hint: &Value| (hint["text"].as_str().unwrap().to_string(), hint["value"].as_f64().unwrap());
         report["hints"].as_array().unwrap().iter().map(hint).collect::<Vec<_>>()
     };

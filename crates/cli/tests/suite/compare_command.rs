@@ -1,37 +1,28 @@
 //! `dalembert compare` as a command: what it reads, prints, writes and refuses.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
-use tempfile::TempDir;
 
-pub(crate) fn run(folder: &Path, args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).current_dir(folder).output().unwrap()
-}
-
-#[track_caller]
-pub(crate) fn text(output: &Output, code: i32) -> String {
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{error}");
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-#[track_caller]
-pub(crate) fn json(folder: &Path, args: &[&str]) -> Value {
-    serde_json::from_str(&text(&run(folder, &[args, &["--format", "json"]].concat()), 0)).unwrap()
-}
+use crate::command::Folder;
 
 /// c = L = 1, g = 0, μ = 1: contact on [0, 2], u = t − 2 after it; v_x(0,t) = −1 in contact.
 const SCENE: &str = "[rod]\nlength = 1\nwave_speed = 1\n[impact]\nspeed = 1\n[run]\ntime = 4\n";
 
 /// A folder with the scene and `data` in `run.csv`.
-fn folder(data: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("rod.toml"), SCENE).unwrap();
-    fs::write(folder.path().join("run.csv"), data).unwrap();
+fn folder(data: &str) -> Folder {
+    let folder = Folder::new();
+    folder.write("rod.toml", SCENE);
+    folder.write("run.csv", data);
     folder
+}
+
+/// Holds a comparison to be refused.
+#[track_caller]
+fn refused(folder: &Folder, args: &[&str], said: &[&str]) {
+    let words = folder.refused(args, said);
+    // What a map or a step mends, a flag gives.
+    assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
 }
 
 const EXACT: &str = "t,u,v,force\n0,0,0,1\n1,0,0,1\n2,0,0,1\n3,1,1,0\n4,2,1,0\n";
@@ -41,7 +32,7 @@ const EXACT: &str = "t,u,v,force\n0,0,0,1\n1,0,0,1\n2,0,0,1\n3,1,1,0\n4,2,1,0\n"
 fn samples_on_a_jump() {
     for data in [EXACT, "t,u,v,force\n0,0,-1,0\n1,0,0,1\n2,0,1,0\n3,1,1,0\n4,2,1,0\n"] {
         let folder = folder(data);
-        let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+        let report = folder.json(&["compare", "rod.toml", "run.csv"]);
         for quantity in report["quantities"].as_array().unwrap() {
             assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
             let on_jumps = if quantity["name"] == "u_end" { 0 } else { 2 };
@@ -55,7 +46,7 @@ fn samples_on_a_jump() {
 #[test]
 fn the_json() {
     let folder = folder("t,u,force\n0,0,1\n1,0.5,1\n2,0,1\n3,1,0\n4,2,0\n");
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     assert_eq!(report["schema"], 1);
     let u = &report["quantities"][0];
     // One sample of weight 1 is off by ½; ‖u‖₁ = 1 · 1 + ½ · 2, ‖u‖₂² = 1 + ½ · 4.
@@ -112,11 +103,11 @@ fn every_form_of_data() {
     ];
     for (name, data, map) in forms {
         let folder = folder("");
-        fs::write(folder.path().join(name), data).unwrap();
+        folder.write(name, data);
         let mut args = vec!["compare", "rod.toml", name];
         args.extend(if map.is_empty() { vec![] } else { vec!["--map", map] });
         args.extend(if name == "e.txt" { vec!["--dt", "1"] } else { vec![] });
-        let report = json(folder.path(), &args);
+        let report = folder.json(&args);
         assert_eq!(report["quantities"][0]["name"], "u_end", "{name}");
         assert_eq!(report["quantities"][0]["linf"]["absolute"], 0.0, "{name}");
     }
@@ -127,13 +118,13 @@ fn every_form_of_data() {
 fn files_of_other_programs() {
     let rows = EXACT.split_once('\n').unwrap().1.replace(',', " ");
     let folder = folder(&format!("5 4\n{rows}"));
-    let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+    let table = folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
     assert!(table.contains("the first line holds the numbers of rows and columns: skipped"), "{table}");
     assert!(table.contains("the columns have no names: taken as t=0,u=1,v=2,force=3"), "{table}");
     let names = "# time displacement velocity Reaction-Force iterations\n";
     let with_more: String = rows.lines().map(|row| format!("{row} 7\n")).collect();
-    fs::write(folder.path().join("run.csv"), format!("{names}{with_more}")).unwrap();
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    folder.write("run.csv", format!("{names}{with_more}"));
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     let found: Vec<&Value> = report["quantities"].as_array().unwrap().iter().map(|one| &one["name"]).collect();
     assert_eq!(found, ["u_end", "v_end", "force"]);
     assert_eq!(report["notes"], serde_json::json!(["not used: iterations"]));
@@ -148,11 +139,11 @@ fn nothing_is_wrong_with_exact_data() {
                 [run]\ntime = 30\n";
     let folder = folder("");
     for scene in [held.as_str(), soft] {
-        fs::write(folder.path().join("rod.toml"), scene).unwrap();
+        folder.write("rod.toml", scene);
         let few = "0.1,0.4,1.9,2.3,2.35,4,5.6,6.1,7.7,7.9,8.2";
         for times in [&[][..], &["--times", few], &["--times", "0.5..8:300"]] {
-            text(&run(folder.path(), &[&["reference", "rod.toml", "-o", "golden.csv"], times].concat()), 0);
-            let report = json(folder.path(), &["compare", "rod.toml", "golden.csv"]);
+            folder.run(&[&["reference", "rod.toml", "-o", "golden.csv"], times].concat()).text(0);
+            let report = folder.json(&["compare", "rod.toml", "golden.csv"]);
             for quantity in report["quantities"].as_array().unwrap() {
                 let relative = quantity["linf"]["relative"].as_f64();
                 let most = relative.unwrap_or_else(|| quantity["linf"]["absolute"].as_f64().unwrap());
@@ -171,8 +162,8 @@ fn reference_files_agree() {
         let columns = "t,u_end,v_end,strain,stress,force,u_top,v_top,h,h_rate,E_total,E_h,E_z,kinetic,impulse";
         let reference =
             ["reference", "doyen-ern-piperno", "--columns", columns, "--dt", "1/128", "--to", "8", "-o", name];
-        text(&run(folder.path(), &[&reference[..], &["--side", "right"]].concat()), 0);
-        let report = json(folder.path(), &["compare", "doyen-ern-piperno", name]);
+        folder.run(&[&reference[..], &["--side", "right"]].concat()).text(0);
+        let report = folder.json(&["compare", "doyen-ern-piperno", name]);
         assert_eq!(report["quantities"].as_array().unwrap().len(), 14);
         assert!(!report.to_string().contains("not used"), "{name}: {report}");
         for quantity in report["quantities"].as_array().unwrap() {
@@ -203,8 +194,8 @@ fn both_limits_of_a_reference_file() {
         let numbers = ["", "--exact"];
         for (name, numbers) in [("a.csv", numbers[0]), ("a.npz", numbers[0]), ("a.csv", numbers[1])] {
             let numbers = if numbers.is_empty() { &[][..] } else { &[numbers] };
-            text(&run(folder.path(), &[&["reference", scene, "-o", name][..], asked, numbers].concat()), 0);
-            let report = json(folder.path(), &["compare", scene, name]);
+            folder.run(&[&["reference", scene, "-o", name][..], asked, numbers].concat()).text(0);
+            let report = folder.json(&["compare", scene, name]);
             assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked:?}");
             for quantity in report["quantities"].as_array().unwrap() {
                 // Times such as 1/3 are rounded in the file, where ours are asked at them; fractions show what ours has
@@ -219,8 +210,8 @@ fn both_limits_of_a_reference_file() {
             assert_eq!(report["hints"], serde_json::json!([]), "{scene} {asked:?}");
         }
     }
-    text(&run(folder.path(), &["reference", "figure-4-r02", "--times", "0..6:61", "-o", "a.csv"]), 0);
-    for quantity in json(folder.path(), &["compare", "figure-4-r02", "a.csv"])["quantities"].as_array().unwrap() {
+    folder.run(&["reference", "figure-4-r02", "--times", "0..6:61", "-o", "a.csv"]).text(0);
+    for quantity in folder.json(&["compare", "figure-4-r02", "a.csv"])["quantities"].as_array().unwrap() {
         assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
     }
 }
@@ -229,11 +220,11 @@ fn both_limits_of_a_reference_file() {
 #[test]
 fn the_side_that_is_said_counts() {
     let folder = folder("t,side,force\n0,right,1\n1,both,1\n2,right,1\n3,both,0\n4,both,0\n");
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     assert_eq!(report["quantities"][0]["linf"], serde_json::json!({"absolute": 1.0, "relative": 1.0, "t": 2.0}));
     // Two rows, each with half of the weight: ∫F over them is exact.
-    fs::write(folder.path().join("run.csv"), "t,force\n0,0\n0,1\n2,1\n2,0\n4,0\n").unwrap();
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    folder.write("run.csv", "t,force\n0,0\n0,1\n2,1\n2,0\n4,0\n");
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     let contact = &report["contacts"][0];
     assert_eq!(contact["ours"], contact["theirs"]);
     assert_eq!(report["audit"]["not_covered"], serde_json::json!([]));
@@ -245,8 +236,8 @@ fn nothing_to_find() {
     let folder = folder("");
     for (scene, columns) in [("getfem-dynamic-contact", "t,u_end,u_top"), ("mu-3-2-chaotic", "t,v_end,force")] {
         let reference = ["reference", scene, "--columns", columns, "--dt", "0.01", "--to", "6", "--side", "right"];
-        text(&run(folder.path(), &[&reference[..], &["-o", "golden.csv"]].concat()), 0);
-        let report = json(folder.path(), &["compare", scene, "golden.csv"]);
+        folder.run(&[&reference[..], &["-o", "golden.csv"]].concat()).text(0);
+        let report = folder.json(&["compare", scene, "golden.csv"]);
         for quantity in report["quantities"].as_array().unwrap() {
             assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
         }
@@ -260,8 +251,8 @@ fn many_samples() {
     let folder = folder("");
     for scene in ["doyen-ern-piperno", "figure-4-r02"] {
         let reference = ["reference", scene, "--columns", "t,u_end,v_end,force,E_z", "--dt", "1/16384", "--to", "2.5"];
-        text(&run(folder.path(), &[&reference[..], &["--side", "right", "-o", "many.npz"]].concat()), 0);
-        let report = json(folder.path(), &["compare", scene, "many.npz"]);
+        folder.run(&[&reference[..], &["--side", "right", "-o", "many.npz"]].concat()).text(0);
+        let report = folder.json(&["compare", scene, "many.npz"]);
         for quantity in report["quantities"].as_array().unwrap() {
             assert_eq!(quantity["samples"], 40961);
             assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-10, "{scene}: {quantity}");
@@ -274,7 +265,7 @@ fn many_samples() {
 fn a_field() {
     let folder =
         folder("t,x,u,strain\n0.5,0,0,-1\n0.5,0.25,-0.25,-1\n0.5,1,-0.5,0\n1,0,0,-1\n1,0.5,-0.5,-1\n1,1,-1,0\n");
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     for quantity in report["quantities"].as_array().unwrap() {
         assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
     }
@@ -287,20 +278,17 @@ fn a_field() {
 #[test]
 fn bounds_for_tests() {
     let folder = folder("t,u\n0,0\n1,0\n2,0\n3,1.1\n4,2\n");
-    let above = |bound: &str| run(folder.path(), &["compare", "rod.toml", "run.csv", "--fail-above", bound]);
-    assert!(text(&above("u.l2=0.1,u_end.linf=0.5"), 0).contains("u_end"));
+    let above = |bound: &str| folder.run(&["compare", "rod.toml", "run.csv", "--fail-above", bound]);
+    assert!(above("u.l2=0.1,u_end.linf=0.5").text(0).contains("u_end"));
     let failed = above("u.linf=0.04");
-    text(&failed, 1);
-    assert!(String::from_utf8_lossy(&failed.stderr).contains("expected u.linf ≤ 4e-2, found 5.000e-2"));
-    text(
-        &run(folder.path(), &["compare", "rod.toml", "run.csv", "--fail-above", "missed=0,invented=0,penetration=0"]),
-        0,
-    );
-    text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--fail-below", "coverage=1.1"]), 1);
-    text(&above("energy=0.1"), 2);
-    text(&above("order.u=0.1"), 2);
-    text(&above("v.l2=0.1"), 2);
-    text(&above("u.l3=0.1"), 2);
+    failed.text(1);
+    assert!(failed.err.contains("expected u.linf ≤ 4e-2, found 5.000e-2"));
+    folder.run(&["compare", "rod.toml", "run.csv", "--fail-above", "missed=0,invented=0,penetration=0"]).text(0);
+    folder.run(&["compare", "rod.toml", "run.csv", "--fail-below", "coverage=1.1"]).text(1);
+    above("energy=0.1").text(2);
+    above("order.u=0.1").text(2);
+    above("v.l2=0.1").text(2);
+    above("u.l3=0.1").text(2);
 }
 
 /// A run that breaks off fails whatever is bounded, unless it is said how far it is to go; a file of bounds, and a
@@ -308,17 +296,17 @@ fn bounds_for_tests() {
 #[test]
 fn a_run_that_breaks_off() {
     let folder = folder("t,u\n0,0\n1,0\n2,0\n");
-    fs::write(folder.path().join("gates.toml"), "[above]\n\"u.l2\" = 0.1\n[below]\ncoverage = 0.9\n").unwrap();
+    folder.write("gates.toml", "[above]\n\"u.l2\" = 0.1\n[below]\ncoverage = 0.9\n");
     let asked = |more: &[&str]| {
         let args = ["compare", "rod.toml", "run.csv", "--gates", "gates.toml", "--junit", "out.xml"];
-        run(folder.path(), &[&args[..], more].concat())
+        folder.run(&[&args[..], more].concat())
     };
-    assert!(text(&asked(&[]), 1).contains("covers 50 % of the run to t = 4, 1 of 1 contacts: THE RUN BREAKS OFF"));
-    let xml = fs::read_to_string(folder.path().join("out.xml")).unwrap();
+    assert!(asked(&[]).text(1).contains("covers 50 % of the run to t = 4, 1 of 1 contacts: THE RUN BREAKS OFF"));
+    let xml = folder.read("out.xml");
     assert!(xml.contains("tests=\"3\" failures=\"2\"") && xml.contains("name=\"data up to t = 4\""), "{xml}");
-    assert!(text(&asked(&["--to", "2"]), 0).contains("covers 100 % of the run to t = 2, 1 of 1 contacts\n"));
-    fs::write(folder.path().join("gates.toml"), "[above]\n\"u.l7\" = 0.1\n").unwrap();
-    assert!(String::from_utf8_lossy(&asked(&[]).stderr).contains("gates.toml: found `u.l7=0.1`, expected"));
+    assert!(asked(&["--to", "2"]).text(0).contains("covers 100 % of the run to t = 2, 1 of 1 contacts\n"));
+    folder.write("gates.toml", "[above]\n\"u.l7\" = 0.1\n");
+    assert!(asked(&[]).err.contains("gates.toml: found `u.l7=0.1`, expected"));
 }
 
 /// u + h² at steps h: second order in every norm.
@@ -328,9 +316,9 @@ fn several_files_show_the_order() {
     for (name, count) in [("a.csv", 40), ("b.csv", 80), ("c.csv", 160)] {
         let h = 4.0 / f64::from(count);
         let row = |k: i32| format!("{},{}\n", f64::from(k) * h, (f64::from(k) * h - 2.0).max(0.0) + h * h);
-        fs::write(folder.path().join(name), format!("t,u\n{}", (0..=count).map(row).collect::<String>())).unwrap();
+        folder.write(name, format!("t,u\n{}", (0..=count).map(row).collect::<String>()));
     }
-    let report = json(folder.path(), &["compare", "rod.toml", "a.csv", "b.csv", "c.csv"]);
+    let report = folder.json(&["compare", "rod.toml", "a.csv", "b.csv", "c.csv"]);
     assert_eq!(report["files"].as_array().unwrap().len(), 3);
     let orders = report["orders"].as_array().unwrap();
     assert_eq!(orders.len(), 2);
@@ -339,34 +327,33 @@ fn several_files_show_the_order() {
             assert!((order[norm].as_f64().unwrap() - 2.0).abs() < 1e-9, "{order}");
         }
     }
-    let below =
-        |bound: &str| run(folder.path(), &["compare", "rod.toml", "a.csv", "b.csv", "c.csv", "--fail-below", bound]);
-    text(&below("order.u=1.9"), 0);
-    text(&below("order.u.linf=2.1"), 1);
+    let below = |bound: &str| folder.run(&["compare", "rod.toml", "a.csv", "b.csv", "c.csv", "--fail-below", bound]);
+    below("order.u=1.9").text(0);
+    below("order.u.linf=2.1").text(1);
     // Of files that end at other times there is none.
-    fs::write(folder.path().join("d.csv"), "t,u\n0,0\n0.5,0\n1,0\n1.5,0\n2,0\n").unwrap();
-    let table = text(&run(folder.path(), &["compare", "rod.toml", "a.csv", "d.csv"]), 0);
+    folder.write("d.csv", "t,u\n0,0\n0.5,0\n1,0\n1.5,0\n2,0\n");
+    let table = folder.run(&["compare", "rod.toml", "a.csv", "d.csv"]).text(0);
     assert!(table.contains("no order of u_end from 0.1 to 0.5: the files do not cover the same times"), "{table}");
     // Widths of twice the ratio halve the order.
-    let report = json(folder.path(), &["compare", "rod.toml", "a.csv", "b.csv", "--widths", "0.4,0.1"]);
+    let report = folder.json(&["compare", "rod.toml", "a.csv", "b.csv", "--widths", "0.4,0.1"]);
     assert!((report["orders"][0]["l2"].as_f64().unwrap() - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn residuals_and_pictures() {
     let folder = folder(EXACT);
-    let csv = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--format", "csv"]), 0);
+    let csv = folder.run(&["compare", "rod.toml", "run.csv", "--format", "csv"]).text(0);
     assert!(csv.starts_with("t,u_end_ours,u_end_theirs,u_end_difference,v_end_ours,"));
     assert_eq!(csv.lines().count(), 6);
-    let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]), 0);
+    let table = folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]).text(0);
     assert!(table.contains("no hint"));
-    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    let svg = folder.read("a.svg");
     assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
     // Of two curves the later one lies above: ours, thinner than theirs.
     let strokes = svg.split("<g class=\"curve\"").skip(1).filter_map(|curve| curve.split("stroke-width=\"").nth(1));
     let widths: Vec<f64> = strokes.map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
     assert!(widths[1] < 0.5 * widths[0], "{widths:?}");
-    assert!(fs::read(folder.path().join("a.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(fs::read(folder.path("a.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 /// A force at every second step of the contact, of the height `peak`, whose impulse is that height; `u` times `size`.
@@ -384,7 +371,7 @@ fn chattering(peak: f64, size: f64) -> String {
 fn words_of_hints() {
     let said = |data: &str| {
         let folder = folder(data);
-        let table = text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+        let table = folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
         table.lines().filter(|line| line.contains("hint")).map(String::from).collect::<Vec<_>>()
     };
     let none = "no hint: no single wrong number that was tried explains what differs";
@@ -405,8 +392,8 @@ fn a_factor_that_chatter_falsifies() {
         format!("{t},{force}\n")
     };
     let folder = folder(&format!("t,force\n{}", (0..=192).map(row).collect::<String>()));
-    fs::write(folder.path().join("rod.toml"), SCENE.replace("[run]", "[gravity]\nacceleration = 0.5\n[run]")).unwrap();
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    folder.write("rod.toml", SCENE.replace("[run]", "[gravity]\nacceleration = 0.5\n[run]"));
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     let hints = report["hints"].as_array().unwrap();
     let factor = hints.iter().find(|hint| hint["kind"] == "force_factor").unwrap();
     let [value, error] = ["value", "error"].map(|key| factor[key].as_f64().unwrap());
@@ -417,20 +404,20 @@ fn a_factor_that_chatter_falsifies() {
 #[test]
 fn all_files_or_none() {
     let folder = folder(EXACT);
-    fs::create_dir(folder.path().join("folder.csv")).unwrap();
+    fs::create_dir(folder.path("folder.csv")).unwrap();
     for bad in ["nowhere/b.csv", "folder.csv"] {
-        text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", bad]), 2);
-        assert!(!folder.path().join("a.json").exists());
+        folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", bad]).text(2);
+        assert!(!folder.has("a.json"));
     }
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3);
-    text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", "b.csv"]), 0);
-    assert!(folder.path().join("a.json").exists() && folder.path().join("b.csv").exists());
+    assert_eq!(folder.count(), 3);
+    folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", "b.csv"]).text(0);
+    assert!(folder.has("a.json") && folder.has("b.csv"));
 }
 
 /// Squares of data beyond the range of doubles are none of the report's concern.
 #[test]
 fn norms_of_huge_data() {
-    let report = json(folder("t,u\n0,0\n2,0\n3,1e300\n4,2\n").path(), &["compare", "rod.toml", "run.csv"]);
+    let report = folder("t,u\n0,0\n2,0\n3,1e300\n4,2\n").json(&["compare", "rod.toml", "run.csv"]);
     let quantity = &report["quantities"][0];
     // Weights 1, 3/2, 1, 1/2; ours 0, 0, 1, 2.
     assert_eq!((&quantity["l1"]["absolute"], &quantity["l2"]["absolute"]), (&1e300.into(), &1e300.into()));
@@ -443,17 +430,13 @@ fn times_in_another_unit() {
     for (scale, unit) in [("e3", "milliseconds"), ("e6", "microseconds")] {
         let folder =
             folder(&EXACT.replace("3,1,1,0", &format!("3{scale},1,1,0")).replace("4,2,", &format!("4{scale},2,")));
-        let output = run(folder.path(), &["compare", "rod.toml", "run.csv"]);
-        assert_eq!(text(&output, 2), "");
-        let error = String::from_utf8_lossy(&output.stderr);
-        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains("run.csv: found times up to 4000"), "{words}");
-        assert!(words.contains(&format!("own run, which ends at t = 4: are they in {unit}?")), "{words}");
+        let doubt = format!("own run, which ends at t = 4: are they in {unit}?");
+        refused(&folder, &["compare", "rod.toml", "run.csv"], &["run.csv: found times up to 4000", &doubt]);
         // A run of impacts ends at one of them.
-        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", "impacts = 1")).unwrap();
-        text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 2);
-        fs::write(folder.path().join("rod.toml"), SCENE.replace("time = 4", &format!("time = 4{scale}"))).unwrap();
-        text(&run(folder.path(), &["compare", "rod.toml", "run.csv"]), 0);
+        folder.write("rod.toml", SCENE.replace("time = 4", "impacts = 1"));
+        folder.run(&["compare", "rod.toml", "run.csv"]).text(2);
+        folder.write("rod.toml", SCENE.replace("time = 4", &format!("time = 4{scale}")));
+        folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
     }
 }
 
@@ -496,14 +479,8 @@ fn what_is_refused() {
     ];
     for (data, said) in cases {
         let folder = folder(data);
-        let output = run(folder.path(), &["compare", "rod.toml", "run.csv", "-o", "out.json"]);
-        assert_eq!(text(&output, 2), "", "{said}");
-        let error = String::from_utf8_lossy(&output.stderr);
-        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains(said), "no `{said}` in {words}");
-        // What a map or a step mends, a flag gives.
-        assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
-        assert!(!folder.path().join("out.json").exists());
+        refused(&folder, &["compare", "rod.toml", "run.csv", "-o", "out.json"], &[said]);
+        assert!(!folder.has("out.json"));
     }
 }
 
@@ -516,13 +493,13 @@ fn every_kind_of_array() {
     let folder = folder("");
     let table = EXACT.lines().skip(1).flat_map(|line| line.split(',').map(|x| x.parse::<f64>().unwrap()));
     let table = Array2::from_shape_vec((5, 4), table.collect()).unwrap();
-    let path = folder.path().join("a.npy");
+    let path = folder.path("a.npy");
     let args = ["compare", "rod.toml", "a.npy", "--map", "t=0,u=1,v=2,force=3"];
     let exact = || {
-        let report = json(folder.path(), &args);
+        let report = folder.json(&args);
         assert!(report["quantities"].as_array().unwrap().iter().all(|found| found["linf"]["absolute"] == 0.0));
     };
-    fn write<T: WritableElement>(path: &Path, array: &Array2<T>) {
+    fn write<T: WritableElement>(path: &str, array: &Array2<T>) {
         array.write_npy(fs::File::create(path).unwrap()).unwrap();
     }
     macro_rules! of {
@@ -533,15 +510,7 @@ fn every_kind_of_array() {
     columns_first.assign(&table);
     write(&path, &columns_first);
     exact();
-    let refused = |said: &str| {
-        let output = run(folder.path(), &args);
-        text(&output, 2);
-        let error = String::from_utf8_lossy(&output.stderr);
-        let words = error.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains(said), "no `{said}` in {words}");
-        // What a map or a step mends, a flag gives.
-        assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
-    };
+    let refused = |said: &str| refused(&folder, &args, &[said]);
     Array0::from_elem((), 1.0).write_npy(fs::File::create(&path).unwrap()).unwrap();
     refused("a.npy: found an array of shape [], expected one column");
     Array3::<f64>::zeros((1, 5, 4)).write_npy(fs::File::create(&path).unwrap()).unwrap();

@@ -1,17 +1,14 @@
 //! Contacts of data beside ours: which is which, and what the step of the data does not resolve.
 
-use std::fs;
-
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::compare_command::{json, run, text};
+use crate::command::Folder;
 
 /// Golden files of rods that start under tension or compressed, as they are at any step: nothing pulls, nothing is
 /// missed or invented, and contacts that the step does not resolve are named as that.
 #[test]
 fn starts_with_stress() {
-    let folder = TempDir::new().unwrap();
+    let folder = Folder::new();
     let held = "[rod]\nlength = 1\nmodulus = 2\ndensity = 2\ntop = 'fixed'\n[run]\ntime = 9\n";
     let free = "[rod]\nlength = 1\nmodulus = 2\ndensity = 2\n[gravity]\nacceleration = 0.2\n[run]\ntime = 9\n";
     let scenes = [
@@ -23,14 +20,14 @@ fn starts_with_stress() {
     let one = ["t,force", "t,strain", "t,u_end,stress"];
     let (mut count, mut below) = (0, 0);
     for (scene, source) in scenes {
-        fs::write(folder.path().join(scene), source).unwrap();
+        folder.write(scene, source);
         let both = columns.map(|columns| (columns, vec![]));
         let sides = ["left", "right"].map(|side| one.map(|columns| (columns, vec!["--side", side])));
         for (columns, side) in both.into_iter().chain(sides.into_iter().flatten()) {
             for step in ["0.01", "0.07", "0.3"] {
                 let golden = ["reference", scene, "--dt", step, "--to", "9", "--columns", columns, "-o", "golden.csv"];
-                text(&run(folder.path(), &[&golden[..], &side].concat()), 0);
-                let report = json(folder.path(), &["compare", scene, "golden.csv"]);
+                folder.run(&[&golden[..], &side].concat()).text(0);
+                let report = folder.json(&["compare", scene, "golden.csv"]);
                 let audit = &report["audit"];
                 let found = [&audit["missed"], &audit["invented"], &audit["tension"]["value"]].map(Value::as_f64);
                 assert_eq!(found, [Some(0.0); 3], "{scene} {columns} {step}: {audit}");

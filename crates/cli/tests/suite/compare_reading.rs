@@ -5,16 +5,15 @@ use std::fs;
 use ndarray::Array1;
 use ndarray_npy::WriteNpyExt;
 use serde_json::Value;
-use tempfile::TempDir;
 
-use crate::compare_command::{json, run, text};
+use crate::command::Folder;
 
 /// E = ρ = S = c = L = 1, μ = 1: contact on [0, 2] with a force of 1 N.
 const SCENE: &str = "[rod]\nlength = 1\nmodulus = 1\ndensity = 1\narea = 1\n[impact]\nspeed = 1\n[run]\ntime = 4\n";
 
-fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("rod.toml"), SCENE).unwrap();
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("rod.toml", SCENE);
     folder
 }
 
@@ -34,9 +33,8 @@ fn units_in_names() {
     let rows = [[0.0, 0.0, 1.0, 0.5], [1.0, 0.01, 1.0, 0.5], [2.0, 0.0, 0.75, 0.5], [3.0, 1.0, 0.0, 0.5]];
     let written = |header: &str, units: [f64; 4]| {
         let row = |row: &[f64; 4]| (0..4).map(|k| (row[k] / units[k]).to_string()).collect::<Vec<_>>().join(",") + "\n";
-        fs::write(folder.path().join("run.csv"), header.to_string() + "\n" + &rows.iter().map(row).collect::<String>())
-            .unwrap();
-        json(folder.path(), &["compare", "rod.toml", "run.csv"])
+        folder.write("run.csv", header.to_string() + "\n" + &rows.iter().map(row).collect::<String>());
+        folder.json(&["compare", "rod.toml", "run.csv"])
     };
     let plain = written("t,u,force,E_total", [1.0; 4]);
     assert_eq!(plain["notes"], serde_json::json!([]));
@@ -59,14 +57,13 @@ fn units_in_names() {
         }
     }
     // Names apart by white space, a unit beside each.
-    fs::write(folder.path().join("run.dat"), "# t [ms]  u [m]\n0 0\n1000 0\n2000 0\n3000 1\n").unwrap();
-    assert_eq!(norms(&json(folder.path(), &["compare", "rod.toml", "run.dat"])), [("u_end".into(), 0.0)]);
+    folder.write("run.dat", "# t [ms]  u [m]\n0 0\n1000 0\n2000 0\n3000 1\n");
+    assert_eq!(norms(&folder.json(&["compare", "rod.toml", "run.dat"])), [("u_end".into(), 0.0)]);
     // What measures something else is refused; a map takes a column as it is.
-    fs::write(folder.path().join("run.csv"), "t,force [MPa]\n0,1\n1,1\n").unwrap();
-    let refused = run(folder.path(), &["compare", "rod.toml", "run.csv"]);
-    let said = String::from_utf8_lossy(&refused.stderr).to_string();
-    assert!(said.contains("found the column `force [MPa]`, expected it in N as in the scene"), "{said}");
-    text(&run(folder.path(), &["compare", "rod.toml", "run.csv", "--map", "t=t,force=1"]), 0);
+    folder.write("run.csv", "t,force [MPa]\n0,1\n1,1\n");
+    let said = "found the column `force [MPa]`, expected it in N as in the scene";
+    folder.refused(&["compare", "rod.toml", "run.csv"], &[said]);
+    folder.run(&["compare", "rod.toml", "run.csv", "--map", "t=t,force=1"]).text(0);
 }
 
 /// A scene without units has numbers without units: they are taken as they are, and it is said.
@@ -74,9 +71,9 @@ fn units_in_names() {
 fn units_without_units() {
     let folder = folder();
     let scene = SCENE.replace("modulus = 1\ndensity = 1\narea = 1", "wave_speed = 1");
-    fs::write(folder.path().join("rod.toml"), scene).unwrap();
-    fs::write(folder.path().join("run.csv"), "t [ms],u\n0,0\n1,0\n2,0\n").unwrap();
-    let report = json(folder.path(), &["compare", "rod.toml", "run.csv"]);
+    folder.write("rod.toml", scene);
+    folder.write("run.csv", "t [ms],u\n0,0\n1,0\n2,0\n");
+    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
     assert_eq!(report["notes"], serde_json::json!(["units: t [ms] as it is, the scene having no units"]));
 }
 
@@ -84,22 +81,17 @@ fn units_without_units() {
 #[test]
 fn a_folder_of_arrays() {
     let folder = folder();
-    let arrays = folder.path().join("arrays");
-    fs::create_dir(&arrays).unwrap();
-    let refused = |said: &str| {
-        let output = run(folder.path(), &["compare", "rod.toml", "arrays"]);
-        let error = String::from_utf8_lossy(&output.stderr).to_string();
-        assert!(output.status.code() == Some(2) && error.contains(said), "{error}");
-    };
+    fs::create_dir(folder.path("arrays")).unwrap();
+    let refused = |said: &str| folder.refused(&["compare", "rod.toml", "arrays"], &[said]);
     refused("arrays: cannot be read: found no .npy in the folder");
     let write = |name: &str, values: Vec<f64>| {
-        Array1::from(values).write_npy(fs::File::create(arrays.join(name)).unwrap()).unwrap();
+        Array1::from(values).write_npy(fs::File::create(folder.path(&format!("arrays/{name}"))).unwrap()).unwrap();
     };
     write("t.npy", vec![0.0, 1.0, 3.0]);
     write("u.npy", vec![0.0, 0.0, 1.0]);
     write("contact_force.npy", vec![1.0, 1.0, 0.0]);
     write("mesh.npy", vec![1.0, 2.0]);
-    let report = json(folder.path(), &["compare", "rod.toml", "arrays"]);
+    let report = folder.json(&["compare", "rod.toml", "arrays"]);
     assert_eq!(norms(&report), [("force".into(), 0.0), ("u_end".into(), 0.0)]);
     assert_eq!(report["notes"], serde_json::json!(["not used: mesh"]));
     write("u.npy", vec![0.0, 0.0]);

@@ -1,16 +1,14 @@
 //! `compare` with a contact that yields.
 
-use crate::command::{json, quiet, refused};
+use crate::command::{Folder, json, quiet, refused};
 use serde_json::Value;
-use tempfile::TempDir;
 
 /// Samples of the exact soft solution have no error of a scheme: all that they differ from rigid contact is the
 /// contact.
 #[test]
 fn the_contact_explains_what_a_penalty_does() {
-    let folder = TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let data = path("run.csv");
+    let folder = Folder::new();
+    let data = folder.path("run.csv");
     // Many times are those of rays, where pieces of the exact signals meet.
     let args = ["sample", "getfem-penalty", "--times", "0..3:301", "--quantity", "u_end,v_end,force,E_total"];
     quiet(&[&args[..], &["--format", "csv", "-o", &data]].concat());
@@ -66,9 +64,8 @@ fn the_contact_explains_what_a_penalty_does() {
 /// event begins, count as such.
 #[test]
 fn a_rod_and_a_chain_of_one_body_are_compared_alike() {
-    let folder = TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
-    let (data, chain) = (path("run.csv"), path("chain.toml"));
+    let folder = Folder::new();
+    let (data, chain) = (folder.path("run.csv"), folder.path("chain.toml"));
     let scene = "[rod]\nlength = 1\nwave_speed = 1\nimpedance = 1\ntop = \"fixed\"\nbottom = { gap = 0.5 }\n\
                  [start]\ndisplacement = [[0, 0.5], [1, 0]]\n[run]\ntime = 3\n";
     std::fs::write(&chain, scene).unwrap();
@@ -93,20 +90,27 @@ fn a_rod_and_a_chain_of_one_body_are_compared_alike() {
 /// A stiffness that differs by less than a step in time shows is named where it explains the data by itself.
 #[test]
 fn another_stiffness_is_named() {
-    let folder = TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let folder = Folder::new();
     let scene = |stiffness: f64| {
         let rod =
             "rod = { length = 1, wave_speed = 1, impedance = 1 }\nimpact.speed = 0.1\ngravity.acceleration = 0.1\n";
-        std::fs::write(path("rod.toml"), format!("{rod}ground.stiffness = {stiffness}\nrun.time = 4\n")).unwrap();
+        folder.write("rod.toml", format!("{rod}ground.stiffness = {stiffness}\nrun.time = 4\n"));
     };
     for (stiffness, share) in [(49.0, -0.02), (60.0, 0.2), (50.0, 0.0)] {
         scene(stiffness);
-        let args =
-            ["--times", "0..4:801", "--quantity", "u_end,v_end,force", "--format", "csv", "-o", &path("run.csv")];
-        quiet(&[&["sample", &path("rod.toml")][..], &args].concat());
+        let args = [
+            "--times",
+            "0..4:801",
+            "--quantity",
+            "u_end,v_end,force",
+            "--format",
+            "csv",
+            "-o",
+            &folder.path("run.csv"),
+        ];
+        quiet(&[&["sample", &folder.path("rod.toml")][..], &args].concat());
         scene(50.0);
-        let report = json(&["compare", &path("rod.toml"), &path("run.csv"), "--format", "json"]);
+        let report = json(&["compare", &folder.path("rod.toml"), &folder.path("run.csv"), "--format", "json"]);
         let hints = report["hints"].as_array().unwrap();
         if share == 0.0 {
             assert!(hints.is_empty(), "{hints:?}");
@@ -144,27 +148,27 @@ fn penalty_run(elements: usize, stiffness: f64) -> String {
 /// On finer meshes the part of the scheme falls, and that of the contact stays.
 #[test]
 fn finer_meshes_leave_the_part_of_the_contact() {
-    let folder = TempDir::new().unwrap();
-    let path = |name: &str| folder.path().join(name).display().to_string();
+    let folder = Folder::new();
     let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\nrun.time = 3\n";
-    std::fs::write(path("rod.toml"), scene).unwrap();
+    folder.write("rod.toml", scene);
     let parts: Vec<[f64; 2]> = [50, 200]
         .iter()
         .map(|elements| {
-            let data = path(&format!("{elements}.csv"));
+            let data = folder.path(&format!("{elements}.csv"));
             std::fs::write(&data, penalty_run(*elements, 20.0)).unwrap();
-            let report = json(&["compare", &path("rod.toml"), &data, "--contact-stiffness", "20", "--format", "json"]);
+            let report =
+                json(&["compare", &folder.path("rod.toml"), &data, "--contact-stiffness", "20", "--format", "json"]);
             ["contact", "scheme"].map(|which| report["softness"][0][which]["absolute"].as_f64().unwrap())
         })
         .collect();
     // The stiffness that explains the finer run best is its own.
     let fit = ["--contact-stiffness", "10", "--fit", "stiffness", "--format", "json"];
-    let fitted = json(&[&["compare", &path("rod.toml"), &path("200.csv")][..], &fit].concat());
+    let fitted = json(&[&["compare", &folder.path("rod.toml"), &folder.path("200.csv")][..], &fit].concat());
     let found = fitted["fit"]["values"][0]["value"].as_f64().unwrap();
     assert!((found - 20.0).abs() < 0.2, "{found}");
     // What remains is the error of the scheme, which the standard error does not know.
     assert!(fitted["fit"]["correlation"].as_f64().unwrap() > 0.5, "{}", fitted["fit"]);
-    let table = quiet(&[&["compare", &path("rod.toml"), &path("200.csv")][..], &fit[..4]].concat());
+    let table = quiet(&[&["compare", &folder.path("rod.toml"), &folder.path("200.csv")][..], &fit[..4]].concat());
     assert!(table.contains("a finer mesh shows it"), "{table}");
     let [[coarse_contact, coarse], [fine_contact, fine]] = parts[..] else { panic!("{parts:?}") };
     assert!((coarse_contact - fine_contact).abs() < 0.01 * fine_contact, "{parts:?}");

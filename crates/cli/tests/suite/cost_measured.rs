@@ -1,41 +1,24 @@
 //! What accuracy costs: what is the same on every machine. No test depends on how long anything takes.
 
 use dalembert::builtin;
+use dalembert_verify::cost::Family;
 use serde_json::Value;
-use std::process::Command;
+use strum::VariantArray;
 
-fn cost(args: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).arg("cost").args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
+use crate::command::{Folder, quiet, refused, run};
 
+#[track_caller]
 fn json(args: &[&str]) -> Value {
-    let (code, out, err) = cost(&[args, &["--format", "json"]].concat());
-    assert_eq!((code, err.as_str()), (Some(0), ""), "{args:?}");
-    serde_json::from_str(&out).unwrap()
+    crate::command::json(&[&["cost"], args, &["--format", "json"]].concat())
 }
-
-/// The routes that a table can have.
-const ROUTES: [&str; 8] = [
-    "closed form",
-    "lattice",
-    "closed form, then cells",
-    "cells",
-    "modal sum",
-    "printed integrals",
-    "finite differences",
-    "enclosures",
-];
 
 /// The truth of a later event is proved, damped or not.
 #[test]
 fn the_truth_of_a_later_event() {
     use dalembert::{Run, Scene};
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
-    let file = tempfile::NamedTempFile::new().unwrap();
-    std::fs::write(file.path(), &source).unwrap();
-    let found = json(&[file.path().to_str().unwrap(), "--quantity", "last_event", "--seconds", "0.5"]);
+    let folder = Folder::new();
+    let found = json(&[&folder.write("scene.toml", source), "--quantity", "last_event", "--seconds", "0.5"]);
     let mut scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
     scene.problem = scene.problem.with_run(Run::Impacts(2)).unwrap();
     let last = scene.problem.doubles().unwrap().events().last().unwrap().t;
@@ -66,14 +49,13 @@ fn schema() {
             assert_eq!(keys, expected);
             assert!(row["error"].as_f64().unwrap() >= 0.0 && row["seconds"].as_f64().unwrap() > 0.0);
             let route = row["route"].as_str().unwrap();
-            assert!(ROUTES.contains(&route), "{route}");
+            assert!(Family::VARIANTS.iter().any(|family| route == family.to_string()), "{route}");
         }
         let chosen: Vec<&Value> = rows.iter().filter(|row| row["chosen"] == true).collect();
         assert_eq!(chosen.len(), 1, "{args:?}");
         assert_eq!(chosen[0]["setting"], "double");
     }
-    let (code, out, _) = cost(&["doyen-ern-piperno", "--seconds", "0.2", "--format", "csv"]);
-    assert_eq!(code, Some(0));
+    let out = run(&["cost", "doyen-ern-piperno", "--seconds", "0.2", "--format", "csv"]).text(0);
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }
 
@@ -113,21 +95,16 @@ fn bad_input_is_refused_before_anything_is_measured() {
         (&["no-such-scene"], "no-such-scene"),
         (&["figure-4-r02", "--effects", "-o", "effects.svg"], "found --effects with a picture"),
     ] {
-        let (code, out, err) = cost(args);
-        assert_eq!((code, out.as_str()), (Some(2), ""), "{args:?}");
-        let words = err.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.contains(said), "{args:?}: {err}");
+        refused(&[&["cost"], args].concat(), &[said]);
     }
 }
 
 #[test]
 fn a_scene_without_a_bounce_says_so() {
-    let file = tempfile::NamedTempFile::new().unwrap();
     let scene = "rod = { length = \"1/2\", wave_speed = 1, damping = 3.3 }\nimpact = { speed = 1 }\n";
-    std::fs::write(file.path(), scene).unwrap();
-    let (code, out, err) = cost(&[file.path().to_str().unwrap(), "--seconds", "1"]);
-    assert_eq!((code, out.as_str()), (Some(2), ""));
-    assert!(err.contains("found bounce_time asked of a scene that has none") && err.contains("overdamped"), "{err}");
+    let folder = Folder::new();
+    let said = ["found bounce_time asked of a scene that has none", "overdamped"];
+    refused(&["cost", &folder.write("scene.toml", scene), "--seconds", "1"], &said);
 }
 
 /// The doubles of every route end near the roundoff, and no route is better than its numbers.
@@ -147,22 +124,20 @@ fn errors_fall_along_the_settings() {
 }
 #[test]
 fn pictures() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let folder = Folder::new();
     let source = builtin::get("figure-4-r02").unwrap().source;
-    std::fs::write(path("scene.toml"), source.replacen("title = \"", "title = \"<&> ", 1)).unwrap();
-    let args = [&path("scene.toml"), "--quantity", "stress", "--seconds", "1"];
-    let outputs = ["-o", &path("cost.svg"), "-o", &path("cost.png"), "-o", &path("cost.json")];
-    let (code, out, err) = cost(&[&args[..], &outputs[..]].concat());
-    assert_eq!((code, out.as_str(), err.as_str()), (Some(0), "", ""));
-    let svg = std::fs::read_to_string(path("cost.svg")).unwrap();
-    let table: Value = serde_json::from_slice(&std::fs::read(path("cost.json")).unwrap()).unwrap();
+    let scene = folder.write("scene.toml", source.replacen("title = \"", "title = \"<&> ", 1));
+    let args = [&scene, "--quantity", "stress", "--seconds", "1"];
+    let outputs = ["-o", &folder.path("cost.svg"), "-o", &folder.path("cost.png"), "-o", &folder.path("cost.json")];
+    assert_eq!(quiet(&[&["cost"], &args[..], &outputs].concat()), "");
+    let svg = folder.read("cost.svg");
+    let table: Value = serde_json::from_str(&folder.read("cost.json")).unwrap();
     for row in table["rows"].as_array().unwrap() {
         assert!(svg.contains(row["route"].as_str().unwrap()), "{row}");
     }
     assert!(svg.contains("10⁻¹⁵") || svg.contains("10⁻¹⁸"));
     // Well-formed, or it could not be read.
-    let png = std::fs::read(path("cost.png")).unwrap();
+    let png = std::fs::read(folder.path("cost.png")).unwrap();
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     let (width, height) = (side(16), side(20));

@@ -3,7 +3,7 @@
 
 use std::str::FromStr;
 
-use crate::command::{json, quiet, run};
+use crate::command::{Folder, json, quiet, run};
 use crate::common::{compares, uniform};
 use dalembert::rug::{Float, Rational};
 use dalembert::solve::NoDerivative;
@@ -563,12 +563,10 @@ fn the_command() {
 /// a damped rod, errors of the start die out.
 #[test]
 fn what_an_event_costs() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let file = |speed: f64| {
-        let path = folder.path().join(format!("{speed}.toml"));
         let rod = "rod = { length = 1, wave_speed = 1, damping = 0.1 }\ngravity.acceleration = 1\n";
-        std::fs::write(&path, format!("{rod}impact.speed = {speed}\nrun.impacts = 10\n")).unwrap();
-        path.to_str().unwrap().to_string()
+        folder.write(&format!("{speed}.toml"), format!("{rod}impact.speed = {speed}\nrun.impacts = 10\n"))
     };
     let times = |speed: f64| -> Vec<f64> {
         let solved = json(&["solve", &file(speed), "--format", "json"]);

@@ -1,12 +1,11 @@
 //! What a file holds, by its ending.
 
-use crate::command::run;
+use crate::command::{Folder, run};
 
 /// No table under another name: an ending is honoured, in capitals too, or refused before anything is computed.
 #[test]
 fn a_file_holds_what_its_ending_says() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let folder = Folder::new();
     for args in [
         &["cost", "figure-4-r02", "--seconds", "0.1"][..],
         &["regimes", "--damping-ratio", "0.1,1", "--speed-ratio", "1,2"],
@@ -14,13 +13,13 @@ fn a_file_holds_what_its_ending_says() {
         &["reference", "figure-4-r02", "--times", "1"],
     ] {
         let run_to = |file: &str| run(&[args, &["-o", file]].concat());
-        let refused = run_to(&at("x.xlsx"));
+        let refused = run_to(&folder.path("x.xlsx"));
         assert_eq!(refused.code, Some(2), "{args:?}: {}", refused.out);
         assert!(refused.err.contains("xlsx"), "{}", refused.err);
-        assert_eq!(run_to(&at("x.CSV")).code, Some(0), "{args:?}");
-        assert!(std::fs::read_to_string(at("x.CSV")).unwrap().contains(','), "{args:?}");
-        std::fs::remove_file(at("x.CSV")).unwrap();
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert_eq!(run_to(&folder.path("x.CSV")).code, Some(0), "{args:?}");
+        assert!(folder.read("x.CSV").contains(','), "{args:?}");
+        std::fs::remove_file(folder.path("x.CSV")).unwrap();
+        assert_eq!(folder.count(), 0);
     }
 }
 
@@ -28,8 +27,8 @@ fn a_file_holds_what_its_ending_says() {
 #[cfg(unix)]
 #[test]
 fn a_pipe_is_not_replaced() {
-    let folder = tempfile::tempdir().unwrap();
-    let pipe = folder.path().join("pipe.csv");
+    let folder = Folder::new();
+    let pipe = std::path::PathBuf::from(folder.path("pipe.csv"));
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let path = pipe.clone();
     let reader = std::thread::spawn(move || std::fs::read_to_string(path).unwrap());

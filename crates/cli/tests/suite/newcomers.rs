@@ -1,21 +1,17 @@
 //! First steps that newcomers were held up by.
 
-use std::fs;
-
 use dalembert::Parameter;
-use tempfile::TempDir;
 
-use crate::command::{Run, json, quiet, refused, refused_with, run, run_with};
+use crate::command::{Folder, Run, json, quiet, refused, refused_with, run, run_with};
 
 /// Two bars of steel and aluminium with a spring between them.
 const SPRING: &str = "[[body]]\nlength = 0.3\nmodulus = 210e9\ndensity = 7850\narea = 1e-4\n[[body]]\nlength = 0.2\n\
     modulus = 70e9\ndensity = 2700\narea = 2e-4\nvelocity = -2\njoint = { stiffness = 5e7, bonded = true }\n\
     [run]\ntime = 1e-3\n";
 
-fn written(name: &str, text: &str) -> (TempDir, String) {
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join(name).display().to_string();
-    fs::write(&path, text).unwrap();
+fn written(name: &str, text: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    let path = folder.write(name, text);
     (folder, path)
 }
 
@@ -119,8 +115,7 @@ fn a_drop_height_meets_a_penalty() {
     let rod = "[rod]\nlength = 1\nwave_speed = 100\n[impact]\ndrop_height = 1\n[gravity]\nacceleration = 1\n\
         [run]\ntime = 0.03\n";
     let (folder, scene) = written("rod.toml", rod);
-    let data = folder.path().join("run.csv").display().to_string();
-    fs::write(&data, "t,u\n0,0\n0.01,-0.012\n0.02,-0.013\n0.03,0.001\n").unwrap();
+    let data = folder.write("run.csv", "t,u\n0,0\n0.01,-0.012\n0.02,-0.013\n0.03,0.001\n");
     let compare = ["compare", &scene, &data, "--contact-stiffness", "50", "--format", "json"];
     assert_eq!(json(&compare)["softness"].as_array().unwrap().len(), 1);
 }

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use dalembert::{History, Numbers, Plan, Problem, Quantity, Question};
 
-use crate::command::{quiet, refused, run};
+use crate::command::{Folder, quiet, refused, run};
 use crate::common::close;
 
 /// How many shapes each class of a picture has, in the order in which they come, and the labels of its axes.
@@ -74,11 +75,9 @@ fn a_penalty_makes_fronts_without_a_jump() {
 
 #[test]
 fn units_stand_on_the_axes() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("rod.toml");
+    let folder = Folder::new();
     let rod = "rod = { length = 0.5, modulus = 210e9, density = 7850, area = 1e-4 }\nimpact = { speed = 4 }\n";
-    fs::write(&path, rod).unwrap();
-    let path = path.to_str().unwrap();
+    let path = &folder.write("rod.toml", rod);
     let svg = quiet(&["plot", path, "--quantity", "stress,force,u_end,E_total", "--to", "1e-3", "-o", "-"]);
     let found = structure(&svg);
     for label in ["text t [ms]", "text E vx(0,t) [MPa]", "text −E S vx(0,t) [kN]", "text v(0,t) [mm]", "text E [J]"] {
@@ -167,11 +166,9 @@ fn long_histories_are_cut_and_said() {
     assert_eq!(structure(&whole).matches("text short contact").count(), 4);
     assert_eq!(structure(&whole).matches("contacts: 1").count(), 4);
     // Over 2000 round trips the field is a grid of 480 columns, which does not show them.
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("long.toml");
+    let folder = Folder::new();
     let rod = "rod = { length = 1, wave_speed = 1, damping = 1e-4 }\nimpact.speed = 3000\ngravity.acceleration = 1\n";
-    fs::write(&path, rod).unwrap();
-    let said = run(&["plot", path.to_str().unwrap(), "--quantity", "xt", "--to", "4000", "-o", "-"]);
+    let said = run(&["plot", &folder.write("long.toml", rod), "--quantity", "xt", "--to", "4000", "-o", "-"]);
     assert!(said.err.contains("note: long: xt has 0.24 columns for a round trip"), "{}", said.err);
     let said = run(&["plot", "figure-1-r30", "--quantity", "motion", "-o", "-"]);
     assert!(said.err.contains("the history ends at t = 4: no further impact"), "{}", said.err);
@@ -179,16 +176,18 @@ fn long_histories_are_cut_and_said() {
 
 #[test]
 fn mistakes_are_answered_with_what_was_expected() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let folder = Folder::new();
     refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["invalid value 'stres'", "stress"]);
-    refused(&["plot", "paper-weak", "-o", &path("a.gif")], &["a.gif, expected a file that ends in .svg, .png or .pdf"]);
+    refused(
+        &["plot", "paper-weak", "-o", &folder.path("a.gif")],
+        &["a.gif, expected a file that ends in .svg, .png or .pdf"],
+    );
     refused(&["plot", "paper-weak", "--from", "2", "--to", "1", "-o", "-"], &["found --to 1, expected a time after 2"]);
-    refused(&["plot", "paper-weak", "--from", "99", "-o", &path("a.svg")], &["found time 99"]);
+    refused(&["plot", "paper-weak", "--from", "99", "-o", &folder.path("a.svg")], &["found time 99"]);
     refused(&["plot", "paper-weak", "--quantity", "h", "--deformed", "-o", "-"], &["--deformed without xt"]);
-    refused(&["figures", "--only", "9", "-o", &path("f")], &["found no figure of this name", "tenth-bounce"]);
-    refused(&["figures", "--only", "8", "-o", &path("none/f")], &["no folder"]);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left behind");
+    refused(&["figures", "--only", "9", "-o", &folder.path("f")], &["found no figure of this name", "tenth-bounce"]);
+    refused(&["figures", "--only", "8", "-o", &folder.path("none/f")], &["no folder"]);
+    assert_eq!(folder.count(), 0, "nothing is left behind");
 }
 
 /// Enclosures leave the energy open where a ray is at an end; nothing is drawn there, and all else is.
@@ -210,10 +209,9 @@ fn numbers_after(pdf: &str, name: &str) -> Vec<f64> {
 /// embedded font. The same picture has the same bytes.
 #[test]
 fn a_pdf_is_one_page_with_texts() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let folder = Folder::new();
     for (size, millimetres) in [("column", 85.0), ("page", 170.0), ("slide", 254.0)] {
-        let (one, other) = (path("one.pdf"), path("other.pdf"));
+        let (one, other) = (folder.path("one.pdf"), folder.path("other.pdf"));
         quiet(&["plot", "paper-strong", "--size", size, "-o", &one, "-o", &other]);
         let bytes = fs::read(&one).unwrap();
         assert_eq!(bytes, fs::read(&other).unwrap());
@@ -246,24 +244,23 @@ fn a_pdf_is_one_page_with_texts() {
 /// Letters that the embedded font does not have are named.
 #[test]
 fn letters_without_a_sign_are_said() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
+    let folder = Folder::new();
     let rod = "title = \"μ of 竹\"\nrod = { length = 1, wave_speed = 1 }\nimpact = { speed = 3 }\n";
-    fs::write(path("rod.toml"), rod).unwrap();
+    let path = folder.write("rod.toml", rod);
     for (file, note) in [("a.png", true), ("a.pdf", true), ("a.svg", false)] {
-        let said = run(&["plot", &path("rod.toml"), "--quantity", "h", "-o", &path(file)]);
+        let said = run(&["plot", &path, "--quantity", "h", "-o", &folder.path(file)]);
         assert_eq!(said.err.contains("the font of PNG and PDF has no 竹, which stay empty"), note, "{}", said.err);
     }
 }
 
 /// The rows of a figure's CSV.
-fn texts(folder: &std::path::Path, name: &str) -> Vec<Vec<String>> {
-    let text = fs::read_to_string(folder.join(name)).unwrap();
+fn texts(folder: &Folder, name: &str) -> Vec<Vec<String>> {
+    let text = folder.read(name);
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     rows.map(|line| line.split(',').map(String::from).collect()).collect()
 }
 
-fn rows(folder: &std::path::Path, name: &str) -> Vec<Vec<Option<f64>>> {
+fn rows(folder: &Folder, name: &str) -> Vec<Vec<Option<f64>>> {
     let numbers = |row: &Vec<String>| row.iter().map(|cell| cell.parse().ok()).collect();
     texts(folder, name).iter().map(numbers).collect()
 }
@@ -275,9 +272,9 @@ fn unit(number: &str) -> f64 {
     10f64.powi(exponent.parse::<i32>().unwrap() - places).min(1e-8)
 }
 
-fn figures(only: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    quiet(&["figures", "--only", only, "-o", folder.path().to_str().unwrap()]);
+fn figures(only: &str) -> Folder {
+    let folder = Folder::new();
+    quiet(&["figures", "--only", only, "-o", &folder.path("")]);
     folder
 }
 
@@ -295,8 +292,8 @@ fn bessel(n: i32, x: f64) -> f64 {
 #[test]
 fn figures_5_to_7_agree_with_cells_from_data() {
     let folder = figures("1,5,6,7");
-    sentences_hold_the_numbers_of_the_figures(folder.path());
-    let [part, kept, over] = ["figure-5.csv", "figure-6.csv", "figure-7.csv"].map(|name| rows(folder.path(), name));
+    sentences_hold_the_numbers_of_the_figures(&folder);
+    let [part, kept, over] = ["figure-5.csv", "figure-6.csv", "figure-7.csv"].map(|name| rows(&folder, name));
     assert_eq!(part.len(), 4 * 373);
     for (k, row) in part.iter().enumerate() {
         let (r, mu) = (row[0].unwrap(), row[1].unwrap());
@@ -334,23 +331,23 @@ fn cells(rod: &Problem) -> History {
 fn figures_1_to_4_hold_what_the_theory_says() {
     let folder = figures("1,2,3,4,8");
     // Figure 1: the root of Ψ is where t_b says, and nothing was positive before.
-    for row in rows(folder.path(), "figure-1.csv") {
+    for row in rows(&folder, "figure-1.csv") {
         let [r, t, psi, bounce] = [0, 1, 3, 4].map(|k| row[k].unwrap());
         assert!(psi <= 0.0 || t > bounce, "r = {r}, t = {t}: {psi}");
         let truth = [(2.6, 1.788_481_033_298_875), (2.9, 2.553_022_499_313_244), (3.0, 3.299_026_051_445_773)];
         close("t_b", bounce, truth.iter().find(|known| known.0 == r).unwrap().1, 1.0, 1e-13);
     }
     // Figures 2 and 3: Theorem 2 with μ₀ = 2.
-    for (row, text) in rows(folder.path(), "figure-3.csv").iter().zip(texts(folder.path(), "figure-3.csv")) {
+    for (row, text) in rows(&folder, "figure-3.csv").iter().zip(texts(&folder, "figure-3.csv")) {
         let (mu, z) = (row[0].unwrap(), row[3].unwrap());
         let truth = if mu < 2.0 { mu.powi(3) * (8.0 - 3.0 * mu) / 24.0 } else { 2.0 / 3.0 };
         close(&format!("E_z at μ = {mu}"), z, truth, 1.0, 1e-12);
         close("shares", row[4].unwrap() + row[5].unwrap(), 1.0, 1.0, unit(&text[4]) + unit(&text[5]));
     }
     // Figure 4: left of the dots the bounce comes later, and the red curve is (4.72).
-    let four = rows(folder.path(), "figure-4.csv");
+    let four = rows(&folder, "figure-4.csv");
     assert_eq!(four.len(), 4000);
-    for (row, text) in four.iter().zip(texts(folder.path(), "figure-4.csv")) {
+    for (row, text) in four.iter().zip(texts(&folder, "figure-4.csv")) {
         let (r, mu) = (row[0].unwrap(), row[1].unwrap());
         let (i0, i1) = (bessel(0, 2.0 * r), bessel(1, 2.0 * r));
         let dot = 2.0 * (i0 + i1) / (2.0 - i0);
@@ -363,22 +360,22 @@ fn figures_1_to_4_hold_what_the_theory_says() {
         }
     }
     assert!(four.iter().any(|row| row[0] == Some(0.3) && row[2] > Some(2.0) && row[3].is_some()));
-    no_digit_is_beyond_its_bound(folder.path());
+    no_digit_is_beyond_its_bound(&folder);
     // All files, and an index that names them.
-    let index = fs::read_to_string(folder.path().join("README.md")).unwrap();
+    let index = folder.read("README.md");
     for name in ["figure-1", "figure-2", "figure-3", "figure-4", "figure-8"] {
         for ending in [".svg", ".csv"].into_iter().chain([".png"]) {
             let file = format!("{name}{ending}");
-            assert!(index.contains(&file) && folder.path().join(&file).is_file(), "{file}");
+            assert!(index.contains(&file) && Path::new(&folder.path(&file)).is_file(), "{file}");
         }
     }
     assert!(index.contains("| 0.3 | 0.55313"), "{index}");
-    let svg = fs::read_to_string(folder.path().join("figure-4.svg")).unwrap();
+    let svg = folder.read("figure-4.svg");
     assert_eq!(count(&svg, "marks"), Some(4), "a dot for each damping");
 }
 
 /// The numbers of Figure 4 that doubles know worst are printed with fewer digits, and all of these are those of twenty.
-fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
+fn no_digit_is_beyond_its_bound(folder: &Folder) {
     let rows = texts(folder, "figure-4.csv").into_iter();
     let few = rows.filter(|row| !row[3].is_empty() && row[0] != "0" && unit(&row[3]) > 1e-12).collect::<Vec<_>>();
     assert!((100..1000).contains(&few.len()), "{}", few.len());
@@ -398,13 +395,13 @@ fn no_digit_is_beyond_its_bound(folder: &std::path::Path) {
 }
 
 /// The numbers in the sentences are those of Figures 1 and 5–7, which are in `folder`.
-fn sentences_hold_the_numbers_of_the_figures(folder: &std::path::Path) {
-    let index = fs::read_to_string(folder.join("README.md")).unwrap();
+fn sentences_hold_the_numbers_of_the_figures(folder: &Folder) {
+    let index = folder.read("README.md");
     // What the index names is there: of each figure the picture that it shows, and four links.
     let files: Vec<&str> = index.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
     assert_eq!(files.len(), 4 * 5);
-    assert!(files.iter().all(|file| folder.join(file).is_file()), "{files:?}");
-    assert!(fs::read(folder.join("figure-5.pdf")).unwrap().starts_with(b"%PDF-1."));
+    assert!(files.iter().all(|file| Path::new(&folder.path(file)).is_file()), "{files:?}");
+    assert!(fs::read(folder.path("figure-5.pdf")).unwrap().starts_with(b"%PDF-1."));
     for row in rows(folder, "figure-1.csv") {
         assert!(index.contains(&format!("{:.14}", row[4].unwrap())), "{row:?}");
     }
@@ -419,7 +416,7 @@ fn sentences_hold_the_numbers_of_the_figures(folder: &std::path::Path) {
 #[test]
 fn the_tenth_bounce_of_a_periodic_rod() {
     let folder = figures("tenth-bounce");
-    let rows = rows(folder.path(), "tenth-bounce.csv");
+    let rows = rows(&folder, "tenth-bounce.csv");
     for mu in [3.0, 4.0, 5.0] {
         let row = rows.iter().find(|row| row[0] == Some(mu)).unwrap();
         // E_z/E = μ₀²/3μ² after the odd ones, 0 after the even ones.

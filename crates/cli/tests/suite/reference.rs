@@ -9,7 +9,7 @@ use ndarray::Array1;
 use ndarray_npy::NpzReader;
 use serde_json::Value;
 
-use crate::command::{json, quiet, refused, refused_with, run_with};
+use crate::command::{Folder, json, quiet, refused, refused_with, run_with};
 use crate::cuts::cuts;
 
 fn scene(name: &str) -> Problem {
@@ -197,9 +197,8 @@ fn the_python_function_is_the_history() {
         return;
     }
     for name in ["doyen-ern-piperno", "getfem-dynamic-contact", "paper-strong"] {
-        let folder = tempfile::tempdir().unwrap();
-        let module = folder.path().join("golden.py");
-        quiet(&["reference", name, "--as", "python", "-o", module.to_str().unwrap()]);
+        let folder = Folder::new();
+        quiet(&["reference", name, "--as", "python", "-o", &folder.path("golden.py")]);
         let rod = scene(name);
         let end = rod.exact().unwrap().end().to_f64();
         let main = format!(
@@ -207,7 +206,7 @@ fn the_python_function_is_the_history() {
             asked(&rod, end)
         );
         let mut program = Command::new("python3");
-        program.arg("-c").arg(main).current_dir(folder.path());
+        program.arg("-c").arg(main).current_dir(folder.path(""));
         held_against_the_history(name, program);
         // The same values at arrays of points by times, with a last one that a few steps make.
         let main = format!(
@@ -221,7 +220,7 @@ fn the_python_function_is_the_history() {
              assert u.shape == (5, 7) and u.dtype == float\n    \
              assert all(u[i, j] == uExact(x[i], t[j], d) for i in range(5) for j in range(7))\n"
         );
-        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
+        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path("")).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
 }
@@ -253,9 +252,8 @@ fn the_c_function_is_the_history() {
         return;
     }
     for name in ["doyen-ern-piperno", "getfem-dynamic-contact"] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = |file: &str| folder.path().join(file).to_str().unwrap().to_string();
-        quiet(&["reference", name, "--as", "c", "-o", &path("golden.h")]);
+        let folder = Folder::new();
+        quiet(&["reference", name, "--as", "c", "-o", &folder.path("golden.h")]);
         let rod = scene(name);
         let end = rod.exact().unwrap().end().to_f64();
         let pairs = asked(&rod, end);
@@ -269,24 +267,23 @@ fn the_c_function_is_the_history() {
              || !isnan(uExact(0, end * (1 + 1e-13), 0)); }}\n",
             pairs.len()
         );
-        std::fs::write(path("main.c"), main).unwrap();
+        folder.write("main.c", main);
         let mut compiler = Command::new("cc");
         compiler.args(["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o"]);
-        let built = compiler.args([path("main"), path("main.c"), "-lm".into()]).output().unwrap();
+        let built = compiler.args([folder.path("main"), folder.path("main.c"), "-lm".into()]).output().unwrap();
         assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        held_against_the_history(name, Command::new(path("main")));
+        held_against_the_history(name, Command::new(folder.path("main")));
     }
 }
 
 #[test]
 fn rows_are_the_same_in_every_format() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |file: &str| folder.path().join(file).to_str().unwrap().to_string();
+    let folder = Folder::new();
     let asked = ["reference", "doyen-ern-piperno", "--times", "0..16/3:33"];
     let mut written = Vec::new();
     for file in ["a.csv", "b.csv", "a.json", "a.npz", "b.npz"] {
-        quiet(&[&asked[..], &["-o", &path(file)]].concat());
-        written.push(std::fs::read(path(file)).unwrap());
+        quiet(&[&asked[..], &["-o", &folder.path(file)]].concat());
+        written.push(std::fs::read(folder.path(file)).unwrap());
     }
     assert!(written[0] == written[1] && written[3] == written[4], "the bytes differ from run to run");
     let json: Value = serde_json::from_slice(&written[2]).unwrap();
@@ -301,7 +298,7 @@ fn rows_are_the_same_in_every_format() {
     let exact: Vec<Vec<&str>> =
         exact.lines().skip_while(|line| line.starts_with('#')).skip(1).map(|line| line.split(',').collect()).collect();
     assert_eq!(exact.len(), lines.len());
-    let mut npz = NpzReader::new(File::open(path("a.npz")).unwrap()).unwrap();
+    let mut npz = NpzReader::new(File::open(folder.path("a.npz")).unwrap()).unwrap();
     let header: Array1<u8> = npz.by_name("header").unwrap();
     let header: Value = serde_json::from_slice(header.as_slice().unwrap()).unwrap();
     assert_eq!(header["columns"], json["columns"]);
@@ -465,13 +462,13 @@ fn the_comments_of_a_csv() {
     refused(&[&asked[..], &["--bare", "--format", "json"]].concat(), &["found --bare, expected it with CSV only"]);
     let numpy = Command::new("python3").args(["-c", "import numpy"]).output();
     if numpy.is_ok_and(|output| output.status.success()) {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("golden.csv"), &whole).unwrap();
+        let folder = Folder::new();
+        folder.write("golden.csv", &whole);
         // As the file itself says.
         let read = whole.lines().find_map(|line| line.strip_prefix("# read: ")).unwrap();
         let read = read.split_once("or ").unwrap().1.replace("FILE", "'golden.csv'");
         let main = format!("import numpy\ndata = {read}\nprint(*data.dtype.names, *data['t'], *data['side'])\n");
-        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path()).output().unwrap();
+        let output = Command::new("python3").arg("-c").arg(main).current_dir(folder.path("")).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         assert_eq!(String::from_utf8(output.stdout).unwrap(), "t side u_end 0.0 0.0 100.0 left right both\n");
     }

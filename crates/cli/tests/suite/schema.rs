@@ -2,12 +2,11 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::fs;
 
 use jsonschema::Validator;
 use serde_json::Value;
 
-use crate::command::{json, quiet};
+use crate::command::{Folder, json, quiet};
 
 /// The schema, in which an object with other keys than those that are named is refused; each form of it is prepared
 /// once.
@@ -58,18 +57,17 @@ fn every_output_is_what_the_schema_says() {
         let value = json(&[args, &["--format", "json"]].concat());
         assert!(holds(&schema, form, &value), "{args:?}");
     };
-    let folder = tempfile::tempdir().unwrap();
-    let [run, fine] = ["run.csv", "fine.csv"].map(|name| folder.path().join(name).to_str().unwrap().to_string());
+    let folder = Folder::new();
     // Penetration, a pull, energy that is twice theirs, a contact that is missing: as much of the report as there may
     // be.
     let row = |k: i32, n: i32| {
         let t = 10.0 * f64::from(k) / f64::from(n);
         format!("{t},{},{},{},{}\n", -t.sin(), (3.0 * t).cos(), 900.0 + t, t)
     };
-    for (name, n) in [(&run, 100), (&fine, 200)] {
+    let [run, fine] = [("run.csv", 100), ("fine.csv", 200)].map(|(name, n)| {
         let rows: String = (0..=n).map(|k| row(k, n)).collect();
-        fs::write(name, format!("t,u_end,force,E_total,h_rate\n{rows}")).unwrap();
-    }
+        folder.write(name, format!("t,u_end,force,E_total,h_rate\n{rows}"))
+    });
     for scene in ["doyen-ern-piperno", "figure-4-r02", "getfem-dynamic-contact"] {
         check("history", &["solve", scene]);
         check("reference", &["sample", scene, "--quantity", "energy", "--times", "0,1/4", "--uncertainty"]);
@@ -80,8 +78,7 @@ fn every_output_is_what_the_schema_says() {
         check("comparison", &["compare", scene, &run, "--quiet"]);
         check("comparisons", &["compare", scene, &run, &fine, "--quiet"]);
     }
-    let bars = folder.path().join("bars.csv").display().to_string();
-    fs::write(&bars, "t,u_top.1,force.1\n0,0,0\n0.1,0.01,0\n0.2,0.01,0.04\n").unwrap();
+    let bars = folder.write("bars.csv", "t,u_top.1,force.1\n0,0,0\n0.1,0.01,0\n0.2,0.01,0.04\n");
     check("comparisons_of_bodies", &["compare", "openfoam-7-1-2", &bars, "--quiet"]);
     // A point that has an answer, and one that has none.
     check("sweep", &["sweep", "figure-4-r02", "--vary", "impact.speed=1,5", "--quantity", "bounce_time,energy"]);

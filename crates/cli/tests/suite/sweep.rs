@@ -6,19 +6,20 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
+use crate::command::{Folder, run as run_any};
+
 /// Standard output, or what standard error says in one line of a run that is refused with code 2.
 fn run(args: &[&str]) -> Result<String, String> {
     dalembert(&[&["sweep"], args].concat())
 }
 
 fn dalembert(args: &[&str]) -> Result<String, String> {
-    let output = Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    if output.status.success() {
-        return Ok(text(output.stdout));
+    let found = run_any(args);
+    if found.code == Some(0) {
+        return Ok(found.out);
     }
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    Err(text(output.stderr).split_whitespace().collect::<Vec<_>>().join(" "))
+    assert_eq!((found.code, found.out.as_str()), (Some(2), ""));
+    Err(found.words())
 }
 
 /// c = L = g = 1: t₁ = μ₀ = 2.
@@ -95,9 +96,9 @@ fn parts_and_threads_give_the_bytes_of_one() {
 
 #[test]
 fn a_killed_sweep_resumes_to_the_same_bytes() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_string();
-    let (whole, killed, journal) = (path("whole.npz"), path("killed.npz"), path("killed.npz.unfinished"));
+    let folder = Folder::new();
+    let (whole, killed, journal) =
+        (folder.path("whole.npz"), folder.path("killed.npz"), folder.path("killed.npz.unfinished"));
     let vary = ["figure-4-r02", "--vary", "impact.speed=0.5..9:120", "--quantity", "bounce_time", "--digits", "60"];
     run(&[&vary[..], &["-o", &whole]].concat()).unwrap();
     // One thread solves so many points slowly enough to be killed among them.
@@ -141,9 +142,9 @@ fn what_is_no_sweep_is_said() {
 
 #[test]
 fn the_map_of_regimes_is_the_same_from_any_number_of_threads() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new();
     let map = |threads: &str, ending: &str| {
-        let path = folder.path().join(format!("map-{threads}.{ending}")).to_str().unwrap().to_string();
+        let path = folder.path(&format!("map-{threads}.{ending}"));
         let range = ["regimes", "--damping-ratio", "0..4:21", "--speed-ratio", "0.1..10:17:log", "--threads", threads];
         dalembert(&[&range[..], &["-o", &path]].concat()).unwrap();
         std::fs::read(path).unwrap()
@@ -189,22 +190,22 @@ fn notes_stand_below_the_table() {
 fn a_sweep_without_any_number_fails() {
     let sweep = |dampings: &str| {
         let args = ["sweep", SCENE, "--vary", dampings, "--quantity", "bounce_time"];
-        Command::new(env!("CARGO_BIN_EXE_dalembert")).args(args).output().unwrap()
+        run_any(&args)
     };
     let (none, some) = (sweep("rod.damping=2,3"), sweep("rod.damping=0,2"));
-    assert_eq!((none.status.code(), some.status.code()), (Some(1), Some(0)));
-    assert!(String::from_utf8(none.stdout).unwrap().contains("no bounce: r t₁ = 4.000000 ≥ π"));
+    assert_eq!((none.code, some.code), (Some(1), Some(0)));
+    assert!(none.out.contains("no bounce: r t₁ = 4.000000 ≥ π"));
 }
 
 /// c = L = μ = ρS = 1: T = 2 + x/k with eˣ = 2 + 2x, x = 1.678346990016661, and in the limit e_P = 1 and the force
 /// ρSμc.
 #[test]
 fn stiffer_springs_come_to_rigid_ground() {
-    let file = tempfile::NamedTempFile::new().unwrap();
+    let folder = Folder::new();
     let scene = "rod = { length = 1, wave_speed = 1, impedance = 1 }\nimpact.speed = 1\nground.penalty = 20\n\
                  run.time = 4\n";
-    std::fs::write(file.path(), scene).unwrap();
-    let path = file.path().to_str().unwrap();
+    let path = folder.write("rod.toml", scene);
+    let path = path.as_str();
     let asked = ["--quantity", "bounce_time,e_P,peak_force,release_velocity", "--format", "json"];
     let vary = ["--vary", "ground.stiffness=1e1..1e12:12:log"];
     let json: Value = serde_json::from_str(&run(&[&[path], &asked[..], &vary].concat()).unwrap()).unwrap();
@@ -221,11 +222,10 @@ fn stiffer_springs_come_to_rigid_ground() {
     let none: Value = serde_json::from_str(&none).unwrap();
     assert!(none["points"][0]["values"]["peak_force"].is_null() && none["points"][1]["values"]["peak_force"].is_f64());
     assert!(none.to_string().contains("found stiffness = 0 and no damping below the rod"), "{none}");
-    std::fs::write(file.path(), scene.replace("ground.penalty = 20", "ground = { penalty = 20, damping = 1 }"))
-        .unwrap();
+    folder.write("rod.toml", scene.replace("ground.penalty = 20", "ground = { penalty = 20, damping = 1 }"));
     let damped = run(&[&[path], &asked[2..], &["--quantity", "peak_force", "--vary", "ground.damping=1,3"]].concat());
     assert!(damped.unwrap().contains("bottom.damping"));
-    std::fs::write(file.path(), scene).unwrap();
+    folder.write("rod.toml", scene);
     let said = run(&[&[path], &asked[..2], &["--vary", "ground.penalty=1,2"]].concat()).unwrap_err();
     assert!(
         said.contains("found the parameter `ground.penalty`") && said.contains("did you mean stiffness?"),
@@ -237,10 +237,10 @@ fn stiffer_springs_come_to_rigid_ground() {
 /// the energy is ρSLμ²/2 = 2 J, as `solve` has them.
 #[test]
 fn numbers_are_in_the_units_of_the_material() {
-    let file = tempfile::NamedTempFile::new().unwrap();
+    let folder = Folder::new();
     let scene = "rod = { length = 2, modulus = 4, density = 1, area = 2 }\nimpact = { speed = 1 }\n";
-    std::fs::write(file.path(), scene).unwrap();
-    let path = file.path().to_str().unwrap();
+    let path = folder.write("rod.toml", scene);
+    let path = path.as_str();
     let asked = ["--quantity", "energy,impulse,peak_force,peak_stress,bounce_time", "--vary", "impact.speed=1,2"];
     let json: Value =
         serde_json::from_str(&run(&[&[path], &asked[..], &["--format", "json"]].concat()).unwrap()).unwrap();
