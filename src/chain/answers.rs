@@ -7,6 +7,7 @@ use super::definition::Chain;
 use super::field::BodySums;
 use super::history::ChainListing;
 use super::run::{ChainRun, ForcePiece};
+use super::wave::Limit;
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
 use crate::number::{
@@ -49,7 +50,8 @@ pub(super) trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
     fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
-    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits.
+    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits. In numbers
+    /// longer than doubles, a jump that agrees with an event within their bounds is at the event.
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
     /// Returns the field at a point; where a ray is not told from it, the bounds cover both limits.
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
@@ -97,8 +99,9 @@ impl<N: ToValue> Answers for ChainRun<N> {
 
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
         let ChainColumn { quantity, place } = column;
+        let limit = Limit { side, is_event: matches!(time, Instant::Event(_)) };
         let time = time.in_run(self)?;
-        let end = |is_top: bool| self.field_within(place, &self.end_point(place, is_top), &time, side);
+        let end = |is_top: bool| self.field_within(place, &self.end_point(place, is_top), &time, limit);
         let sums = || self.sums(place, &time);
         let found = match quantity {
             ChainQuantity::EndDisplacement => end(false)?.displacement,
@@ -113,17 +116,17 @@ impl<N: ToValue> Answers for ChainRun<N> {
                 let BodySums { kinetic, strain, potential, .. } = sums()?;
                 kinetic + strain + potential
             }
-            ChainQuantity::Force => self.force_within(place, &time, side)?,
+            ChainQuantity::Force => self.force_within(place, &time, limit)?,
             ChainQuantity::Gap => self.gap(place, &time)?,
-            ChainQuantity::SpringEnergy => self.spring_energies(place, &time, side)?[0].clone(),
-            ChainQuantity::Dissipated => self.spring_energies(place, &time, side)?[1].clone(),
+            ChainQuantity::SpringEnergy => self.spring_energies_within(place, &time, limit)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies_within(place, &time, limit)?[1].clone(),
         };
         Ok(found.to_value())
     }
 
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
-        Ok(self.field_within(body, &point, &time, side)?.map(N::to_value))
+        Ok(self.field_within(body, &point, &time, Limit::at(side))?.map(N::to_value))
     }
 
     fn ending(&self) -> &Ending {

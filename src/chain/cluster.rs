@@ -19,9 +19,9 @@ use super::law::Law;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
 use super::onset::{Onset, Series};
 use super::step::{Linear, Step, degree, in_unit, power};
-use super::wave::{Wave, is_exact_zero};
+use super::wave::Wave;
 use crate::motion::EventKind;
-use crate::number::{Bounded, Open, Rational};
+use crate::number::{Bounded, Open, Rational, is_exact_zero};
 
 /// A rigid mass between two interfaces.
 #[derive(Clone, Debug)]

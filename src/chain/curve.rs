@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::wave::is_exact_zero;
 use crate::lattice::Line;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 
 /// A polynomial in the time since an origin, with a bound of its distance from the true signal.
 ///
@@ -474,24 +473,28 @@ pub(super) fn first_fall<N: Bounded>(curve: &Curve<N>) -> Result<(Fall<N>, bool)
         if (slope.clone() + &bend).negative() == Ok(true) {
             if (first.clone() - &error).positive() != Ok(true) {
                 let late = (error / (-slope - &bend)).doubled();
-                let fall = match unknown {
-                    Some(begun) => between(begun, upper(from + late)),
-                    None if is_exact_zero(&late) => from,
-                    None => from.widened(&late),
-                };
-                return Ok((after(fall), doubt));
-            }
-            let last = value(&terms, &width);
-            if (last.clone() - &error).positive() == Ok(true) {
-                unknown = None;
-                continue;
-            }
-            if (last + &error).negative() != Ok(true) && stretches.is_empty() {
-                return Ok((Fall::AtEnd, doubt));
-            }
-            // Without a root of its own the curve flattens where it meets zero.
-            if let Some(root) = simple_root(&terms, &width, &error) {
-                return Ok((after(from + root), doubt));
+                // Where it does not fall below its bound on the stretch, it may rise again.
+                if late.below(&width) == Ok(true) {
+                    let fall = match unknown {
+                        Some(begun) => between(begun, upper(from + late)),
+                        None if is_exact_zero(&late) => from,
+                        None => from.widened(&late),
+                    };
+                    return Ok((after(fall), doubt));
+                }
+            } else {
+                let last = value(&terms, &width);
+                if (last.clone() - &error).positive() == Ok(true) {
+                    unknown = None;
+                    continue;
+                }
+                if (last + &error).negative() != Ok(true) && stretches.is_empty() {
+                    return Ok((Fall::AtEnd, doubt));
+                }
+                // Without a root of its own the curve flattens where it meets zero.
+                if let Some(root) = simple_root(&terms, &width, &error) {
+                    return Ok((after(from + root), doubt));
+                }
             }
         }
         let half = width.clone().halved().centred().0;

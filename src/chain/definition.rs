@@ -337,6 +337,9 @@ impl ChainBuilder {
                         let expected = "one velocity, and no deformation: a rigid body has no length";
                         return Err(ProblemError::new(Kind::Contradiction, &path(key), found, expected));
                     }
+                    for (_, value) in points {
+                        within_limits(&path(key), key, &value.to_rational())?;
+                    }
                 }
                 continue;
             }
@@ -401,6 +404,18 @@ impl Chain {
     /// Returns the chain with rigid joints and ends in place of springs and dashpots.
     pub(crate) fn without_springs(&self) -> Result<Chain, ProblemError> {
         Chain { springs: Vec::new(), ..self.clone() }.checked()
+    }
+
+    /// Returns the nodes of the contacts without a spring, from the bottom up.
+    pub fn rigid_contacts(&self) -> impl Iterator<Item = usize> {
+        (0..=self.bodies.len()).filter(|node| self.is_contact(*node) && self.spring(*node).is_none())
+    }
+
+    /// Returns the chain with a spring of this stiffness in addition at each of `nodes`.
+    pub(crate) fn with_springs(&self, nodes: &[usize], stiffness: &Number) -> Result<Chain, ProblemError> {
+        let spring = |node: &usize| (*node, Spring { stiffness: stiffness.clone(), damping: 0.into() });
+        let springs = self.springs.iter().cloned().chain(nodes.iter().map(spring)).collect();
+        Chain { springs, ..self.clone() }.checked()
     }
 
     /// Returns the warning of a bar with a material that the speeds, strains and loads given would strain above 1: it

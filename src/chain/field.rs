@@ -7,10 +7,10 @@ use std::sync::Mutex;
 use super::curve::{Signal, bound, greater, primitive, product, turned, value};
 use super::run::ChainRun;
 use super::start::Bar;
-use super::wave::{Piece, Wave, is_exact_zero, order};
+use super::wave::{Limit, Piece, Wave, order};
 use crate::error::Error;
 use crate::motion::{Field, Side, Stretch};
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::threads::locked;
 
 /// Energies, centre and momentum of a body.
@@ -92,8 +92,8 @@ impl<N: Bounded> ChainRun<N> {
     }
 
     /// Returns [`ChainRun::field`], with bounds that cover both limits where the point is not told from a ray.
-    pub(super) fn field_within(&self, body: usize, point: &N, time: &N, side: Side) -> Result<Field<N>, Error> {
-        self.field_by((body, point, time), |wave, time| Ok(wave.within(time, side)))
+    pub(super) fn field_within(&self, body: usize, point: &N, time: &N, limit: Limit) -> Result<Field<N>, Error> {
+        self.field_by((body, point, time), |wave, time| Ok(wave.within(time, limit)))
     }
 
     fn field_by(

@@ -7,9 +7,9 @@ use super::exact::{Exact, exact_sum};
 use super::law::{Law, Mix};
 use super::node::{Gap, Source, Stage};
 use super::onset::Taylor;
-use super::wave::{Wave, is_exact_zero};
+use super::wave::Wave;
 use crate::lattice::Line;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 /// A spring with a dashpot beside it, in the numbers of a run.
 #[derive(Clone, Debug)]

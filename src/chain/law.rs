@@ -1,8 +1,7 @@
 //! The force of a node, and the waves that leave it.
 
-use super::wave::is_exact_zero;
 use crate::lattice::Line;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 /// The law of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

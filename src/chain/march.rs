@@ -9,10 +9,10 @@ use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
 use super::start::{Nodes, Start};
 use super::varied::Varied;
-use super::wave::{Wave, is_exact_zero};
+use super::wave::Wave;
 use crate::error::Error;
 use crate::motion::Ending;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::reason::Reason;
 
 impl<N: Bounded> ChainRun<N> {
@@ -65,7 +65,7 @@ impl<N: Bounded> ChainRun<N> {
             Nodes::Soft(clusters) => {
                 let limits = (chain.max_pieces(), observe);
                 let Marched { nodes, events, end, ending, doubt } = march(clusters, &mut waves, until, limits)?;
-                return Ok(ChainRun {
+                let run = ChainRun {
                     bars,
                     nodes,
                     springs,
@@ -78,7 +78,8 @@ impl<N: Bounded> ChainRun<N> {
                     touches: Vec::new(),
                     doubt,
                     kept: KeptSums::default(),
-                });
+                };
+                return run.within(chain.max_pieces());
             }
         };
         let (mut events, mut touches) = (Vec::new(), Vec::new());
@@ -143,7 +144,16 @@ impl<N: Bounded> ChainRun<N> {
         let doubt = nodes.iter().filter_map(|node| node.doubt).min_by(f64::total_cmp);
         let nodes = nodes.into_iter().map(Node::into_stages).collect();
         let kept = KeptSums::default();
-        Ok(ChainRun { bars, nodes, springs, waves, gravity, frame, end, ending, events, touches, doubt, kept })
+        let run = ChainRun { bars, nodes, springs, waves, gravity, frame, end, ending, events, touches, doubt, kept };
+        run.within(chain.max_pieces())
+    }
+
+    /// Returns the run, unless it has more wave pieces than `limit`: while it goes on they are counted now and then.
+    fn within(self, limit: usize) -> Result<Self, Error> {
+        match self.pieces() > limit {
+            true => Err(Error::TooManyPieces { limit, time: self.end.to_f64() }),
+            false => Ok(self),
+        }
     }
 }
 

@@ -8,10 +8,10 @@ use super::exact::{Exact, exact_sum};
 use super::interface::Softness;
 use super::law::{Law, Leaving, Mix};
 use super::onset::Taylor;
-use super::wave::{Wave, is_exact_zero};
+use super::wave::Wave;
 use crate::lattice::Line;
 use crate::motion::EventKind;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::solve::LONG;
 
 /// Origin of a signal that arrives at a node.

@@ -5,8 +5,7 @@ use super::curve::{Curve, greater, rough_slope, rough_slope_at, upper};
 use super::interface::{Mode, Rows};
 use super::node::Source;
 use super::step::{Linear, Step, Values, refs};
-use super::wave::is_exact_zero;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 impl<N: Bounded> Cluster<N> {
     /// Returns the bounds of the errors of the states over a step, and adds what uncertain breaks before it have

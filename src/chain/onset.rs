@@ -12,8 +12,7 @@ use super::curve::{Curve, stretched};
 use super::interface::{Input, Interface, Mode, Row};
 use super::node::Source;
 use super::step::{Values, refs};
-use super::wave::is_exact_zero;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::solve::LONG;
 
 /// The Taylor series of a signal at a break at which it leaves zero.

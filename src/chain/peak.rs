@@ -3,8 +3,7 @@
 use super::curve::{
     Curve, Fall, Signal, centred, derivative, first_fall, rough_bound, rough_slope, shifted, upper, value,
 };
-use super::wave::is_exact_zero;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 /// Number of parts of a width in which [`Curve::mean_fall`] bounds a function.
 const FALL_PARTS: i64 = 16;

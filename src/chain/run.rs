@@ -7,10 +7,10 @@ use super::march::SOFT;
 use super::node::{Gap, Stage};
 use super::peak::highest;
 use super::start::Bar;
-use super::wave::{Wave, either, indices_at, is_exact_zero, may_jump, smooth_value};
+use super::wave::{Limit, Wave, either, indices_near, may_jump, smooth_value};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Side};
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 
 /// An impact or a release at a node of a chain.
 #[derive(Clone, Debug)]
@@ -307,13 +307,13 @@ impl<N: Bounded> ChainRun<N> {
     ///
     /// **Errors**: [`Error::TimeOutside`]; [`Error::Open`] if the time is not told from that of a break.
     pub fn force(&self, node: usize, time: &N, side: Side) -> Result<N, Error> {
-        let stages = self.stages(node, time, side)?;
+        let stages = self.stages(node, time, Limit::at(side))?;
         Ok(smooth_value(stages.iter().map(|stage| (&stage.from, &stage.force)), time)?)
     }
 
     /// Returns [`ChainRun::force`], with a bound that covers both limits where the time is not told from a jump.
-    pub(super) fn force_within(&self, node: usize, time: &N, side: Side) -> Result<N, Error> {
-        either(self.stages(node, time, side)?.iter().map(|stage| stage.force.value_at(time))).ok_or(Error::Open(Open))
+    pub(super) fn force_within(&self, node: usize, time: &N, limit: Limit) -> Result<N, Error> {
+        either(self.stages(node, time, limit)?.iter().map(|stage| stage.force.value_at(time))).ok_or(Error::Open(Open))
     }
 
     /// Returns the gap of a contact; zero where the node is none.
@@ -329,7 +329,7 @@ impl<N: Bounded> ChainRun<N> {
             }
             Gap::Soft(softness) => softness.gap.value_at(time),
         };
-        either(self.stages(node, time, Side::Right)?.iter().map(gap)).ok_or(Error::Open(Open))
+        either(self.stages(node, time, Limit::at(Side::Right))?.iter().map(gap)).ok_or(Error::Open(Open))
     }
 
     /// Returns the energy that the spring of a node holds, and the energy that its dashpot has taken up: where a spring
@@ -337,6 +337,10 @@ impl<N: Bounded> ChainRun<N> {
     ///
     /// **Errors**: [`Error::TimeOutside`].
     pub fn spring_energies(&self, node: usize, time: &N, side: Side) -> Result<[N; 2], Error> {
+        self.spring_energies_within(node, time, Limit::at(side))
+    }
+
+    pub(super) fn spring_energies_within(&self, node: usize, time: &N, limit: Limit) -> Result<[N; 2], Error> {
         let energies = |stage: &Stage<N>| {
             let (Some(softness), Some(soft)) = (stage.softness(), &self.springs[node]) else {
                 return [time.zero(), time.zero()];
@@ -349,7 +353,7 @@ impl<N: Bounded> ChainRun<N> {
             let lost = softness.rate.square_integral(&since) * &soft.damping;
             [stored.halved(), lost + &softness.dissipated]
         };
-        let stages = self.stages(node, time, side)?;
+        let stages = self.stages(node, time, limit)?;
         let one = |k: usize| either(stages.iter().map(|stage| energies(stage)[k].clone())).ok_or(Error::Open(Open));
         Ok([one(0)?, one(1)?])
     }
@@ -367,17 +371,17 @@ impl<N: Bounded> ChainRun<N> {
     }
 
     fn stage(&self, node: usize, time: &N, side: Side) -> Result<&Stage<N>, Error> {
-        match self.stages(node, time, side)? {
+        match self.stages(node, time, Limit::at(side))? {
             [stage] => Ok(stage),
             _ => Err(Error::Open(Open)),
         }
     }
 
     /// Returns the stages of a node that a time may lie in.
-    fn stages(&self, node: usize, time: &N, side: Side) -> Result<&[Stage<N>], Error> {
+    fn stages(&self, node: usize, time: &N, limit: Limit) -> Result<&[Stage<N>], Error> {
         self.check_time(time)?;
         let stages = &self.nodes[node];
-        stages.get(indices_at(stages, |stage| &stage.from, time, side)).ok_or(Error::Open(Open))
+        stages.get(indices_near(stages, |stage| &stage.from, time, limit)).ok_or(Error::Open(Open))
     }
 
     /// Refuses times outside of the run.

@@ -358,8 +358,10 @@ fn waves<N: Bounded>(
         .map(|x| lift::<N>(&x, precision));
         let [speed, at_top, rise, strain, top_strain, bend, from, to] = numbers;
         let (rate, bend) = (rise? * wave_speed, bend? * wave_speed * wave_speed);
-        let up_line = Line { intercept: speed? - strain? * wave_speed, slope: bend.clone() - &rate };
-        let down_line = Line { intercept: at_top? + top_strain? * wave_speed, slope: rate + bend };
+        let up_line = Line { intercept: speed?, slope: bend.clone() };
+        let up_line = up_line.minus(&Line { intercept: strain? * wave_speed, slope: rate.clone() });
+        let down_line = Line { intercept: at_top?, slope: rate };
+        let down_line = down_line.plus(&Line { intercept: top_strain? * wave_speed, slope: bend });
         let [from, to] = [from?, to?];
         // A piece begins where its stretch of the body ends: at −to/c upward, at −(L − from)/c downward.
         let up_from = if to.vanishes() == Ok(true) { -travel.clone() } else { (to - length) / wave_speed };

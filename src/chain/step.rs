@@ -4,8 +4,7 @@ use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
 use super::interface::{Interface, Row};
 use super::node::{Source, Stop};
-use super::wave::is_exact_zero;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 /// The states over a step.
 pub(super) struct Step<N> {

@@ -10,7 +10,7 @@ use super::interface::Moment;
 use super::onset::Taylor;
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::solve::LONG;
 
 /// A stretch of a wave without a break.
@@ -41,11 +41,6 @@ pub(super) struct Wave<N> {
     pub(super) pieces: Vec<Piece<N>>,
     /// Number of pieces before the start.
     pub(super) given: usize,
-}
-
-/// Returns whether a number is zero without any error.
-pub(super) fn is_exact_zero<N: Bounded>(x: &N) -> bool {
-    x.roundoffs() == 0.0 && x.vanishes() == Ok(true)
 }
 
 /// Returns whether `new` needs no break after `old`: it is proved equal, or is stored alike with no larger error.
@@ -189,8 +184,8 @@ impl<N: Bounded> Wave<N> {
 
     /// Returns value and integral of the wave at a time, as [`Wave::at`] does: a value that covers both limits where it
     /// is undecided on which side of a jump the time is.
-    pub(super) fn within(&self, time: &N, side: Side) -> (N, N) {
-        let near = self.pieces_at(time, side);
+    pub(super) fn within(&self, time: &N, limit: Limit) -> (N, N) {
+        let near = indices_near(&self.pieces, |piece| &piece.from, time, limit);
         let values = self.pieces[near.clone()].iter().map(|piece| piece.signal.value_at(time));
         (either(values).unwrap_or_else(|| time.zero()), self.sum_within(near, time))
     }
@@ -208,12 +203,8 @@ impl<N: Bounded> Wave<N> {
     /// Returns the value of the wave at a time, as the limit from `side`. Breaks that agree with the time within their
     /// bounds are at the time.
     pub(super) fn value_beside(&self, time: &N, side: Side) -> N {
-        let begun = self.pieces.partition_point(|piece| match order(time, &piece.from) {
-            Ok(order) if side == Side::Left => order.is_gt(),
-            Ok(order) => order.is_ge(),
-            Err(_) => side == Side::Right,
-        });
-        self.pieces[begun.max(1) - 1].signal.value_at(time)
+        let piece = last_begun(&self.pieces, |piece| &piece.from, (time, side), side == Side::Right);
+        self.pieces[piece].signal.value_at(time)
     }
 
     /// Returns the integral of the wave up to a time in the piece with this index.
@@ -251,23 +242,58 @@ pub(super) fn order<N: Bounded>(time: &N, from: &N) -> Result<Ordering, Open> {
     }
 }
 
+/// The limit of a value at a time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limit {
+    /// The side of a jump at the time.
+    pub(super) side: Side,
+    /// Whether the time is that of an event.
+    pub(super) is_event: bool,
+}
+
+impl Limit {
+    /// Returns the limit from `side` at a time that is asked for.
+    pub(super) fn at(side: Side) -> Self {
+        Limit { side, is_event: false }
+    }
+}
+
+/// Returns the index of the last item that has begun at a time, as the limit from a side. `undecided` is the answer
+/// where the errors of a beginning leave it open. Each item lasts until the next begins, and the first has begun.
+fn last_begun<T, N: Bounded>(items: &[T], from: impl Fn(&T) -> &N, (time, side): (&N, Side), undecided: bool) -> usize {
+    let begun = items.partition_point(|item| match order(time, from(item)) {
+        Ok(order) if side == Side::Left => order.is_gt(),
+        Ok(order) => order.is_ge(),
+        Err(Open) => undecided,
+    });
+    begun.max(1) - 1
+}
+
 /// Returns the indices of the items that a time may lie in, as the limit from `side`: several where the errors of
-/// beginnings leave it undecided. Each item lasts until the next begins, and the first has begun.
+/// beginnings leave it undecided.
 pub(super) fn indices_at<T, N: Bounded>(
     items: &[T],
-    from: impl Fn(&T) -> &N,
+    from: impl Fn(&T) -> &N + Copy,
     time: &N,
     side: Side,
 ) -> RangeInclusive<usize> {
-    let last = |undecided: bool| {
-        let begun = items.partition_point(|item| match order(time, from(item)) {
-            Ok(order) if side == Side::Left => order.is_gt(),
-            Ok(order) => order.is_ge(),
-            Err(Open) => undecided,
-        });
-        begun.max(1) - 1
-    };
+    let last = |undecided: bool| last_begun(items, from, (time, side), undecided);
     last(false)..=last(true)
+}
+
+/// Returns [`indices_at`]. In numbers longer than doubles, beginnings that agree with an event within their bounds are at
+/// the event.
+pub(super) fn indices_near<T, N: Bounded>(
+    items: &[T],
+    from: impl Fn(&T) -> &N + Copy,
+    time: &N,
+    Limit { side, is_event }: Limit,
+) -> RangeInclusive<usize> {
+    if is_event && time.log2_roundoff() < DOUBLE_ROUNDOFF {
+        let piece = last_begun(items, from, (time, side), side == Side::Right);
+        return piece..=piece;
+    }
+    indices_at(items, from, time, side)
 }
 
 /// Returns the index of the item that a time lies in, as the limit from `side`.
@@ -275,7 +301,7 @@ pub(super) fn indices_at<T, N: Bounded>(
 /// **Errors**: [`Open`] if the error of a beginning leaves it undecided.
 pub(super) fn index_at<T, N: Bounded>(
     items: &[T],
-    from: impl Fn(&T) -> &N,
+    from: impl Fn(&T) -> &N + Copy,
     time: &N,
     side: Side,
 ) -> Result<usize, Open> {
@@ -283,12 +309,12 @@ pub(super) fn index_at<T, N: Bounded>(
     if near.start() == near.end() { Ok(*near.start()) } else { Err(Open) }
 }
 
-/// Returns a number that is one of `values`: the first, widened to the others; `None` if there are none.
+/// Returns a number that is one of `values`: their middle, widened to all of them; `None` if there are none.
 pub(super) fn either<N: Bounded>(mut values: impl Iterator<Item = N>) -> Option<N> {
     let first = values.next()?;
-    Some(values.fold(first, |sum, value| {
-        let off = (value - &sum).magnitude();
-        sum.widened(&off)
+    Some(values.fold(first, |all, value| {
+        let off = (value.clone() - &all).magnitude();
+        if is_exact_zero(&off) { all } else { (all + value).halved().widened(&off.halved()) }
     }))
 }
 

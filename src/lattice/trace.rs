@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use crate::motion::partition;
 use crate::motion::{EventKind, Side};
-use crate::number::{Bounded, Open};
+use crate::number::{Bounded, Open, is_exact_zero};
 use crate::problem::Top;
 
 /// A line `intercept + slope·f` in the age `f`.
@@ -22,6 +22,9 @@ pub struct Line<N> {
 impl<N: Bounded> Line<N> {
     /// Returns the value at `age`.
     pub fn value_at(&self, age: &N) -> N {
+        if is_exact_zero(&self.slope) {
+            return self.intercept.clone();
+        }
         self.slope.clone() * age + &self.intercept
     }
 

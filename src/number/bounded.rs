@@ -156,6 +156,11 @@ impl<S: Rounded> Answer for S {
     }
 }
 
+/// Returns whether a number is zero without any error.
+pub(crate) fn is_exact_zero<N: Bounded>(x: &N) -> bool {
+    x.roundoffs() == 0.0 && x.vanishes() == Ok(true)
+}
+
 impl<S: Rounded> Bounded for Estimate<S> {
     #[inline]
     fn roundoffs(&self) -> f64 {

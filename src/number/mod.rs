@@ -55,6 +55,7 @@ mod text;
 mod value;
 mod wide;
 
+pub(crate) use bounded::is_exact_zero;
 pub use bounded::{Answer, Bounded};
 pub use decimal::decimal;
 pub(crate) use double::shortest;

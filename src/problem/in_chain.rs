@@ -259,6 +259,26 @@ impl Problem {
         Ok(Some(chain.without_springs()?.problem(body)?))
     }
 
+    /// Returns the same body of its chain with a spring of this stiffness in addition at each of `nodes`; `None` for a
+    /// rod by itself.
+    ///
+    /// **Errors**: [`ProblemError`] for a stiffness out of range, and for a node that has a spring or that the chain does
+    /// not have.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain};
+    /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
+    /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
+    /// let soft = chain.problem(1)?.with_springs(&[1], &20.into())?.ok_or("no chain")?;
+    /// // The bars part later than rigid ones, which do at 3.
+    /// assert!(soft.doubles()?.contacts()[0].release.is_some_and(|t| t > 3.04));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_springs(&self, nodes: &[usize], stiffness: &Number) -> Result<Option<Problem>, ProblemError> {
+        let Some((chain, body)) = self.chain() else { return Ok(None) };
+        Ok(Some(chain.with_springs(nodes, stiffness)?.problem(body)?))
+    }
+
     /// Returns the number of a value of the chain that the problem is a body of; `None` where there is none.
     pub(super) fn chain_value(&self, parameter: ChainParameter) -> Option<Number> {
         self.chain()?.0.value(parameter)

@@ -254,3 +254,25 @@ fn contacts_at_rest_are_decided_by_breaks_that_leave_zero() {
         assert!(found.iter().any(is_struck), "{numbers}: {found:?}");
     }
 }
+
+/// A bar and a mass that lies on it fall at −1 together, so that nothing acts between them until the bar hits the ground
+/// at 1/3: its end has −1 before and 0 after that, although no enclosure tells the event from 1/3.
+#[test]
+fn both_limits_at_an_event_are_told() {
+    let text = "body = [{ length = 1, wave_speed = 1, impedance = 1, velocity = -1 },\n\
+                { mass = 1, gap = 0, velocity = -1 }]\nends.bottom = { gap = '1/3' }\nrun.time = 4";
+    let chain = ChainScene::parse(text).unwrap().chain;
+    assert!(is_decided_by_doubles(&chain));
+    let column = |name: &str| ChainColumn::read(name, &chain).unwrap();
+    for numbers in [Numbers::Double(None), Numbers::Digits(20), Numbers::Certified(15)] {
+        let history = chain.solve(numbers).unwrap();
+        for (side, velocity, force) in [(Side::Left, -1.0, 0.0), (Side::Right, 0.0, 1.0)] {
+            for (name, expected) in [("v_end.1", velocity), ("force.bottom", force)] {
+                let found = history.value_at_event(column(name), 0, side).unwrap();
+                let off = (found.to_f64() - expected).abs();
+                assert!(off <= found.bound().to_f64() && off < 1e-14, "{numbers} {name} {side:?}: {found:?}");
+                assert!(found.bound().to_f64() < 1e-14, "{numbers} {name} {side:?}: {found:?}");
+            }
+        }
+    }
+}

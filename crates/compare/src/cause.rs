@@ -9,8 +9,9 @@ pub(super) enum Cause {
     Value(Parameter),
     /// A damping that is greater by `p` per round trip.
     Damping,
-    /// A spring ground of stiffness `k` with `EA/k = p L`, in place of a rigid one.
-    SoftContact,
+    /// A spring ground of stiffness `k` with `EA/k = p L`, in place of a rigid one; in a chain at the node with this
+    /// index, or at all rigid contacts.
+    SoftContact(Option<usize>),
     /// A mass of `p` times that of the rod at its ends.
     EndMass,
     /// All times multiplied by `1 + p`.
@@ -42,7 +43,7 @@ pub(super) const GENERAL: [(&str, Cause); 11] = [
     ("gravity", Cause::Value(Parameter::Gravity)),
     ("contact_stiffness", Cause::Value(Parameter::Stiffness)),
     ("damping", Cause::Damping),
-    ("soft_contact", Cause::SoftContact),
+    ("soft_contact", Cause::SoftContact(None)),
     ("end_mass", Cause::EndMass),
     ("clock", Cause::Clock),
     ("time_shift", Cause::TimeShift),

@@ -154,8 +154,8 @@ impl CauseFits<'_> {
         };
         match cause {
             Cause::Value(_) | Cause::Damping => model.values(&self.problem_with(cause, p)?, |time| time).ok(),
-            Cause::SoftContact => {
-                let mut all = model.change_by_spring(p * Parameter::Length.value(model.problem)?)?;
+            Cause::SoftContact(node) => {
+                let mut all = model.change_by_spring(node, p * Parameter::Length.value(model.problem)?)?;
                 for (values, exact) in all.iter_mut().zip(&self.exact) {
                     values.iter_mut().zip(exact).for_each(|(value, exact)| *value += exact);
                 }
@@ -299,7 +299,7 @@ impl CauseFits<'_> {
             let quantity = column.map_or("all", |place| self.model.signals[place].column.name());
             // The models of the first two are of first order; the last would fill a page.
             let is_known = share <= most
-                && !matches!(cause, Cause::EndMass | Cause::SoftContact | Cause::Value(Parameter::OfChain(_)));
+                && !matches!(cause, Cause::EndMass | Cause::SoftContact(_) | Cause::Value(Parameter::OfChain(_)));
             is_known.then_some(Detectable { kind, quantity, value: share * unit })
         };
         self.candidates.iter().filter_map(least_named).collect()
@@ -311,7 +311,7 @@ impl CauseFits<'_> {
             Cause::Value(Parameter::ImpactSpeed | Parameter::Gravity) => vec![NEARLY_MISSING],
             Cause::Damping if self.damping() > 0.0 => vec![-self.damping() * self.trip],
             Cause::Damping => DAMPED.to_vec(),
-            Cause::SoftContact => vec![SOFT],
+            Cause::SoftContact(_) => vec![SOFT],
             _ => Vec::new(),
         }
     }
@@ -358,7 +358,7 @@ impl CauseFits<'_> {
             if turn > 1 && left > HOPELESS * base {
                 return None;
             }
-            if (p - slope_at).abs() > SAME_SLOPE || cause == Cause::SoftContact {
+            if (p - slope_at).abs() > SAME_SLOPE || matches!(cause, Cause::SoftContact(_)) {
                 (slope, slope_at) = (self.slopes(cause, p, &found)?, p);
             }
         }
@@ -478,7 +478,7 @@ impl CauseFits<'_> {
 
     /// Returns whether the only explanation is a contact that may be as soft as a mesh makes it, and that is not clear.
     pub(super) fn is_soft_mesh(&self, best: &[Fitted]) -> bool {
-        let [Fitted { cause: Cause::SoftContact, value, error, share_left, .. }] = best else { return false };
+        let [Fitted { cause: Cause::SoftContact(_), value, error, share_left, .. }] = best else { return false };
         // `EA/kc` of a share of the length is that share of half a round trip.
         let (least, blurred) = (value - 2.0 * error, BLURRED * self.model.step / (self.trip / 2.0));
         least < SOFT_MESH && (*share_left > CLEAR || least <= blurred)

@@ -8,7 +8,8 @@ use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
 use super::symptoms::{
-    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, turned_axis, unlike_mass, unstable_energy,
+    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, other_body, other_units, turned_axis,
+    unlike_mass, unstable_energy,
 };
 use dalembert::Error;
 use dalembert::chain::{ChainParameter, ChainValue};
@@ -47,6 +48,10 @@ impl Diagnosis {
             self.hints = vec![alone];
             return Ok(());
         }
+        self.hints = other_units(columns, reference);
+        if !self.hints.is_empty() {
+            return Ok(());
+        }
         self.hints = columns.iter().filter(|column| is_empty(column)).map(empty_column).collect();
         if agreement.grid.times.len() < FEWEST {
             return Ok(());
@@ -56,6 +61,10 @@ impl Diagnosis {
         let until = history.events().iter().map(|event| event.t).find(|time| *time > release);
         let model = Model::new(reference, agreement, until.unwrap_or(f64::INFINITY), SAMPLES)?;
         let Some(last) = model.times.last().copied().filter(|_| model.times.len() >= FEWEST) else { return Ok(()) };
+        if let Some(hint) = other_body(&model) {
+            self.hints.push(hint);
+            return Ok(());
+        }
         let trip = history.scales().time;
         let first = history.contacts().first().map_or(0.0, |contact| contact.impact);
         let exact = model.values(model.problem, |time| time)?;
@@ -130,7 +139,7 @@ fn unpaired_hints(audit: &Audit) -> impl Iterator<Item = Hint> {
     })
 }
 
-/// Returns the values of a chain that may be wrong, beside those that every rod has.
+/// Returns the values of a chain that may be wrong, and the contacts that may be soft, beside those of every rod.
 fn causes_of_chain(problem: &Problem) -> Vec<(&'static str, Cause)> {
     let Some((chain, body)) = problem.chain() else { return Vec::new() };
     let is_of_rod = |parameter: &ChainParameter| {
@@ -140,7 +149,11 @@ fn causes_of_chain(problem: &Problem) -> Vec<(&'static str, Cause)> {
     };
     let is_zero = |parameter: &ChainParameter| chain.value(*parameter).is_none_or(|value| value.is_zero());
     let parameters = chain.parameters().filter(|parameter| !is_of_rod(parameter) && !is_zero(parameter));
-    parameters.map(Parameter::OfChain).map(|parameter| (parameter.path(), Cause::Value(parameter))).collect()
+    let values = parameters.map(Parameter::OfChain).map(|parameter| (parameter.path(), Cause::Value(parameter)));
+    // A single contact is what all of them are.
+    let soft: Vec<usize> = chain.rigid_contacts().collect();
+    let soft = soft.iter().filter(|_| soft.len() > 1).map(|node| ("soft_contact", Cause::SoftContact(Some(*node))));
+    values.chain(soft).collect()
 }
 
 /// Returns the causes that concern one column each.

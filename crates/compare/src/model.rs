@@ -1,6 +1,9 @@
 //! Predictions for other values of the scene at the times of the data, and the columns they are compared with.
 
 use std::cell::OnceCell;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::agreement::Agreement;
 use super::norms::{ComparedColumn, Grid};
@@ -8,7 +11,7 @@ use super::reference::Reference;
 use super::spring::SpringContact;
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
-use dalembert::solve::TypedHistory;
+use dalembert::solve::{Numbers, Observer, Plan, Question, TypedHistory, unobserved};
 use dalembert::{Error, Number, Side};
 
 /// A column of data as it is compared with a run: the column itself where it has no jumps, otherwise its integral over
@@ -42,11 +45,25 @@ pub(super) struct Model<'a> {
     pub(super) step: f64,
     /// The march on a rigid ground.
     rigid: OnceCell<Option<SpringContact>>,
+    /// The number of wave pieces or cells of the scene as it is.
+    pieces: OnceCell<usize>,
 }
+
+/// Number of wave pieces or cells of another scene, in those of the scene as it is, beyond which it is given up: values
+/// far from those of the scene may take as many times as long.
+const MOST_PIECES: usize = 16;
+/// Number of wave pieces or cells that every run may have.
+const FREE_PIECES: usize = 2000;
 
 /// Solves `problem` to a little beyond `until`, so that times next to the end have both sides.
 pub(super) fn solve_beyond(problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
-    problem.to_builder().time(until.max(f64::MIN_POSITIVE) * (1.0 + 1e-8)).build()?.doubles()
+    solve_observed_beyond(problem, until, unobserved())
+}
+
+fn solve_observed_beyond(problem: &Problem, until: f64, observer: Observer) -> Result<TypedHistory<f64>, Error> {
+    let problem = problem.to_builder().time(until.max(f64::MIN_POSITIVE) * (1.0 + 1e-8)).build()?;
+    let plan = Plan::of(&problem, &Question::run(Numbers::Double(None)))?;
+    TypedHistory::solve(&problem, &plan, observer)
 }
 
 /// The distance from a ray, in round trips, at which derivatives are taken, of undamped and of damped rods. On a ray
@@ -159,7 +176,7 @@ impl<'a> Model<'a> {
         }
         let times: Vec<f64> = kept.iter().map(|k| times[*k]).collect();
         let weights = Grid::new(times.clone(), None).weights;
-        Ok(Model { problem, mass, times, signals, weights, step, rigid: OnceCell::new() })
+        Ok(Model { problem, mass, times, signals, weights, step, rigid: OnceCell::new(), pieces: OnceCell::new() })
     }
 
     fn quantities(&self) -> Vec<Quantity> {
@@ -168,7 +185,23 @@ impl<'a> Model<'a> {
 
     /// Solves `problem` as far as the times go.
     pub(super) fn solve(&self, problem: &Problem) -> Result<TypedHistory<f64>, Error> {
-        solve_beyond(problem, self.times.last().copied().unwrap_or_default())
+        self.solve_to(problem, self.times.last().copied().unwrap_or_default())
+    }
+
+    /// Solves `problem` as [`solve_beyond`] does, with a limited number of pieces.
+    ///
+    /// **Errors**: those of the run; [`Error::Interrupted`] for too many pieces.
+    fn solve_to(&self, problem: &Problem, until: f64) -> Result<TypedHistory<f64>, Error> {
+        let counted = Arc::new(AtomicUsize::new(0));
+        let limit = self.pieces.get().map_or(usize::MAX, |pieces| MOST_PIECES * pieces + FREE_PIECES);
+        let count = counted.clone();
+        let observer: Observer = Arc::new(move |_, pieces| {
+            count.fetch_max(pieces, Ordering::Relaxed);
+            if pieces > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let history = solve_observed_beyond(problem, until, observer)?;
+        self.pieces.get_or_init(|| counted.load(Ordering::Relaxed));
+        Ok(history)
     }
 
     /// Returns the values of each signal in `problem` at the times mapped by `at`, of a chain [`ASIDE`] of a step later.
@@ -176,7 +209,7 @@ impl<'a> Model<'a> {
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
         let aside = if problem.chain().is_some() { ASIDE * self.step } else { 0.0 };
         let times: Vec<f64> = self.times.iter().map(|time| at(*time) + aside).collect();
-        let history = solve_beyond(problem, times.iter().copied().fold(0.0, f64::max))?;
+        let history = self.solve_to(problem, times.iter().copied().fold(0.0, f64::max))?;
         let quantities = self.quantities();
         let from_start: Vec<f64> = times.iter().map(|time| time.max(0.0)).collect();
         let mut all = history.columns(&quantities, &from_start, Some(Side::Right))?;
@@ -255,10 +288,15 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`: zero for energies,
-    /// which do not count after the start. `None` where the rod does not start with a uniform velocity, bounces too
-    /// long, or has a signal that the march does not record.
-    pub(super) fn change_by_spring(&self, softness: f64) -> Option<Vec<Vec<f64>>> {
+    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`, or in a chain the
+    /// contact at `node`, or all rigid ones: zero for energies, which do not count after the start. `None` for a chain
+    /// without rigid contacts, and where a rod by itself does not start with a uniform velocity, bounces too long, or has
+    /// a signal that the march does not record.
+    pub(super) fn change_by_spring(&self, node: Option<usize>, softness: f64) -> Option<Vec<Vec<f64>>> {
+        if let Some((chain, _)) = self.problem.chain() {
+            let nodes = node.map_or_else(|| chain.rigid_contacts().collect(), |node| vec![node]);
+            return self.change_by_springs(&nodes, softness);
+        }
         let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
         let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
         let soft = march(softness)?;
@@ -271,6 +309,19 @@ impl<'a> Model<'a> {
             self.times.iter().map(change).collect()
         };
         self.signals.iter().map(change).collect()
+    }
+
+    fn change_by_springs(&self, nodes: &[usize], softness: f64) -> Option<Vec<Vec<f64>>> {
+        let value = |parameter: Parameter| parameter.value(self.problem);
+        let modulus = self.mass * value(Parameter::WaveSpeed)?.powi(2) / value(Parameter::Length)?;
+        let stiffness = format!("{:e}", modulus / softness).parse().ok()?;
+        let soft = self.problem.with_springs(nodes, &stiffness).ok()?.filter(|_| !nodes.is_empty())?;
+        let [mut all, rigid] = [&soft, self.problem].map(|problem| self.values(problem, |time| time).ok());
+        for ((values, rigid), signal) in all.as_mut()?.iter_mut().zip(&rigid?).zip(&self.signals) {
+            let is_energy = signal.model.measure() == Some(Measure::Energy);
+            values.iter_mut().zip(rigid).for_each(|(soft, rigid)| *soft = if is_energy { 0.0 } else { *soft - rigid });
+        }
+        all
     }
 }
 

@@ -1,16 +1,23 @@
-//! Symptoms that need no fit: empty columns, a lost start, an unstable energy, another mass, velocities between two
-//! steps, and fronts that are spread.
+//! Symptoms that need no fit: empty columns, a lost start, other units, another body, an unstable energy, another mass,
+//! velocities between two steps, and fronts that are spread.
 
 use super::agreement::Agreement;
 use super::hint::Hint;
+use super::model::Model;
 use super::norms::ComparedColumn;
 use super::reference::Reference;
+use super::wording::factor_question;
+use dalembert::Problem;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Measure, Quantity};
 use dalembert::{Error, Side};
 
 /// Largest share of ‖e‖₂ that an explanation may leave.
 pub(super) const LEFT: f64 = 0.5;
+/// Largest share of ‖e‖₂² that another body leaves whose columns the data are: a quarter of ‖e‖₂.
+const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
+/// Least factor of a column, or of its inverse, that is one of units.
+const OTHER_UNIT: f64 = 10.0;
 /// Smallest number of samples for a diagnosis.
 pub(super) const FEWEST: usize = 8;
 /// Rounding of values that are written with six digits.
@@ -63,6 +70,55 @@ pub(super) fn turned_axis(columns: &[ComparedColumn]) -> Option<Hint> {
         let text = format!("{} have the other sign: does the axis of the data point to the ground?", names.join(", "));
         Hint::new("axis", -1.0, text)
     })
+}
+
+/// Returns the hints at displacements, and at velocities, in another unit: all of them have about the same factor. A
+/// single column has a factor of its own.
+pub(super) fn other_units(columns: &[ComparedColumn], reference: &Reference<'_>) -> Vec<Hint> {
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let factor = |column: &&ComparedColumn| product(&column.ours, &column.theirs) / product(&column.ours, &column.ours);
+    let hint = |measure: Measure| {
+        let is_zero = |column: &&ComparedColumn| product(&column.ours, &column.ours) == 0.0;
+        let has_measure = |column: &&ComparedColumn| column.what.measure() == Some(measure);
+        let along: Vec<_> = columns.iter().filter(has_measure).filter(|column| !is_zero(column)).collect();
+        let mean = along.iter().map(factor).sum::<f64>() / along.len() as f64;
+        let is_other = mean.is_finite() && !(1.0 / OTHER_UNIT..=OTHER_UNIT).contains(&mean);
+        let fits = |column: &&ComparedColumn| {
+            let left: f64 = column.ours.iter().zip(&column.theirs).map(|(a, b)| (b - mean * a).powi(2)).sum();
+            left < LEFT * LEFT * product(&column.theirs, &column.theirs)
+        };
+        (along.len() > 1 && is_other && mean > 0.0 && along.iter().all(fits)).then(|| {
+            let names: Vec<&str> = along.iter().map(|column| column.what.name()).collect();
+            let question = factor_question(along[0].what, mean, LEFT * mean / OTHER_UNIT, reference);
+            let text = format!("{} × {}: {question}", names.join(", "), mean.decimal(4));
+            Hint::new("factor", mean, text)
+        })
+    };
+    [Measure::Length, Measure::Velocity].into_iter().filter_map(hint).collect()
+}
+
+/// Returns the hint at the displacements and velocities of another body of the chain in place of those of this one.
+pub(super) fn other_body(model: &Model<'_>) -> Option<Hint> {
+    let (chain, own) = model.problem.chain()?;
+    let is_along = |k: &usize| {
+        matches!(model.signals[*k].column.measure(), Some(Measure::Length | Measure::Velocity))
+            && !model.signals[*k].is_zero
+    };
+    let square = |problem: &Problem| {
+        let errors = model.errors(&model.values(problem, |time| time).ok()?);
+        let along = (0..errors.len()).filter(is_along);
+        Some(along.flat_map(|k| &errors[k]).map(|error| error * error).sum::<f64>())
+    };
+    let here = square(model.problem)?;
+    let is_clear = |body: &usize| {
+        let problem = chain.problem(*body).ok();
+        *body != own && problem.and_then(|problem| square(&problem)).is_some_and(|there| there < CLEAR * here)
+    };
+    // Data of a body that does as this one are no evidence.
+    let is_resolved = here > (model.step / 2.0).powi(2) * (model.times.len() * model.signals.len()) as f64;
+    let body = (0..chain.bodies().len()).filter(|_| is_resolved).find(is_clear)? + 1;
+    let text = format!("the columns are those of body {body}: are the bodies counted from the ground up?");
+    Some(Hint::new("other_body", body as f64, text))
 }
 
 /// Returns the hint at a mass that is not that of the scene: the kinetic energy before the first contact, which no

@@ -44,7 +44,7 @@ impl CauseFits<'_> {
                 let instead = if scene == 0.0 { "none".into() } else { scene.decimal(4) };
                 format!("damping r = {found} ± {error} where the scene has {instead}")
             }
-            Cause::SoftContact => soft_contact(p, error, reference),
+            Cause::SoftContact(node) => soft_contact((p, error), node, reference),
             Cause::EndMass => format!("the ends carry {off} of the mass of the rod besides: check end masses"),
             Cause::Clock => format!("clock off by {off}: check the step of time"),
             Cause::TimeShift => {
@@ -80,20 +80,25 @@ impl CauseFits<'_> {
     }
 }
 
-/// Returns the hint at a contact whose softness is this share of that of the rod.
-fn soft_contact(share: f64, error: f64, reference: &Reference<'_>) -> String {
+/// Returns the hint at a contact, or that at a node, whose softness is this share of that of the rod, within the error.
+fn soft_contact((share, error): (f64, f64), node: Option<usize>, reference: &Reference<'_>) -> String {
     let rod = reference.rod();
+    let chain = reference.history.problem().chain();
+    let place = node.zip(chain.as_ref()).map(|(node, (chain, _))| format!(", {}", chain.node_name(node)));
     let (softness, error) = (share * rod.length, error * rod.length);
-    let longer = (EXTENSION * softness / rod.wave_speed).decimal(3);
-    let (softness, error) = (softness.decimal(4), error.decimal(2));
+    let after = match chain {
+        // The contact of a chain ends by the waves of all of its bodies.
+        Some(_) => String::new(),
+        None => format!(", and the contact lasts longer by {}", (EXTENSION * softness / rod.wave_speed).decimal(3)),
+    };
+    let (place, softness, error) = (place.unwrap_or_default(), softness.decimal(4), error.decimal(2));
     format!(
-        "contact too soft (penalty): stiffness k with EA/k = {softness} ± {error}; the end penetrates, and the contact \
-         lasts longer by {longer}"
+        "contact too soft (penalty{place}): stiffness k with EA/k = {softness} ± {error}; the end penetrates{after}"
     )
 }
 
 /// Returns the questions about the known factors of a quantity that are near `factor`.
-fn factor_question(what: Quantity, factor: f64, error: f64, reference: &Reference<'_>) -> String {
+pub(super) fn factor_question(what: Quantity, factor: f64, error: f64, reference: &Reference<'_>) -> String {
     let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
     let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
     let known: Vec<&str> = known.map(|known| known.question).collect();

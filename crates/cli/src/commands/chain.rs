@@ -8,7 +8,7 @@ use crate::output::{Cell, Column, Dataset, Header, HistoryPart, Layout, RowWrite
 use crate::progress::Progress;
 use crate::source::nearest;
 use crate::terminal;
-use dalembert::chain::{ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
+use dalembert::chain::{Chain, ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
 use dalembert::number::{List, Value};
 use dalembert::quantity::{Measure, Quantity, Units};
 use dalembert::solve::Numbers;
@@ -242,6 +242,9 @@ impl ChainRows<'_> {
                 unknown_quantity(name, &known.collect::<Vec<_>>())
             })
         };
+        if let Some((_, name)) = self.names.iter().enumerate().find(|(k, name)| self.names[..*k].contains(name)) {
+            return Err(failure!("found --quantity {name} twice, expected each once"));
+        }
         let is_key = |name: &&String| matches!(name.as_str(), "t" | "side");
         let columns = self.names.iter().filter(|name| !is_key(name)).map(read);
         match self.names.is_empty() {
@@ -313,10 +316,10 @@ impl ChainRows<'_> {
     pub(crate) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
         let ChainRows { scene, numbers, .. } = self;
         let (chain, columns) = (&scene.chain, self.columns()?);
-        let latest = self.times.as_ref().and_then(List::greatest).filter(|time| time.compare(chain.until()).is_gt());
-        let until = latest.map_or_else(|| Ok(chain.clone()), |latest| chain.with_until(latest))?;
+        let latest = self.times.as_ref().and_then(List::greatest);
+        let run = latest.as_ref().map_or_else(|| Ok(chain.clone()), |latest| reaching(chain, latest))?;
         let progress = Progress::of_chain();
-        let history = until.solve_observed(*numbers, progress.observer())?;
+        let history = run.solve_observed(*numbers, progress.observer())?;
         let times = self.row_times(&history)?;
         progress.set_stage("values of the answer");
         let heads: Vec<Column> = [key(scene, Quantity::Time), key(scene, Quantity::Side)]
@@ -341,10 +344,32 @@ impl ChainRows<'_> {
             Some(_) => None,
             None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
         };
-        let header = Header::of_chain((scene, until.until().to_f64()), *numbers, warnings(&history), ends);
+        let header = Header::of_chain(
+            (scene, latest.as_ref().unwrap_or(chain.until()).to_f64()),
+            *numbers,
+            warnings(&history),
+            ends,
+        );
         let below = format!("\n{}", unit_line(scene, &measures));
         let layout = Layout { below, keys: (!self.wide).then_some(2) };
         writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
+    }
+}
+
+/// Share of the latest time by which a run goes beyond it, so that an event at this time is not at the end of the run.
+const BEYOND: f64 = 1.0 / 16.0;
+
+/// Returns the chain with a last time that the run needs to answer up to `latest`.
+fn reaching(chain: &Chain, latest: &Number) -> Result<Chain, Failure> {
+    let until = chain.until();
+    if latest.compare(until).is_gt() {
+        return Ok(chain.with_until(latest.clone())?);
+    }
+    // A run has a last time above zero.
+    let enough = (latest.to_f64() * (1.0 + BEYOND)).max(until.to_f64() * f64::EPSILON);
+    match enough.to_string().parse::<Number>() {
+        Ok(enough) if enough.compare(until).is_lt() => Ok(chain.with_until(enough)?),
+        _ => Ok(chain.clone()),
     }
 }
 

@@ -170,15 +170,21 @@ impl RowWriter {
     }
 
     fn bound(&self, value: &Value) -> Bound {
-        bound(self.format, self.digits, value)
+        match self.format {
+            Format::Table => value.bound_to_digits(self.table_digits()),
+            format => bound(format, self.digits, value),
+        }
+    }
+
+    /// Returns the greatest number of digits in a table: beside bounds all that a double has.
+    fn table_digits(&self) -> u32 {
+        if self.with_bounds { shown_digits(self.digits) } else { table_digits(self.digits) }
     }
 
     /// Returns the text of a cell of a table in a column with numbers up to `greatest`.
     fn text(&self, kind: Kind, cell: &Cell, greatest: f64) -> String {
         match (cell, kind) {
-            (Cell::Number(value), Kind::Number | Kind::Word) => {
-                value.to_digits_beside(table_digits(self.digits), greatest)
-            }
+            (Cell::Number(value), Kind::Number | Kind::Word) => value.to_digits_beside(self.table_digits(), greatest),
             (Cell::Number(value), Kind::Bound) => self.bound(value).to_string(),
             (Cell::Number(value), Kind::Side) => side_word(value).into(),
             (Cell::Number(value), Kind::Flag) => flag(value).into(),

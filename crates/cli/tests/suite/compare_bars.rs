@@ -130,3 +130,73 @@ fn values_of_a_chain_are_causes() {
     }
     assert!(hints("gap = 0.01", "gap = 0.01").is_empty());
 }
+
+/// Two bars of different stiffness fall on the ground, the upper one from higher up.
+const FALL: &str = "[[body]]\nlength = 1\nmodulus = 100\ndensity = 1\nvelocity = -1\n\
+    [[body]]\nlength = 1.5\nmodulus = 144\ndensity = 1\narea = 1.5\nvelocity = -1\ngap = 0.25\nJOINT\
+    [ends]\nbottom = { gap = 0.2 GROUND }\n[gravity]\nacceleration = 5\n[run]\ntime = 0.55\n";
+const COLUMNS: &str = "u_end.1,v_end.1,u_top.1,v_top.1,u_end.2,v_end.2,u_top.2,v_top.2,force.bottom,force.1";
+
+/// Returns the hints of both bars for the exact data of the scene with these springs, each with its value; `renamed`
+/// changes the table.
+fn hints_of_fall(joint: &str, ground: &str, changed: impl Fn(String) -> String) -> [Vec<(String, f64)>; 2] {
+    let folder = Folder::new();
+    let scene = |joint: &str, ground: &str| FALL.replace("JOINT", joint).replace("GROUND", ground);
+    folder.write("rigid.toml", scene("", ""));
+    folder.write("soft.toml", scene(joint, ground));
+    let times = ["--times", "0..0.55:551", "--side", "right", "--bare", "--format", "csv"];
+    let data = folder.run(&[&["sample", "soft.toml", "--quantity", COLUMNS][..], &times].concat()).text(0);
+    folder.write("run.csv", changed(data));
+    let report = folder.json(&["compare", "rigid.toml", "run.csv"]);
+    [0, 1].map(|body| {
+        let hints = report["bodies"][body]["files"][0]["hints"].as_array().unwrap();
+        let hint = |hint: &Value| (hint["text"].as_str().unwrap().to_string(), hint["value"].as_f64().unwrap());
+        hints.iter().map(hint).collect()
+    })
+}
+
+/// A contact that yields is named by its place, with `EA/kL` of either bar: 100/1000 and 144 · 1.5/1000/1.5.
+#[test]
+fn soft_contacts_of_a_chain_are_named() {
+    let (joint, ground) = ("joint = { stiffness = 1000 }\n", ", stiffness = 500");
+    for (joint, ground, place, shares) in [(joint, "", "joint 1", [0.1, 0.144]), ("", ground, "bottom", [0.2, 0.288])] {
+        for (found, share) in hints_of_fall(joint, ground, |data| data).iter().zip(shares) {
+            let (text, value) = &found[0];
+            assert!(text.starts_with(&format!("contact too soft (penalty, {place})")), "{found:?}");
+            assert!((value - share).abs() < 0.32 * share, "{share}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn bars_in_another_order_are_named() {
+    let swapped = |data: String| {
+        let (head, rows) = data.split_once('\n').unwrap();
+        let head = head.replace(".1", ".x").replace(".2", ".1").replace(".x", ".2").replace("force.2", "force.1");
+        format!("{head}\n{rows}")
+    };
+    let texts = hints_of_fall("", "", swapped).map(|found| found[0].0.clone());
+    let text = |body: u32| format!("the columns are those of body {body}: are the bodies counted from the ground up?");
+    assert_eq!(texts, [text(2), text(1)]);
+    assert_eq!(hints_of_fall("", "", |data| data), [vec![], vec![]]);
+}
+
+#[test]
+fn displacements_in_another_unit_are_named() {
+    let in_millimetres = |data: String| {
+        let (head, rows) = data.split_once('\n').unwrap();
+        let is_displacement: Vec<bool> = head.split(',').map(|name| name.starts_with("u_")).collect();
+        let row = |row: &str| {
+            let cell = |(cell, of_u): (&str, &bool)| match of_u {
+                true => (cell.parse::<f64>().unwrap() * 1000.0).to_string(),
+                false => cell.to_string(),
+            };
+            row.split(',').zip(&is_displacement).map(cell).collect::<Vec<_>>().join(",")
+        };
+        format!("{head}\n{}\n", rows.lines().map(row).collect::<Vec<_>>().join("\n"))
+    };
+    for found in hints_of_fall("", "", in_millimetres) {
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].0.starts_with("u_end, u_top × 1000: is it in thousandths of the unit"), "{found:?}");
+    }
+}

@@ -1,6 +1,6 @@
 //! First steps that newcomers were held up by.
 
-use dalembert::Parameter;
+use dalembert::{Number, Parameter, Rational};
 
 use crate::command::{Folder, Run, json, quiet, refused, refused_with, run, run_with};
 
@@ -244,5 +244,42 @@ fn a_damped_rod_at_rest_stays_where_it_is() {
     for numbers in [&[][..], &["--digits", "30"]] {
         let Run { out, .. } = run_with(&[&["solve", "-"], numbers].concat(), scene);
         assert!(out.contains("no bounce: neither speed nor gravity: nothing moves"), "{out}");
+    }
+}
+
+/// Two equal bars that meet again and again between two stops.
+const BARS: &str = "body = [{ length = 1, wave_speed = 1, impedance = 1, velocity = 1 },\n\
+                    { length = 1, wave_speed = 1, impedance = 1, gap = 1 }]\n\
+                    ends = { bottom = { gap = 1 }, top = { gap = 1 } }\nrun = { time = 1000, pieces = 60 }\n";
+
+/// A run goes as far as the times that are asked for, and no piece beyond its limit.
+#[test]
+fn early_times_need_no_long_run() {
+    let sampled = ["sample", "-", "--times", "1.5", "--quantity", "force.1", "--format", "csv", "--bare"];
+    assert_eq!(run_with(&sampled, BARS).out, "t,side,force.1\n1.5,right,0.5\n");
+    refused_with(&["solve", "-"], BARS, &["passed 60 pieces"]);
+    let soft = BARS.replace("gap = 1 }]", "gap = 1, joint = { stiffness = 9 } }]").replace("= 1000", "= 20");
+    refused_with(&["solve", "-"], &soft, &["passed 60 pieces"]);
+    run_with(&["solve", "-"], &soft.replace("pieces = 60", "pieces = 6000"));
+}
+
+#[test]
+fn columns_of_a_chain_are_named_once() {
+    refused_with(&["sample", "-", "--quantity", "force.1,force.1"], BARS, &["found --quantity force.1 twice"]);
+    let scene = BARS.replace("gap = 1 }]", "gap = 1 }, { mass = 1, gap = 1, velocity = 1e41 }]");
+    refused_with(&["solve", "-"], &scene, &["velocity = 1e41"]);
+}
+
+/// The bound beside a number of a table is that of the printed digits: 7/170 has more of them.
+#[test]
+fn bounds_in_tables_hold_for_what_is_printed() {
+    let args = ["sample", "openfoam-7-1-2", "--times", "0.2", "--quantity", "force.1", "--uncertainty"];
+    for more in [&[][..], &["--certified"]] {
+        let table = run(&[&args[..], more].concat()).out;
+        let cells: Vec<&str> = table.split_whitespace().skip_while(|cell| !cell.starts_with("0.041")).collect();
+        let [printed, bound] =
+            [cells[0], cells[cells.len() - 1]].map(|cell| cell.parse::<Number>().unwrap().to_rational());
+        let off = printed - Rational::from(7) / Rational::from(170);
+        assert!(off.clone() * &off <= bound.clone() * &bound && off != Rational::from(0), "{table}");
     }
 }
