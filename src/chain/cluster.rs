@@ -83,7 +83,7 @@ struct Output<N> {
 
 /// Changes of a contact that a step ends with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Change {
+pub(super) enum Change {
     Close,
     Release,
     Return,
@@ -431,7 +431,7 @@ impl<N: Bounded> Cluster<N> {
                     vec![(Change::Return, whole(gap.clone())), (Change::Close, whole(pull))]
                 }
             };
-            let (mut ends_at_zero, before) = (false, found.len());
+            let (mut ends_at_zero, before) = (None, found.len());
             for (change, (curve, skipped)) in watched {
                 let (fall, doubt) = first_fall(&curve).map_err(|Open| Stop::Open)?;
                 if doubt {
@@ -439,12 +439,15 @@ impl<N: Bounded> Cluster<N> {
                 }
                 match fall {
                     Fall::After(at) => found.push((j, change, Moment::new(at + &skipped))),
-                    Fall::AtEnd => ends_at_zero = true,
+                    Fall::AtEnd => ends_at_zero = Some(change),
                     Fall::None => {}
                 }
             }
-            let is_at_once = found[before..].iter().any(|(_, _, at)| is_exact_zero(&at.at));
-            if std::mem::replace(&mut self.interfaces[j].grazes, ends_at_zero) && !is_at_once {
+            // Only the change whose function was zero within its bound at the end of the last step settles that zero.
+            let graze = std::mem::replace(&mut self.interfaces[j].grazes, ends_at_zero);
+            let settles =
+                |(_, change, at): &(usize, Change, Moment<N>)| Some(*change) == graze && is_exact_zero(&at.at);
+            if graze.is_some() && !found[before..].iter().any(settles) {
                 self.doubts();
             }
         }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cluster::Change;
 use super::curve::{Curve, Signal, upper};
 use super::exact::{Exact, exact_sum};
 use super::law::{Law, Mix};
@@ -314,8 +315,8 @@ pub(super) struct Interface<N> {
     pub(super) is_fresh: bool,
     /// Whether the gap is exactly zero: it has been since the start, or the contact has just closed.
     pub(super) touches: bool,
-    /// Whether the function that is watched for an event was zero within its bound at the end of the step before.
-    pub(super) grazes: bool,
+    /// The change whose function was zero within its bound at the end of the step before.
+    pub(super) grazes: Option<Change>,
     /// Energy that the dashpot has taken up.
     pub(super) dissipated: N,
     /// `y` just before the time that is reached.
@@ -347,7 +348,7 @@ impl<N: Bounded> Interface<N> {
             gap_error,
             is_fresh: false,
             touches,
-            grazes: false,
+            grazes: None,
             dissipated: zero.zero(),
             drive: zero,
             stages: Vec::new(),
