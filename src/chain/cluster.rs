@@ -389,8 +389,7 @@ impl<N: Bounded> Cluster<N> {
         solved: Solved<'_, N>,
         series: Option<&Series<N>>,
     ) -> Result<Vec<(usize, Change, Moment<N>)>, Stop> {
-        let (mut found, mut falls) = (Vec::new(), Vec::new());
-        let step = solved.1;
+        let (mut found, mut falls, step) = (Vec::new(), Vec::new(), solved.1);
         for (j, output) in outputs.iter().enumerate() {
             if self.interfaces[j].law != Law::Contact {
                 continue;
@@ -445,8 +444,7 @@ impl<N: Bounded> Cluster<N> {
             }
             // Only the change whose function was zero within its bound at the end of the last step settles that zero.
             let graze = std::mem::replace(&mut self.interfaces[j].grazes, ends_at_zero);
-            let settles =
-                |(_, change, at): &(usize, Change, Moment<N>)| Some(*change) == graze && is_exact_zero(&at.at);
+            let settles = |found: &(usize, Change, Moment<N>)| Some(found.1) == graze && is_exact_zero(&found.2.at);
             if graze.is_some() && !found[before..].iter().any(settles) {
                 self.doubts();
             }
