@@ -365,6 +365,9 @@ fn reaching(chain: &Chain, latest: &Number) -> Result<Chain, Failure> {
     if latest.compare(until).is_gt() {
         return Ok(chain.with_until(latest.clone())?);
     }
+    if latest.to_f64() < 0.0 {
+        return Ok(chain.clone());
+    }
     // A run has a last time above zero.
     let enough = (latest.to_f64() * (1.0 + BEYOND)).max(until.to_f64() * f64::EPSILON);
     match enough.to_string().parse::<Number>() {
