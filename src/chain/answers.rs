@@ -50,8 +50,8 @@ pub(super) trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
     fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
-    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits. In numbers
-    /// longer than doubles, a jump that agrees with an event within their bounds is at the event.
+    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits. A jump
+    /// that agrees with an event to 19 digits within the bounds of both is at the event.
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
     /// Returns the field at a point; where a ray is not told from it, the bounds cover both limits.
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;

@@ -305,8 +305,8 @@ impl ChainHistory {
     }
 
     /// Returns the value of a column at an event of the [`listing`](ChainHistory::listing); at a jump, the limit from
-    /// `side`, or both where no attempt tells the event from another jump. In numbers longer than doubles, a jump that
-    /// agrees with the event within their bounds is at the event.
+    /// `side`, or both where no attempt tells the event from another jump. A jump that agrees with the event to
+    /// 19 digits within the bounds of both is at the event.
     ///
     /// **Errors**: [`Error::Open`] if no attempt has this event.
     ///

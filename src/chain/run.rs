@@ -7,7 +7,7 @@ use super::march::SOFT;
 use super::node::{Gap, Stage};
 use super::peak::highest;
 use super::start::Bar;
-use super::wave::{Limit, Wave, either, indices_near, may_jump, smooth_value};
+use super::wave::{Limit, Wave, either, indices_at, may_jump, smooth_value};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Side};
 use crate::number::{Bounded, Open, is_exact_zero};
@@ -381,7 +381,7 @@ impl<N: Bounded> ChainRun<N> {
     fn stages(&self, node: usize, time: &N, limit: Limit) -> Result<&[Stage<N>], Error> {
         self.check_time(time)?;
         let stages = &self.nodes[node];
-        stages.get(indices_near(stages, |stage| &stage.from, time, limit)).ok_or(Error::Open(Open))
+        stages.get(indices_at(stages, |stage| &stage.from, time, limit)).ok_or(Error::Open(Open))
     }
 
     /// Refuses times outside of the run.

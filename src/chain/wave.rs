@@ -170,7 +170,7 @@ impl<N: Bounded> Wave<N> {
 
     /// Returns the indices of the pieces that a time may lie in, as the limit from `side`.
     pub(super) fn pieces_at(&self, time: &N, side: Side) -> RangeInclusive<usize> {
-        indices_at(&self.pieces, |piece| &piece.from, time, side)
+        indices_at(&self.pieces, |piece| &piece.from, time, Limit::at(side))
     }
 
     /// Returns value and integral of the wave at a time, as the limit from `side`.
@@ -185,7 +185,7 @@ impl<N: Bounded> Wave<N> {
     /// Returns value and integral of the wave at a time, as [`Wave::at`] does: a value that covers both limits where it
     /// is undecided on which side of a jump the time is.
     pub(super) fn within(&self, time: &N, limit: Limit) -> (N, N) {
-        let near = indices_near(&self.pieces, |piece| &piece.from, time, limit);
+        let near = indices_at(&self.pieces, |piece| &piece.from, time, limit);
         let values = self.pieces[near.clone()].iter().map(|piece| piece.signal.value_at(time));
         (either(values).unwrap_or_else(|| time.zero()), self.sum_within(near, time))
     }
@@ -258,6 +258,9 @@ impl Limit {
     }
 }
 
+/// Agreement of two times, as `log₂` of their distance over the time, from which on a break counts as at an event.
+const AT_EVENT: f64 = -64.0;
+
 /// Returns the index of the last item that has begun at a time, as the limit from a side. `undecided` is the answer
 /// where the errors of a beginning leave it open. Each item lasts until the next begins, and the first has begun.
 fn last_begun<T, N: Bounded>(items: &[T], from: impl Fn(&T) -> &N, (time, side): (&N, Side), undecided: bool) -> usize {
@@ -269,31 +272,24 @@ fn last_begun<T, N: Bounded>(items: &[T], from: impl Fn(&T) -> &N, (time, side):
     begun.max(1) - 1
 }
 
-/// Returns the indices of the items that a time may lie in, as the limit from `side`: several where the errors of
-/// beginnings leave it undecided.
+/// Returns the indices of the items that a time may lie in: several where the errors of beginnings leave it undecided. A
+/// beginning that agrees with an event to [`AT_EVENT`], as none does in doubles, is at the event.
 pub(super) fn indices_at<T, N: Bounded>(
-    items: &[T],
-    from: impl Fn(&T) -> &N + Copy,
-    time: &N,
-    side: Side,
-) -> RangeInclusive<usize> {
-    let last = |undecided: bool| last_begun(items, from, (time, side), undecided);
-    last(false)..=last(true)
-}
-
-/// Returns [`indices_at`]. In numbers longer than doubles, beginnings that agree with an event within their bounds are at
-/// the event.
-pub(super) fn indices_near<T, N: Bounded>(
     items: &[T],
     from: impl Fn(&T) -> &N + Copy,
     time: &N,
     Limit { side, is_event }: Limit,
 ) -> RangeInclusive<usize> {
-    if is_event && time.log2_roundoff() < DOUBLE_ROUNDOFF {
-        let piece = last_begun(items, from, (time, side), side == Side::Right);
-        return piece..=piece;
+    let [first, last] = [false, true].map(|undecided| last_begun(items, from, (time, side), undecided));
+    let is_at = |item: &T| {
+        let apart = (time.clone() - from(item)).magnitude();
+        (apart.to_f64() + apart.log2_error().exp2()).log2() <= AT_EVENT + time.to_f64().log2()
+    };
+    if LONG && is_event && first < last && items[first + 1..=last].iter().all(is_at) {
+        let at = if side == Side::Left { first } else { last };
+        return at..=at;
     }
-    indices_at(items, from, time, side)
+    first..=last
 }
 
 /// Returns the index of the item that a time lies in, as the limit from `side`.
@@ -305,7 +301,7 @@ pub(super) fn index_at<T, N: Bounded>(
     time: &N,
     side: Side,
 ) -> Result<usize, Open> {
-    let near = indices_at(items, from, time, side);
+    let near = indices_at(items, from, time, Limit::at(side));
     if near.start() == near.end() { Ok(*near.start()) } else { Err(Open) }
 }
 
@@ -346,7 +342,8 @@ pub(super) fn may_jump<T, N: Bounded>(
     part: impl for<'a> Fn(&'a T) -> (&'a N, &'a Signal<N>),
     time: &N,
 ) -> Result<bool, Open> {
-    let [before, after] = [Side::Left, Side::Right].map(|side| indices_at(items, |item| part(item).0, time, side));
+    let [before, after] =
+        [Side::Left, Side::Right].map(|side| indices_at(items, |item| part(item).0, time, Limit::at(side)));
     let near = &items[*before.start()..=*after.end()];
     if near.len() == 1 {
         return Ok(false);
