@@ -258,7 +258,7 @@ impl Limit {
     }
 }
 
-/// Agreement of two times, as `log₂` of their distance over the time, from which on a break counts as at an event.
+/// Greatest distance of a break that counts as at an event, as `log₂` of its share of the time.
 const AT_EVENT: f64 = -64.0;
 
 /// Returns the index of the last item that has begun at a time, as the limit from a side. `undecided` is the answer
@@ -273,7 +273,7 @@ fn last_begun<T, N: Bounded>(items: &[T], from: impl Fn(&T) -> &N, (time, side):
 }
 
 /// Returns the indices of the items that a time may lie in: several where the errors of beginnings leave it undecided. A
-/// beginning that agrees with an event to [`AT_EVENT`], as none does in doubles, is at the event.
+/// beginning within `2^AT_EVENT` of the time of an event, as none is in doubles, is at the event.
 pub(super) fn indices_at<T, N: Bounded>(
     items: &[T],
     from: impl Fn(&T) -> &N + Copy,

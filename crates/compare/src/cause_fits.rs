@@ -32,7 +32,7 @@
 use super::cause::Cause;
 use super::hint::Detectable;
 use super::model::Model;
-use super::symptoms::LEFT;
+use super::symptoms::{CLEAR, LEFT};
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
 
@@ -76,8 +76,6 @@ const MAX_TRIP_RATIO: f64 = 32.0;
 pub(super) const NO_GRAVITY: f64 = 0.009;
 /// Factor of the ‖e‖₂² that the best cause leaves, up to which another cause explains the data about as well.
 const ABOUT_EQUAL: f64 = 2.0;
-/// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
-const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 /// Largest share of ‖e‖₂² that damping leaves where it is not the dissipation of a scheme. Most exact data of another
 /// damping leave less, upwind differences some hundredths.
 pub(super) const LEFT_BY_DAMPING: f64 = 4e-3;
@@ -155,11 +153,7 @@ impl CauseFits<'_> {
         match cause {
             Cause::Value(_) | Cause::Damping => model.values(&self.problem_with(cause, p)?, |time| time).ok(),
             Cause::SoftContact(node) => {
-                let mut all = model.change_by_spring(node, p * Parameter::Length.value(model.problem)?)?;
-                for (values, exact) in all.iter_mut().zip(&self.exact) {
-                    values.iter_mut().zip(exact).for_each(|(value, exact)| *value += exact);
-                }
-                Some(all)
+                model.with_spring(node, p * Parameter::Length.value(model.problem)?, &self.exact)
             }
             Cause::EndMass => model.with_end_mass(p).ok(),
             Cause::Clock => self.reintegrated(model.values(model.problem, |time| time / (1.0 + p)).ok()?, 1.0 + p),

@@ -288,40 +288,42 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns the change of each signal where the ground is a spring of stiffness `EA/softness`, or in a chain the
-    /// contact at `node`, or all rigid ones: zero for energies, which do not count after the start. `None` for a chain
-    /// without rigid contacts, and where a rod by itself does not start with a uniform velocity, bounces too long, or has
-    /// a signal that the march does not record.
-    pub(super) fn change_by_spring(&self, node: Option<usize>, softness: f64) -> Option<Vec<Vec<f64>>> {
-        if let Some((chain, _)) = self.problem.chain() {
-            let nodes = node.map_or_else(|| chain.rigid_contacts().collect(), |node| vec![node]);
-            return self.change_by_springs(&nodes, softness);
-        }
-        let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
-        let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
-        let soft = march(softness)?;
-        let change = |signal: &Signal| {
-            if signal.model.measure() == Some(Measure::Energy) {
-                return Some(vec![0.0; self.times.len()]);
-            }
-            let factor = if signal.model == Quantity::Impulse { self.mass } else { 1.0 };
-            let change = |time: &f64| Some(factor * (soft.at(signal.model, *time)? - rigid.at(signal.model, *time)?));
-            self.times.iter().map(change).collect()
-        };
-        self.signals.iter().map(change).collect()
-    }
-
-    fn change_by_springs(&self, nodes: &[usize], softness: f64) -> Option<Vec<Vec<f64>>> {
+    /// Returns each signal where the ground is a spring of stiffness `EA/softness`, or in a chain the contact at `node`, or
+    /// all rigid ones. Energies, which do not count after the start, are those of `exact`, the signals of the scene as it
+    /// is. `None` for a chain without rigid contacts, and where a rod by itself does not start with a uniform velocity,
+    /// bounces too long, or has a signal that the march does not record.
+    pub(super) fn with_spring(&self, node: Option<usize>, softness: f64, exact: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let Some((chain, _)) = self.problem.chain() else { return self.marched(softness, exact) };
+        let nodes: Vec<usize> = node.map_or_else(|| chain.rigid_contacts().collect(), |node| vec![node]);
         let value = |parameter: Parameter| parameter.value(self.problem);
         let modulus = self.mass * value(Parameter::WaveSpeed)?.powi(2) / value(Parameter::Length)?;
         let stiffness = format!("{:e}", modulus / softness).parse().ok()?;
-        let soft = self.problem.with_springs(nodes, &stiffness).ok()?.filter(|_| !nodes.is_empty())?;
-        let [mut all, rigid] = [&soft, self.problem].map(|problem| self.values(problem, |time| time).ok());
-        for ((values, rigid), signal) in all.as_mut()?.iter_mut().zip(&rigid?).zip(&self.signals) {
-            let is_energy = signal.model.measure() == Some(Measure::Energy);
-            values.iter_mut().zip(rigid).for_each(|(soft, rigid)| *soft = if is_energy { 0.0 } else { *soft - rigid });
+        let soft = self.problem.with_springs(&nodes, &stiffness).ok()?.filter(|_| !nodes.is_empty())?;
+        let mut all = self.values(&soft, |time| time).ok()?;
+        for (k, signal) in self.signals.iter().enumerate() {
+            if signal.model.measure() == Some(Measure::Energy) {
+                all[k].clone_from(&exact[k]);
+            }
         }
-        all
+        Some(all)
+    }
+
+    /// Returns each signal of a rod by itself on a spring ground: those of `exact`, changed as the march changes.
+    fn marched(&self, softness: f64, exact: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
+        let march = |softness: f64| SpringContact::solve(self.problem, softness, self.times.last().copied()?);
+        let rigid = self.rigid.get_or_init(|| march(0.0)).as_ref()?;
+        let soft = march(softness)?;
+        let marched = |(signal, exact): (&Signal, &Vec<f64>)| {
+            if signal.model.measure() == Some(Measure::Energy) {
+                return Some(exact.clone());
+            }
+            let factor = if signal.model == Quantity::Impulse { self.mass } else { 1.0 };
+            let value = |(time, exact): (&f64, &f64)| {
+                Some(factor * (soft.at(signal.model, *time)? - rigid.at(signal.model, *time)?) + exact)
+            };
+            self.times.iter().zip(exact).map(value).collect()
+        };
+        self.signals.iter().zip(exact).map(marched).collect()
     }
 }
 

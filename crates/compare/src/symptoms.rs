@@ -14,8 +14,8 @@ use dalembert::{Error, Side};
 
 /// Largest share of ‖e‖₂ that an explanation may leave.
 pub(super) const LEFT: f64 = 0.5;
-/// Largest share of ‖e‖₂² that another body leaves whose columns the data are: a quarter of ‖e‖₂.
-const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
+/// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
+pub(super) const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 /// Least factor of a column, or of its inverse, that is one of units.
 const OTHER_UNIT: f64 = 10.0;
 /// Smallest number of samples for a diagnosis.
