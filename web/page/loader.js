@@ -14,7 +14,7 @@ function decoded(text) {
 }
 
 /**
- * Decompresses a raw LZMA stream with lc = 4, lp = 0 and pb = 0 to `size` bytes. The format is that of the LZMA
+ * Decompresses a raw LZMA stream with lc = 1, lp = 0 and pb = 0 to `size` bytes. The format is that of the LZMA
  * specification of the 7-zip project: a range coder with adaptive bits, whose contexts lie one after the other in
  * `chances`.
  */
@@ -23,7 +23,7 @@ function decompressed(data, size) {
   // Contexts, each from its first index: twelve states for six kinds of bits, distances, lengths, literals.
   const [MATCH, REPEAT, FIRST, SECOND, THIRD, LONG, SLOT, DISTANCE, ALIGN, LENGTH, AGAIN, LITERAL] =
     [0, 12, 24, 36, 48, 60, 72, 328, 443, 459, 733, 1007];
-  const chances = new Uint16Array(LITERAL + 16 * 0x300).fill(1024);
+  const chances = new Uint16Array(LITERAL + 2 * 0x300).fill(1024);
   // The first byte is zero.
   let [range, code, at] = [2 ** 32 - 1, 0, 5];
   for (let k = 1; k < 5; k += 1) code = code * 256 + data[k];
@@ -86,7 +86,7 @@ function decompressed(data, size) {
   let [state, end, last] = [0, 0, [0, 0, 0, 0]];
   while (end < size) {
     if (!bit(MATCH + state)) {
-      const from = LITERAL + 0x300 * (end ? out[end - 1] >> 4 : 0);
+      const from = LITERAL + 0x300 * (end ? out[end - 1] >> 7 : 0);
       let letter = 1;
       // After a match, the byte that would have continued it selects the contexts as long as its bits agree.
       for (let known = state < 7 ? -1 : out[end - last[0] - 1]; known >= 0 && letter < 256;) {
@@ -128,9 +128,10 @@ function run(type, textContent) {
 try {
   const { textContent, dataset } = document.getElementById("packed");
   const ends = dataset.ends.split(" ").map(Number);
-  const bytes = decompressed(decoded(textContent), ends[3]);
-  const [body, glue, script] = [0, ...ends].slice(0, 3).map((from, k) => new TextDecoder().decode(bytes.slice(from, ends[k])));
-  globalThis.unpacked = { glue, module: bytes.slice(ends[2]).buffer };
+  const bytes = decompressed(decoded(textContent), ends.at(-1));
+  const parts = ends.map((end, k) => bytes.slice(ends[k - 1] ?? 0, end));
+  const [body, glue, script] = parts.splice(0, 3).map((part) => new TextDecoder().decode(part));
+  globalThis.unpacked = { glue, parts };
   document.body.insertAdjacentHTML("afterbegin", body);
   run("", glue);
   run("module", script);

@@ -2,6 +2,7 @@
 import { CHAINS, PRESETS } from "./presets.js";
 import { chainFragment, command, fragment, read, readChain, scene, toml, value } from "./scene.js";
 import { Engine } from "./engine.js";
+import { joined } from "./module.js";
 import { Diagram, sized } from "./diagram.js";
 import { Sliders } from "./sliders.js";
 
@@ -558,7 +559,7 @@ const sliders = new Sliders($("sliders"), async () => {
   if (shot && !playing) settle();
 });
 try {
-  await engine.load(unpacked.module, unpacked.glue);
+  await engine.load(joined(unpacked.parts), unpacked.glue);
   await open();
   listen();
 } catch (error) {

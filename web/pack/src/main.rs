@@ -1,6 +1,8 @@
 //! Assembles the page: `pack WASM PAGE OUT` reads the module that cargo has built and the folder with the sources of
 //! the page, and writes one HTML file that loads no other.
 
+mod module;
+
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -8,6 +10,8 @@ use std::path::Path;
 use anyhow::{Context, Result, bail};
 use lzma_rust2::{LzmaOptions, LzmaWriter};
 use wasm_bindgen_cli_support::Bindgen;
+
+use module::Streams;
 
 /// Maximum size of the page.
 const MAX_BYTES: usize = 750_000;
@@ -25,13 +29,15 @@ fn main() -> Result<()> {
     let style = code(&read("style.css")?).replace(" {", "{");
     let body = format!("<style>\n{style}</style>\n{}", code(&read("body.html")?));
     let (glue, script) = (code(bound.js()), modules(&read)?);
-    let whole = [body.as_bytes(), glue.as_bytes(), script.as_bytes(), &module].concat();
-    let packed = compressed(&whole)?;
+    let streams = Streams::split(&module)?;
+    let parts = [&[body.as_bytes(), glue.as_bytes(), script.as_bytes()], &streams.ordered()[..]].concat();
+    let packed = compressed(&parts.concat())?;
     let mut end = 0;
-    let ends = [body.len(), glue.len(), script.len(), module.len()].map(|length| {
-        end += length;
+    let ends = parts.iter().map(|part| {
+        end += part.len();
         end.to_string()
     });
+    let ends: Vec<String> = ends.collect();
     let (ends, text) = (ends.join(" "), encoded(&packed));
 
     let mut html = code(&read("index.html")?);
@@ -60,7 +66,7 @@ fn main() -> Result<()> {
 /// Compresses by LZMA, without a header; the function `decompressed` of the page knows the properties.
 fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
     let nice_len = LzmaOptions::NICE_LEN_MAX;
-    let options = LzmaOptions { lc: 4, lp: 0, pb: 0, nice_len, ..LzmaOptions::with_preset(9) };
+    let options = LzmaOptions { lc: 1, lp: 0, pb: 0, nice_len, ..LzmaOptions::with_preset(9) };
     let mut writer = LzmaWriter::new_no_header(Vec::new(), &options, false)?;
     writer.write_all(bytes)?;
     Ok(writer.finish()?)
