@@ -2,13 +2,12 @@
 //!
 //! The states are the velocities of the masses and the gaps. While no contact changes, they solve a linear equation
 //! with constant coefficients, `x′ = Mx + Bu`, for arriving signals `u` that are polynomials. The solution is a Taylor
-//! polynomial on each step; in a single state that decays much faster than the signals change, it is the polynomial
-//! solution and an exponential.
+//! polynomial on each step; the gap of a stiff spring, once it has decayed, follows the others at once.
 //!
 //! **Errors**: the distance of the stored states from the true ones is bounded in the norm of the energy, `Σ mV² + Σ k
 //! gap²` over masses and loaded springs. An error of the arriving signals does work of at most `Z e²/4` per unit of
-//! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A
-//! single state is bounded by the greater of its error before and that of its input.
+//! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A state
+//! that decays is also bounded by the greater of its error before and that of all that acts on it.
 
 use std::sync::Arc;
 
@@ -30,8 +29,8 @@ pub(super) struct Mass<N> {
     pub(super) body: usize,
     /// The velocity at the time that is reached, an exact number.
     pub(super) velocity: N,
-    /// Bound of the error of the velocity at the start.
-    error: N,
+    /// Bound of the error of the velocity at the time that is reached.
+    pub(super) error: N,
     /// Whether the velocity is exactly that of the start.
     pub(super) is_still: bool,
     /// `1/m` and `√m`.
@@ -51,8 +50,8 @@ pub(super) struct Cluster<N> {
     pub(super) until: Moment<N>,
     /// Bound of the error of the states, in the norm of the energy.
     pub(super) norm: N,
-    /// The norm of a single state that decays, before a step, and the bound that it decays to.
-    pub(super) fading: Option<(N, N)>,
+    /// The bounds of the states that act back before a step, and those that they decay to or grow by.
+    pub(super) fading: Vec<(N, N)>,
     /// The natural speed of the chain.
     pub(super) speed: N,
     /// One rounding, relative to the number.
@@ -62,9 +61,9 @@ pub(super) struct Cluster<N> {
     /// States of the step before, their unit of time, and its width in that unit.
     pub(super) before: Option<(Vec<Vec<N>>, N, N)>,
     /// Latest events of the interfaces.
-    latest: Vec<Option<Moment<N>>>,
+    pub(super) latest: Vec<Option<Moment<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
-    jumps: Vec<usize>,
+    pub(super) jumps: Vec<usize>,
     /// Number of events without a step between them.
     repeated: usize,
     /// The first time of a decision that the bounds leave open.
@@ -124,7 +123,7 @@ impl<N: Bounded> Cluster<N> {
             },
             until: Moment::new(until.clone()),
             norm: upper(norm),
-            fading: None,
+            fading: Vec::new(),
             speed: zero.double(speed),
             rounding: power(&zero.one().halved(), bits as usize),
             degree: degree(bits),
@@ -146,21 +145,17 @@ impl<N: Bounded> Cluster<N> {
             self.interfaces[j].drive = self.arriving(j, 1) - self.arriving(j, 0);
         }
         self.linear = self.linear();
+        for interface in self.interfaces.iter().filter(|interface| interface.is_sprung()) {
+            if let Some(soft) = &interface.soft {
+                self.norm = self.norm.clone() + interface.gap_error.clone() * &soft.root;
+            }
+        }
         let impacts = self.close_at_start()?;
         let occurrence = |(j, y): (usize, N)| {
             let kind = Some(EventKind::Impact);
             (self.first + j, Occurrence { kind, t: zero.clone(), drive: [y.clone(), y] })
         };
         Ok(impacts.into_iter().map(occurrence).collect())
-    }
-
-    /// Looks up the breaks that have left the neighbours since.
-    fn look_up(&mut self, waves: &[[Wave<N>; 2]]) {
-        for interface in &mut self.interfaces {
-            for (side, input) in interface.sides.iter_mut().enumerate() {
-                input.look_up(waves, side);
-            }
-        }
     }
 
     /// Returns whether the cluster has gone on to its last time.
@@ -264,93 +259,10 @@ impl<N: Bounded> Cluster<N> {
         Ok(occurrences)
     }
 
-    /// Passes on to the pieces of all signals that begin at the time that is reached. A break that agrees with the latest
-    /// event within their bounds counts as one with it: the result has the rates after it, without a kind.
-    fn pass_breaks(&mut self, waves: &[[Wave<N>; 2]]) -> Vec<(usize, Occurrence<N>)> {
-        let mut occurrences = Vec::new();
-        let mut spread = self.reached.late.clone();
-        for j in 0..self.interfaces.len() {
-            let mut passed: Vec<(Moment<N>, N)> = Vec::new();
-            for side in 0..2 {
-                loop {
-                    let input = &mut self.interfaces[j].sides[side];
-                    let Some(next) = input.next.clone() else { break };
-                    if self.reached.at.below(&next.at) == Ok(true) && !next.meets(&self.reached) {
-                        break;
-                    }
-                    let old = input.signal.value_at(&self.reached.at);
-                    input.advance(waves, side);
-                    let new = input.signal.value_at(&self.reached.at);
-                    let apart = (next.at.clone() - &self.reached.at).magnitude() + &next.late;
-                    spread = greater(spread, apart);
-                    let jump = if side == 0 { old - new } else { new - old };
-                    let is_real = jump.positive() == Ok(true) || jump.negative() == Ok(true);
-                    if is_real {
-                        passed.push((next, jump));
-                    }
-                }
-            }
-            if !passed.iter().all(|(moment, _)| moment.is(&self.reached)) {
-                self.reached.exact = None;
-            }
-            self.jumps[j] = 0;
-            let told = passed.iter().all(|(moment, _)| moment.is(&passed[0].0));
-            if !told {
-                self.jumps[j] = passed.len();
-                self.check_sliver(j, &passed);
-            }
-            if !passed.is_empty()
-                && let Some(event) = &self.latest[j]
-                && event.meets(&self.reached)
-                && !passed.iter().all(|(moment, _)| moment.is(event))
-            {
-                let drive = self.arriving(j, 1) - self.arriving(j, 0);
-                let t = self.reached.time.clone();
-                occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
-                self.doubts();
-            }
-        }
-        self.reached.late = upper(spread);
-        occurrences
-    }
-
-    /// Returns the signal that arrives at a side of an interface at the time that is reached.
-    pub(super) fn arriving(&self, j: usize, side: usize) -> N {
-        let side = &self.interfaces[j].sides[side];
-        match &side.source {
-            Source::Mass(mass) => {
-                let mass = &self.masses[*mass];
-                mass.velocity.clone().widened(&(self.norm.clone() / &mass.root))
-            }
-            _ => side.signal.value_at(&self.reached.time),
-        }
-    }
-
-    /// Notes a doubt if the force of a closed contact may be greater between two breaks that coincide within their
-    /// bounds than before and after them.
-    fn check_sliver(&mut self, j: usize, passed: &[(Moment<N>, N)]) {
-        let interface = &self.interfaces[j];
-        let closed = interface.law == Law::Contact && interface.mode == Mode::Closed;
-        let [rises, falls] =
-            [1, -1].map(|sign| passed.iter().any(|(_, jump)| (jump.clone() * jump.int(sign)).positive() == Ok(true)));
-        if closed && rises && falls {
-            self.doubts();
-        }
-    }
-
     /// Notes that the bounds leave a decision open.
     pub(super) fn doubts(&mut self) {
         let at = self.reached.at.to_f64();
         self.doubt = Some(self.doubt.map_or(at, |earlier| earlier.min(at)));
-    }
-
-    /// Returns the next time at which a signal changes, or up to which signals are known.
-    fn end(&self, horizon: Option<Moment<N>>) -> Moment<N> {
-        let fronts = self.interfaces.iter().flat_map(|interface| &interface.sides).filter_map(|side| side.next.clone());
-        let end = horizon.into_iter().fold(self.until.clone(), Moment::earlier);
-        // Of times that agree, that of a break has the exact form.
-        let sooner = |a: Moment<N>, b: Moment<N>| if b.meets(&a) { b } else { a.earlier(b) };
-        fronts.reduce(Moment::earlier).map_or(end.clone(), |front| sooner(end, front))
     }
 
     /// Returns `y` of an interface after the time `at` in a step, which is known within its bound.
@@ -458,14 +370,12 @@ impl<N: Bounded> Cluster<N> {
 
     /// Changes the state of a contact; returns the event.
     fn change(&mut self, j: usize, change: Change, at_once: bool) -> Option<EventKind> {
-        let masses = self.masses.len();
         let zero = self.norm.zero();
         if at_once && self.jumps[j] > 1 {
             self.doubts();
         }
         self.latest[j] = Some(self.reached.clone());
         let was_sprung = self.interfaces[j].is_sprung();
-        let root = self.linear.root(masses + j).cloned();
         let interface = &mut self.interfaces[j];
         let rest = interface.gap.magnitude();
         interface.touches = change == Change::Close && interface.mode == Mode::Open;
@@ -486,9 +396,6 @@ impl<N: Bounded> Cluster<N> {
                 Some(EventKind::Impact)
             }
             Change::Release => {
-                if was_sprung && let Some(root) = &root {
-                    interface.gap_error = self.norm.clone() / root;
-                }
                 let damped = interface.soft.as_ref().filter(|soft| !is_exact_zero(&soft.damping));
                 interface.mode = match damped {
                     Some(soft) => {
@@ -520,7 +427,6 @@ impl<N: Bounded> Cluster<N> {
             && let Some(soft) = &self.interfaces[j].soft
         {
             self.norm = self.norm.clone() + self.interfaces[j].gap_error.clone() * &soft.root;
-            self.interfaces[j].gap_error = zero;
         }
         self.linear = self.linear();
         kind
@@ -575,15 +481,19 @@ impl<N: Bounded> Cluster<N> {
 
     /// Takes over the states at the end of a step.
     fn take(&mut self, step: &Step<N>, errors: &[N], width: &N, series: Option<&Series<N>>) {
-        self.fade(width);
+        self.fade(width, errors);
         let masses = self.masses.len();
         let is_constant = |state: usize| series.is_some_and(|series| series.is_constant(state));
         for (state, terms) in step.states.iter().enumerate() {
             let (found, radius) = value(terms, &(width.clone() / &step.unit)).centred();
-            match self.linear.root(state) {
-                Some(root) => self.norm = self.norm.clone() + radius * root,
-                None => self.interfaces[state - masses].gap_error = upper(errors[state].clone() + radius),
-            }
+            let before = match self.linear.root(state) {
+                Some(root) => {
+                    self.norm = self.norm.clone() + radius.clone() * root;
+                    self.error(state)
+                }
+                None => errors[state].clone(),
+            };
+            *self.error_mut(state) = upper(before + radius);
             if let Some(interface) = state.checked_sub(masses).map(|j| &mut self.interfaces[j]) {
                 let has_closed = interface.law == Law::Contact && interface.mode == Mode::Closed;
                 interface.touches = interface.touches && !has_closed && is_constant(state);

@@ -158,6 +158,11 @@ pub(super) fn greater<N: Bounded>(a: N, b: N) -> N {
     }
 }
 
+/// Returns the smaller of two bounds, or one of them if their order is not decided.
+pub(super) fn smaller<N: Bounded>(a: N, b: N) -> N {
+    if a.below(&b) == Ok(true) { a } else { b }
+}
+
 impl<N: Bounded> Curve<N> {
     /// Returns the polynomial with these coefficients, whose errors enter the bound. Coefficients of a high degree that
     /// are below one rounding of the others are dropped.

@@ -21,11 +21,13 @@
 //! chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
 //! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
 //! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes
-//! that act on each other at once), `onset` (the start of the motion of contacts that touch), `peak` (greatest values).
+//! that act on each other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of
+//! contacts that touch), `peak` (greatest values).
 
 mod answers;
 mod body;
 mod body_motion;
+mod breaks;
 mod cluster;
 mod column;
 mod confirm;

@@ -12,7 +12,6 @@ use super::wave::Wave;
 use crate::lattice::Line;
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open, is_exact_zero};
-use crate::solve::LONG;
 
 /// Origin of a signal that arrives at a node.
 #[derive(Clone, Debug)]
@@ -59,11 +58,9 @@ impl<N: Bounded> Source<N> {
         }
     }
 
-    /// Returns the Taylor series of a piece at its beginning, if it begins at exactly zero. None in builds
-    /// without long numbers.
+    /// Returns the Taylor series of a piece at its beginning, if it begins at exactly zero.
     pub(super) fn taylor(&self, piece: usize, waves: &[[Wave<N>; 2]], side: usize) -> Option<Arc<Taylor<N>>> {
         match self {
-            _ if !LONG => None,
             Source::Wave(body) => waves[*body][side].pieces.get(piece)?.taylor.clone(),
             Source::Data(lines) => {
                 let DataLine { line, first, .. } = lines.get(piece)?;

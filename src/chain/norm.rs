@@ -1,10 +1,10 @@
 //! Bounds of the errors of the states of a cluster.
 
 use super::cluster::Cluster;
-use super::curve::{Curve, greater, rough_slope, rough_slope_at, upper};
+use super::curve::{Curve, greater, rough_slope, rough_slope_at, smaller, upper};
 use super::interface::{Mode, Rows};
 use super::node::Source;
-use super::step::{Linear, Step, Values, refs};
+use super::step::{Dynamic, Linear, Step, Values, refs};
 use crate::number::{Bounded, is_exact_zero};
 
 impl<N: Bounded> Cluster<N> {
@@ -13,71 +13,107 @@ impl<N: Bounded> Cluster<N> {
     pub(super) fn step_errors(&mut self, inputs: &[[Curve<N>; 2]], step: &Step<N>) -> Vec<N> {
         self.add_slivers(step);
         let zero = self.norm.zero();
-        let Linear { dynamic, decay, .. } = self.linear.clone();
         let masses = self.masses.len();
-        let given = |states: &dyn Fn(usize) -> N| {
+        let count = masses + self.interfaces.len();
+        let given = |states: &[N]| {
             let value = |j: usize| {
                 let side = |side: usize| match &self.interfaces[j].sides[side].source {
-                    Source::Mass(mass) => states(*mass),
+                    Source::Mass(mass) => states[*mass].clone(),
                     _ => inputs[j][side].error.clone(),
                 };
-                [side(0), side(1), states(masses + j)]
+                [side(0), side(1), states[masses + j].clone()]
             };
             let values: Vec<Values<N>> = (0..self.interfaces.len()).map(value).collect();
             self.rates(&values, true)
         };
+        let Linear { dynamic, .. } = &self.linear;
         let width = &step.width;
-        let mut fading = None;
-        let norm = match &dynamic[..] {
-            [] => zero.clone(),
-            [(state, root)] => {
-                let decay = decay.unwrap_or_else(|| zero.clone());
-                let input = given(&|_| zero.clone())[*state].clone();
-                let before = self.norm.clone();
-                let defect = step.defects[*state].clone() * root;
-                let decays = decay.positive() == Ok(true);
-                let held = match decays {
-                    true if is_exact_zero(&input) => zero.clone(),
-                    true => input / &decay * root,
-                    false => before.clone() + input * width * root,
+        let norm = if dynamic.len() > 1 { Some(self.energy_bound(inputs, step)) } else { None };
+        let mut errors = vec![zero.clone(); count];
+        let mut fading = Vec::new();
+        if !dynamic.is_empty() {
+            let forced = given(&errors);
+            for own in dynamic {
+                // The others act on the state by their bounds in the norm.
+                let mut rate = forced[own.state].clone();
+                for (other, factor) in dynamic.iter().zip(&own.factors) {
+                    if let Some(norm) = norm.as_ref().filter(|_| !is_exact_zero(factor)) {
+                        rate = rate + norm.clone() / &other.root * factor;
+                    }
+                }
+                let (before, defect) = (self.error(own.state), &step.defects[own.state]);
+                let (most, held) = match &own.decay {
+                    Some(_) if is_exact_zero(&rate) => (before.clone(), zero.clone()),
+                    Some(decay) => {
+                        let held = rate / decay;
+                        (greater(before.clone(), held.clone()), held)
+                    }
+                    None => {
+                        let held = rate * width;
+                        (before.clone() + &held, held)
+                    }
                 };
-                fading = decays.then(|| (before.clone(), upper(held.clone() + &defect)));
-                if decays { greater(before, held) + defect } else { held + defect }
+                fading.push((before, upper(held + defect)));
+                let most = upper(most + defect);
+                errors[own.state] = match &norm {
+                    Some(norm) => smaller(norm.clone() / &own.root, most),
+                    None => most,
+                };
             }
-            _ => self.energy_bound(&dynamic, inputs, step),
-        };
-        let mut errors: Vec<N> = self.masses.iter().map(|mass| norm.clone() / &mass.root).collect();
-        let of = |state: usize| self.linear.root(state).map(|root| norm.clone() / root);
-        let known: Vec<N> =
-            (0..masses + self.interfaces.len()).map(|state| of(state).unwrap_or_else(|| zero.clone())).collect();
-        let rates = given(&|state| known[state].clone());
+        }
+        let rates = given(&errors);
         for (j, interface) in self.interfaces.iter().enumerate() {
             let state = masses + j;
-            errors.push(
-                of(state).unwrap_or_else(|| {
-                    interface.gap_error.clone() + rates[state].clone() * width + &step.defects[state]
-                }),
-            );
+            if self.linear.root(state).is_none() {
+                errors[state] = interface.gap_error.clone() + rates[state].clone() * width + &step.defects[state];
+            }
         }
         self.fading = fading;
-        self.norm = upper(norm);
+        if let Some(norm) = norm {
+            self.norm = upper(norm);
+        }
         errors
     }
 
-    /// Lets the norm of a single state decay over a step: an error of the state before the step fades as `e⁻ᵏʷ`, which
-    /// is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
-    pub(super) fn fade(&mut self, width: &N) {
-        let (Some((before, held)), Some(decay)) = (self.fading.take(), &self.linear.decay) else { return };
-        let x = decay.clone() * width;
-        let sixth = (x.clone() / x.int(3) + x.one()) * &x / x.int(2) + x.one();
-        let norm = upper(before / (sixth * &x + x.one()) + held);
-        if norm.below(&self.norm) == Ok(true) {
-            self.norm = norm;
+    /// Returns the bound of the error of a state at the time that is reached.
+    pub(super) fn error(&self, state: usize) -> N {
+        match self.masses.get(state) {
+            Some(mass) => mass.error.clone(),
+            None => self.interfaces[state - self.masses.len()].gap_error.clone(),
         }
     }
 
+    /// Returns the bound of the error of a state.
+    pub(super) fn error_mut(&mut self, state: usize) -> &mut N {
+        match state.checked_sub(self.masses.len()) {
+            None => &mut self.masses[state].error,
+            Some(j) => &mut self.interfaces[j].gap_error,
+        }
+    }
+
+    /// Carries the bounds of the states that act back over a step of which the first part, `width`, is taken: an error of
+    /// a state before the step fades as `e⁻ᵏʷ`, which is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
+    pub(super) fn fade(&mut self, width: &N, errors: &[N]) {
+        let mut sum = self.norm.zero();
+        for (own, (before, held)) in self.linear.dynamic.clone().iter().zip(std::mem::take(&mut self.fading)) {
+            let faded = match &own.decay {
+                Some(decay) => {
+                    let x = decay.clone() * width;
+                    let sixth = (x.clone() / x.int(3) + x.one()) * &x / x.int(2) + x.one();
+                    before / (sixth * &x + x.one())
+                }
+                None => before,
+            };
+            let error = upper(smaller(faded + held, errors[own.state].clone()));
+            sum = sum + error.clone() * &own.root;
+            *self.error_mut(own.state) = error;
+        }
+        let sum = upper(sum);
+        self.norm = if self.linear.dynamic.len() > 1 { smaller(self.norm.clone(), sum) } else { sum };
+    }
+
     /// Returns `√(n² + ½ Σ Z e² w) + Σ √weight · defect`.
-    fn energy_bound(&self, dynamic: &[(usize, N)], inputs: &[[Curve<N>; 2]], step: &Step<N>) -> N {
+    fn energy_bound(&self, inputs: &[[Curve<N>; 2]], step: &Step<N>) -> N {
         let zero = self.norm.zero();
         let mut work = zero.clone();
         let mut shoved = zero.clone();
@@ -113,7 +149,16 @@ impl<N: Bounded> Cluster<N> {
             norm = square.try_sqrt().unwrap_or(square);
         }
         norm = norm + shoved * &step.width;
-        dynamic.iter().fold(norm, |norm, (state, root)| norm + step.defects[*state].clone() * root)
+        for (place, own) in self.linear.dynamic.iter().enumerate() {
+            let defect = &step.defects[own.state];
+            norm = norm + defect.clone() * &own.root;
+            // The effect of the defect on a fast state acts on the others over the step.
+            if step.fast.contains(&own.state) {
+                let acts = |other: &Dynamic<N>| other.factors[place].clone() * defect * &step.width * &other.root;
+                norm = self.linear.dynamic.iter().map(acts).fold(norm, |norm, more| norm + more);
+            }
+        }
+        norm
     }
 
     /// Adds the error that the uncertain time of a break or an event causes: the jumps of the rates over that time.
@@ -129,13 +174,11 @@ impl<N: Bounded> Cluster<N> {
             let old_bend = rough_slope(&before[state], &(late.clone() / &unit + &reach), 2) / unit.square();
             let bend = rough_slope(terms, &(late.clone() / &step.unit), 2) / step.unit.square() + old_bend;
             let added = upper((late.double(jump) + bend * &late) * &late);
-            match self.linear.root(state) {
-                Some(root) => self.norm = self.norm.clone() + added * root,
-                None => {
-                    let interface = &mut self.interfaces[state - self.masses.len()];
-                    interface.gap_error = interface.gap_error.clone() + added;
-                }
+            if let Some(root) = self.linear.root(state) {
+                self.norm = self.norm.clone() + added.clone() * root;
             }
+            let error = self.error_mut(state);
+            *error = error.clone() + added;
         }
     }
 }

@@ -13,7 +13,6 @@ use super::interface::{Input, Interface, Mode, Row};
 use super::node::Source;
 use super::step::{Values, refs};
 use crate::number::{Bounded, Open, is_exact_zero};
-use crate::solve::LONG;
 
 /// The Taylor series of a signal at a break at which it leaves zero.
 #[derive(Debug)]
@@ -60,24 +59,22 @@ impl<N: Bounded> Cluster<N> {
         let touches = self.interfaces.iter().any(|interface| interface.touches);
         let unit = &inputs.first()?[0].unit;
         let in_unit = |side: &Input<N>| {
-            let taylor = side.taylor.as_ref().filter(|_| LONG)?;
+            let taylor = side.taylor.as_ref()?;
             Some(stretched(&taylor.terms, &(unit.clone() / &taylor.unit)))
         };
         let taylors: Vec<[Option<Vec<N>>; 2]> =
             self.interfaces.iter().map(|interface| interface.sides.each_ref().map(in_unit)).collect();
         let known = || taylors.iter().flatten().flatten();
         let is_needed = touches || self.masses.iter().any(|mass| mass.is_still) || known().next().is_some();
-        let masses = self.masses.len();
         let velocity = |mass: &Mass<N>| match mass.is_still {
             true => mass.velocity.clone(),
-            false => mass.velocity.clone().widened(&(self.norm.clone() / &mass.root)),
+            false => mass.velocity.clone().widened(&mass.error),
         };
-        let gap = |(j, interface): (usize, &Interface<N>)| match self.linear.root(masses + j) {
-            _ if interface.touches => self.norm.zero(),
-            Some(root) => interface.gap.clone().widened(&(self.norm.clone() / root)),
-            None => interface.gap.clone().widened(&interface.gap_error),
+        let gap = |interface: &Interface<N>| match interface.touches {
+            true => self.norm.zero(),
+            false => interface.gap.clone().widened(&interface.gap_error),
         };
-        let gaps = self.interfaces.iter().enumerate().map(gap);
+        let gaps = self.interfaces.iter().map(gap);
         let mut states: Vec<Vec<N>> = self.masses.iter().map(velocity).chain(gaps).map(|state| vec![state]).collect();
         // A linear equation whose solution is zero in this many orders stays there.
         let lengths = inputs.iter().flatten().map(|curve| curve.terms.len()).chain(known().map(Vec::len));
@@ -144,12 +141,8 @@ impl<N: Bounded> Series<N> {
         self.states[state].iter().skip(1).all(is_exact_zero)
     }
 
-    /// Returns the Taylor series of a form of the values at an interface, if it leaves zero. Builds without long numbers,
-    /// such as the page, have no room for it.
+    /// Returns the Taylor series of a form of the values at an interface, if it leaves zero.
     pub(super) fn taylor(&self, row: &Row<N>, j: usize) -> Option<Arc<Taylor<N>>> {
-        if !LONG {
-            return None;
-        }
         Taylor::new(self.unit.clone(), self.values.iter().map(|values| row.of(refs(&values[j]))).collect())
     }
 

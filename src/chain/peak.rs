@@ -20,7 +20,8 @@ impl<N: Bounded> Curve<N> {
         let own = self.about(&begin, &width);
         let mut best = (self.value_at(from), from.clone());
         let last = (self.value_at(to), to.clone());
-        if own.terms.len() < 3 {
+        // A line may leave out a part of the signal that bends.
+        if own.terms.len() < if slope.is_some() && !is_exact_zero(&own.error) { 2 } else { 3 } {
             return highest(best, last);
         }
         let slopes = match slope {
@@ -52,19 +53,21 @@ impl<N: Bounded> Curve<N> {
                 spare = spare + climb(searched.mean_fall());
                 break;
             };
-            if doubt {
+            if doubt || matches!(fall, Fall::AtEnd) {
                 // Where the slope is not told from zero, it is below three times its error.
                 spare = spare + climb(error * begin.int(3));
             }
             let Fall::After(at) = fall else { break };
             let (place, late) = at.centred();
             let here = (rest.clone() + &place).centred().0;
-            if !falls && !is_exact_zero(&here) {
+            let is_later = !is_exact_zero(&here);
+            if !falls && (is_later || (slope.is_some() && !is_exact_zero(&late))) {
                 let found = value(&own.terms, &own.in_units(&here)).widened(&own.error);
                 let (climb, time) = match slope {
                     Some((_, factor)) => {
                         let climb = slopes.most_about(&place, &late) * factor.magnitude() * &late;
-                        (climb, (begin.clone() + &here).widened(&late))
+                        let time = if is_later { begin.clone() + &here } else { from.clone() };
+                        (climb, time.widened(&late))
                     }
                     None => {
                         let bend = rough_slope(&own.terms, &own.reach(), 2);

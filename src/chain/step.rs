@@ -4,7 +4,7 @@ use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
 use super::interface::{Interface, Row};
 use super::node::{Source, Stop};
-use crate::number::{Bounded, is_exact_zero};
+use crate::number::Bounded;
 
 /// The states over a step.
 pub(super) struct Step<N> {
@@ -14,30 +14,101 @@ pub(super) struct Step<N> {
     pub(super) width: N,
     /// Integral of the defect of each state, or a bound of its effect.
     pub(super) defects: Vec<N>,
+    /// States that follow the others at once.
+    pub(super) fast: Vec<usize>,
 }
 
-/// The states that act back on the motion while no contact changes.
+/// Polynomials that solve the equation of the states.
+struct Polynomials<N> {
+    /// Coefficients of each state.
+    states: Vec<Vec<N>>,
+    unit: N,
+    /// Bounds of the coefficients of the integral of the defect of each state; of the defect, for a fast one.
+    radii: Vec<Vec<N>>,
+    /// Bounds of the rates in the order that is left out; zero for a fast state.
+    rates: Vec<N>,
+    fast: Vec<Fast<N>>,
+}
+
+/// A state that follows the others at once.
+struct Fast<N> {
+    state: usize,
+    decay: N,
+    /// Distance of the polynomial from the state at the beginning.
+    off: N,
+}
+
+/// A state that acts back on the motion while no contact changes.
+#[derive(Clone, Debug)]
+pub(super) struct Dynamic<N> {
+    pub(super) state: usize,
+    /// The root of its weight in the norm.
+    pub(super) root: N,
+    /// The rate at which it decays if the others are zero; `None` if it does not decay.
+    pub(super) decay: Option<N>,
+    /// Magnitudes of the factors of these states in its rate; zero for its own.
+    pub(super) factors: Vec<N>,
+}
+
+/// The linear equation of the states that act back on the motion.
 #[derive(Clone, Debug)]
 pub(super) struct Linear<N> {
-    /// Each state, with the root of its weight in the norm.
-    pub(super) dynamic: Vec<(usize, N)>,
-    /// The rate at which a single state decays.
-    pub(super) decay: Option<N>,
+    pub(super) dynamic: Vec<Dynamic<N>>,
     /// A bound of the rates.
     rate: f64,
 }
 
 impl<N> Default for Linear<N> {
     fn default() -> Self {
-        Linear { dynamic: Vec::new(), decay: None, rate: 0.0 }
+        Linear { dynamic: Vec::new(), rate: 0.0 }
     }
 }
 
-impl<N> Linear<N> {
+impl<N: Bounded> Linear<N> {
     /// Returns the root of the weight of a state, if it acts back.
     pub(super) fn root(&self, state: usize) -> Option<&N> {
-        self.dynamic.iter().find(|(of, _)| *of == state).map(|(_, root)| root)
+        self.dynamic.iter().find(|own| own.state == state).map(|own| &own.root)
     }
+
+    /// Returns the factor of one of the states in the rate of another in the norm.
+    fn scaled(&self, of: usize, by: usize) -> f64 {
+        let [own, other] = [of, by].map(|i| &self.dynamic[i]);
+        (own.factors[by].clone() * &own.root / &other.root).to_f64()
+    }
+
+    /// Returns the states that decay much faster than a step over a width follows the others, by their places among the
+    /// dynamic states, and a width over which it does.
+    ///
+    /// **Source**: a state f of fast decay κ is `Σ M_fj x_j/κ` and slopes of that over κ, which leaves the others with
+    /// rates of at most `|M_ij| + Σ |M_if M_fj|/κ`. Only springs are fast beside other states, as they do not act on
+    /// each other at once.
+    fn fast(&self, masses: usize, degree: usize, width: f64) -> (Vec<usize>, f64) {
+        let decay = |i: usize| self.dynamic[i].decay.as_ref().map_or(0.0, N::to_f64);
+        let may_be = |i: &usize| self.dynamic.len() == 1 || self.dynamic[*i].state >= masses;
+        let is_fast = |i: &usize, width: f64| decay(*i) * width > degree as f64;
+        let all = || 0..self.dynamic.len();
+        let mut fast: Vec<usize> = all().filter(may_be).filter(|i| is_fast(i, width)).collect();
+        loop {
+            let others: Vec<usize> = all().filter(|i| !fast.contains(i)).collect();
+            let through = |i: usize, j: usize| -> f64 {
+                fast.iter().map(|f| self.scaled(i, *f) * self.scaled(*f, j) / decay(*f)).sum()
+            };
+            let row = |i: &usize| decay(*i) + others.iter().map(|j| self.scaled(*i, *j) + through(*i, *j)).sum::<f64>();
+            let slow = even(others.iter().map(row).fold(0.0, f64::max), width);
+            let count = fast.len();
+            fast.retain(|i| is_fast(i, slow));
+            if fast.len() == count {
+                return (fast, slow);
+            }
+        }
+    }
+}
+
+/// Returns a width of at most [`WIDEST`] over a rate. A width that is no simple fraction keeps the ends of steps away from
+/// times that are asked for.
+fn even(rate: f64, width: f64) -> f64 {
+    let product = rate * width;
+    if product > WIDEST { width * UNEVEN / (product / WIDEST).ceil() } else { width }
 }
 
 /// Greatest product of rate and width for a Taylor step.
@@ -181,24 +252,26 @@ impl<N: Bounded> Cluster<N> {
         let root = |(j, interface): (usize, &Interface<N>)| {
             Some((self.masses.len() + j, interface.soft.as_ref()?.root.clone()))
         };
-        let dynamic: Vec<(usize, N)> = masses.chain(sprung.filter_map(root)).collect();
+        let roots: Vec<(usize, N)> = masses.chain(sprung.filter_map(root)).collect();
         let none = self.inputs_of_zero();
         let column = |of: usize| {
             let state = |k: usize| if k == of { zero.one() } else { zero.zero() };
             self.rates_in_order(&none, 0, &state)
         };
-        let columns: Vec<Vec<N>> = dynamic.iter().map(|(of, _)| column(*of)).collect();
-        let scaled = |(i, own): &(usize, N), (j, other): (usize, &N)| {
-            (columns[j][*i].clone() * own / other).magnitude().to_f64()
+        let columns: Vec<Vec<N>> = roots.iter().map(|(of, _)| column(*of)).collect();
+        let dynamic = roots.iter().enumerate().map(|(own, (state, root))| {
+            let factor = |j: usize| if j == own { zero.clone() } else { columns[j][*state].magnitude() };
+            let decay = Some(-columns[own][*state].clone()).filter(|decay| decay.positive() == Ok(true));
+            let factors = (0..roots.len()).map(factor).collect();
+            Dynamic { state: *state, root: root.clone(), decay, factors }
+        });
+        let mut linear = Linear { dynamic: dynamic.collect(), rate: 0.0 };
+        let sum = |(i, (state, _)): (usize, &(usize, N))| {
+            let others: f64 = (0..roots.len()).map(|j| linear.scaled(i, j)).sum();
+            columns[i][*state].to_f64().abs() + others
         };
-        let others = || dynamic.iter().map(|(_, root)| root).enumerate();
-        let sum = |row: &(usize, N)| others().map(|other| scaled(row, other)).sum::<f64>();
-        let rate = dynamic.iter().map(sum).fold(0.0, f64::max);
-        let decay = match &dynamic[..] {
-            [(state, _)] => Some(-columns[0][*state].clone()),
-            _ => None,
-        };
-        Linear { dynamic, decay, rate }
+        linear.rate = roots.iter().enumerate().map(sum).fold(0.0, f64::max);
+        linear
     }
 
     fn inputs_of_zero(&self) -> Vec<[Curve<N>; 2]> {
@@ -219,23 +292,25 @@ impl<N: Bounded> Cluster<N> {
         if self.masses.is_empty() && self.interfaces.iter().all(|interface| interface.rows().rate.is_zero([true; 3])) {
             let states: Vec<Vec<N>> = self.states().into_iter().map(|state| vec![state]).collect();
             let defects = vec![zero; states.len()];
-            return Ok(Step { states, unit: unit_of(width), width: width.clone(), defects });
+            return Ok(Step { states, unit: unit_of(width), width: width.clone(), defects, fast: Vec::new() });
         }
-        let Linear { dynamic, decay, rate } = &self.linear;
-        let rate = *rate;
-        let tolerance = self.speed.clone() * &self.rounding;
+        let Linear { dynamic, rate } = &self.linear;
         let product = rate * width.to_f64();
         if !product.is_finite() || !rate.is_finite() {
             return Err(Stop::Open);
         }
-        if let ([(state, _)], Some(decay), true) = (&dynamic[..], decay, product > self.degree as f64) {
-            return Ok(self.solve_stiff(inputs, (*state, decay), width, &tolerance));
+        let tolerance = self.speed.clone() * &self.rounding;
+        if product > self.degree as f64 {
+            let (fast, slow) = self.linear.fast(self.masses.len(), self.degree, width.to_f64());
+            let slow = if slow < width.to_f64() { width.double(slow) } else { width.clone() };
+            if !fast.is_empty()
+                && let Some(solved) = self.solve_stiff(inputs, &fast, &slow, &tolerance)
+            {
+                return Ok(self.shortened(solved, (slow, *rate), &tolerance));
+            }
         }
-        let mut width = width.clone();
-        if product > WIDEST {
-            // A width that is no simple fraction keeps the ends of steps away from times that are asked for.
-            width = (width * zero.double(UNEVEN / (product / WIDEST).ceil())).centred().0;
-        }
+        let shorter = even(*rate, width.to_f64());
+        let width = if shorter < width.to_f64() { width.double(shorter) } else { width.clone() };
         let unit = unit_of(&width);
         let inputs = in_unit(inputs, &unit);
         let count = self.masses.len() + self.interfaces.len();
@@ -255,106 +330,136 @@ impl<N: Bounded> Cluster<N> {
                 }
             }
         }
+        let rates = rates.iter().map(N::magnitude).collect();
+        let solved = Polynomials { states, unit, radii, rates, fast: Vec::new() };
+        Ok(self.shortened(solved, (width, *rate), &tolerance))
+    }
+
+    /// Returns the step with the polynomials, over a width on which the order that they leave out is within the tolerance.
+    fn shortened(&self, solved: Polynomials<N>, (mut width, rate): (N, f64), tolerance: &N) -> Step<N> {
+        let Polynomials { states, unit, radii, rates, fast } = solved;
+        let last = radii.iter().map(Vec::len).max().unwrap_or(1) - 1;
         // The order that is left out.
         let rest = |state: usize, width: &N| {
             let share = power(&(width.clone() / &unit), last + 1);
-            rates[state].magnitude() * &unit * share / width.int(last as i64 + 1)
+            rates[state].clone() * &unit * share / width.int(last as i64 + 1)
         };
         for _ in 0..8 {
             let allowed = |state: usize| {
                 let time = if rate > 0.0 { width.to_f64().min(1.0 / rate) } else { width.to_f64() };
                 if state < self.masses.len() { 1.0 } else { time }
             };
-            let excess = |state: usize| (rest(state, &width) / &tolerance).to_f64() / allowed(state);
-            let worst = (0..count).map(excess).fold(0.0, f64::max);
+            let excess = |state: usize| (rest(state, &width) / tolerance).to_f64() / allowed(state);
+            let worst = (0..states.len()).map(excess).fold(0.0, f64::max);
             if worst <= 1.0 || !worst.is_finite() {
                 break;
             }
             let factor = 0.9 * worst.powf(-1.0 / (last as f64 + 1.0));
-            width = (width * zero.double(factor)).centred().0;
+            width = (width * tolerance.double(factor)).centred().0;
         }
         let reach = width.clone() / &unit;
-        let defect = |state: usize| bound(&radii[state], &reach) + rest(state, &width);
-        let defects = (0..count).map(defect).collect();
-        Ok(Step { states, unit, width, defects })
+        let defect = |state: usize| {
+            let sum = bound(&radii[state], &reach);
+            match fast.iter().find(|fast| fast.state == state) {
+                // A defect acts for no longer than 1/κ.
+                Some(Fast { decay, off, .. }) => sum / decay + off,
+                None => sum + rest(state, &width),
+            }
+        };
+        let defects = (0..states.len()).map(defect).collect();
+        let fast = fast.into_iter().map(|fast| fast.state).collect();
+        Step { states, unit, width, defects, fast }
     }
 
-    /// Solves `x′ = −κx + u` for one state that decays fast: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` and a decaying exponential, which is a
-    /// polynomial over the width of the step. The other states are integrals.
-    fn solve_stiff(&self, inputs: &[[Curve<N>; 2]], (fast, decay): (usize, &N), width: &N, tolerance: &N) -> Step<N> {
+    /// Solves the equation over a width in which the states at the places `fast` among the dynamic ones follow the others
+    /// at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state. Returns `None` as long as a part of
+    /// one that decays is more than some roundings.
+    fn solve_stiff(
+        &self,
+        inputs: &[[Curve<N>; 2]],
+        fast: &[usize],
+        width: &N,
+        tolerance: &N,
+    ) -> Option<Polynomials<N>> {
         let zero = self.norm.zero();
         let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
-        let none = |_: usize| zero.clone();
-        let wide = unit_of(width);
-        let inputs = in_unit(inputs, &wide);
-        let mut slow = vec![zero.clone(); last + 2];
-        for k in (0..=last).rev() {
-            let forced = self.rates_in_order(&inputs, k, &none)[fast].clone();
-            let next = slow[k + 1].clone() * zero.int(k as i64 + 1) / &wide;
-            slow[k] = ((forced - next) / decay).centred().0;
-        }
-        slow.truncate(last + 1);
+        let unit = unit_of(width);
+        let inputs = in_unit(inputs, &unit);
         let begun = self.states();
-        let amplitude = (begun[fast].clone() - &slow[0]).centred().0;
-        let allowed = if fast < self.masses.len() { tolerance.clone() } else { tolerance.clone() / decay };
-        // An amplitude within some roundings of the state is dropped; it would not decay.
-        let noise = slow[0].magnitude() * &self.rounding;
-        let excess = (amplitude.magnitude() / (allowed + noise)).to_f64();
-        let (mut width, mut unit, mut terms, mut inputs) = (width.clone(), wide.clone(), slow, inputs);
-        let mut dropped = amplitude.magnitude();
-        if excess > NOISE {
-            // The order that is left out, |C| (κw)ⁿ/n!, is at most the tolerance.
-            let log2: f64 = (1..=last).map(|k| (k as f64).log2()).sum();
-            let reach = ((log2 - excess.min(1e300).log2()) / last as f64).exp2() / decay.to_f64();
-            if reach < width.to_f64() {
-                width = zero.double(reach * 0.99);
-                unit = unit_of(&width);
-                inputs = in_unit(&inputs, &unit);
-            }
-            let (mut share, ratio) = (zero.one(), unit.clone() / wide);
-            let (mut decaying, per_unit) = (amplitude, decay.clone() * &unit);
-            for (k, term) in terms.iter_mut().enumerate() {
-                if k > 0 {
-                    decaying = (-(decaying * &per_unit) / zero.int(k as i64)).centred().0;
-                    share = share * &ratio;
-                }
-                *term = (term.clone() * &share + &decaying).centred().0;
-            }
-            dropped = zero.clone();
+        let decays = |i: &usize| Some((self.linear.dynamic[*i].state, self.linear.dynamic[*i].decay.clone()?));
+        let decays: Vec<(usize, N)> = fast.iter().filter_map(decays).collect();
+        let is_fast = |state: usize| decays.iter().any(|(fast, _)| *fast == state);
+        let mut states: Vec<Vec<N>> = vec![vec![zero.clone(); last + 1]; begun.len()];
+        for (state, begun) in begun.iter().enumerate().filter(|(state, _)| !is_fast(*state)) {
+            states[state][0] = begun.clone();
         }
-        let mut states: Vec<Vec<N>> = begun.iter().map(|state| vec![state.clone()]).collect();
-        let first = (terms[0].clone() - &begun[fast]).magnitude();
-        let first = if is_exact_zero(&dropped) { first } else { zero.clone() };
-        states[fast] = terms;
-        let mut defects: Vec<Vec<N>> = vec![Vec::new(); states.len()];
-        for k in 0..=last {
-            let state = |state: usize| states[state].get(k).cloned().unwrap_or_else(|| zero.clone());
-            let rates = self.rates_in_order(&inputs, k, &state);
-            for (state, rate) in rates.iter().enumerate() {
-                let factor = zero.int(k as i64 + 1) / &unit;
-                if state == fast {
-                    let own = states[fast].get(k + 1).map_or_else(|| zero.clone(), |term| term.clone() * &factor);
-                    defects[state].push((own - rate).magnitude());
-                } else if k < last {
-                    let (term, radius) = (rate.clone() / &factor).centred();
-                    states[state].push(term);
-                    defects[state].push(radius * &factor);
-                } else {
-                    defects[state].push(rate.magnitude());
-                }
-            }
-        }
-        let reach = width.clone() / &unit;
-        let effect = |state: usize| {
-            if state == fast {
-                // A defect acts for no longer than 1/κ.
-                return bound(&defects[state], &reach) / decay + &dropped + &first;
-            }
-            let integrals = defects[state].iter().enumerate().map(|(k, term)| term.clone() / zero.int(k as i64 + 1));
-            bound(&integrals.collect::<Vec<_>>(), &reach) * &width
+        let slope = |terms: &[N], k: usize| match terms.get(k + 1) {
+            Some(next) => next.clone() * zero.int(k as i64 + 1) / &unit,
+            None => zero.clone(),
         };
-        let defects = (0..states.len()).map(effect).collect();
-        Step { states, unit, width, defects }
+        // Returns the greatest change of a fast state in this order, in what is allowed for it.
+        let follow = |states: &mut [Vec<N>], k: usize| {
+            let slow = |state: usize| if is_fast(state) { zero.clone() } else { states[state][k].clone() };
+            let forced = self.rates_in_order(&inputs, k, &slow);
+            let mut changed = 0.0_f64;
+            for (state, decay) in &decays {
+                let found = ((forced[*state].clone() - slope(&states[*state], k)) / decay).centred().0;
+                let change = (found.clone() - &states[*state][k]).magnitude();
+                states[*state][k] = found;
+                changed = changed.max((change / self.noise((*state, decay), &states[*state][0], tolerance)).to_f64());
+            }
+            changed
+        };
+        let advance = |states: &mut [Vec<N>], k: usize| {
+            let rates = self.rates_in_order(&inputs, k, &|state| states[state][k].clone());
+            for (state, rate) in rates.into_iter().enumerate().filter(|(state, _)| !is_fast(*state)) {
+                if k < last {
+                    states[state][k + 1] = (rate * &unit / zero.int(k as i64 + 1)).centred().0;
+                }
+            }
+        };
+        // The fast states follow from their higher orders, and the others from their lower ones.
+        for _ in 0..=last {
+            let mut changed = (0..=last).rev().map(|k| follow(&mut states, k)).fold(0.0, f64::max);
+            for k in 0..=last {
+                if fast.len() < self.linear.dynamic.len() {
+                    changed = changed.max(follow(&mut states, k));
+                }
+                advance(&mut states, k);
+            }
+            if changed < 1.0 || fast.len() == self.linear.dynamic.len() {
+                break;
+            }
+        }
+        let mut fast = Vec::new();
+        for (state, decay) in decays {
+            let off = (begun[state].clone() - &states[state][0]).magnitude();
+            let noise = self.noise((state, &decay), &states[state][0], tolerance);
+            if (off.clone() / noise).to_f64() > NOISE {
+                return None;
+            }
+            fast.push(Fast { state, decay, off });
+        }
+        let mut radii: Vec<Vec<N>> = vec![vec![zero.clone()]; states.len()];
+        let mut rates = vec![zero.clone(); states.len()];
+        for k in 0..=last {
+            for (state, rate) in self.rates_in_order(&inputs, k, &|state| states[state][k].clone()).iter().enumerate() {
+                let defect = (slope(&states[state], k) - rate).magnitude();
+                match fast.iter().any(|fast| fast.state == state) {
+                    true if k == 0 => radii[state][0] = defect,
+                    true => radii[state].push(defect),
+                    false if k < last => radii[state].push(defect * &unit / zero.int(k as i64 + 1)),
+                    false => rates[state] = defect,
+                }
+            }
+        }
+        Some(Polynomials { states, unit, radii, rates, fast })
+    }
+
+    /// Returns the size of roundings of a state that decays fast.
+    fn noise(&self, (state, decay): (usize, &N), value: &N, tolerance: &N) -> N {
+        let allowed = if state < self.masses.len() { tolerance.clone() } else { tolerance.clone() / decay };
+        allowed + value.magnitude() * &self.rounding
     }
 }
 

@@ -11,7 +11,6 @@ use super::onset::Taylor;
 use crate::lattice::{Line, place_to};
 use crate::motion::Side;
 use crate::number::{Bounded, Open, is_exact_zero};
-use crate::solve::LONG;
 
 /// A stretch of a wave without a break.
 #[derive(Clone, Debug)]
@@ -285,7 +284,7 @@ pub(super) fn indices_at<T, N: Bounded>(
         let apart = (time.clone() - from(item)).magnitude();
         (apart.to_f64() + apart.log2_error().exp2()).log2() <= AT_EVENT + time.to_f64().log2()
     };
-    if LONG && is_event && first < last && items[first + 1..=last].iter().all(is_at) {
+    if is_event && first < last && items[first + 1..=last].iter().all(is_at) {
         let at = if side == Side::Left { first } else { last };
         return at..=at;
     }
@@ -324,9 +323,7 @@ pub(super) fn smooth_value<'a, N: Bounded + 'a>(
 ) -> Result<N, Open> {
     // Signals that continue each other at the true beginning differ at the stored one, by their slopes.
     for ((_, before), (from, after)) in signals.clone().zip(signals.clone().skip(1)) {
-        // The stored beginning is close enough for the page, which refuses such a time.
-        let at = if LONG { from.clone() } else { from.clone().nominal() };
-        if before.value_at(&at).compare(&after.value_at(&at)).is_ok_and(Ordering::is_ne) {
+        if before.value_at(from).compare(&after.value_at(from)).is_ok_and(Ordering::is_ne) {
             return Err(Open);
         }
     }

@@ -14,6 +14,7 @@ mod chain_masses;
 mod chain_published;
 mod chain_soft;
 mod chain_soft_random;
+mod chain_stiff;
 mod chain_touching;
 // Tests run in the order of their names: the longest one is among the first.
 mod chaotic;

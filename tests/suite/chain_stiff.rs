@@ -1,0 +1,74 @@
+//! Stiff springs beside rigid masses against closed forms.
+
+use std::ops::ControlFlow;
+
+use dalembert::chain::ChainRun;
+use dalembert::number::{Number, Scalar};
+use dalembert::{ChainScene, Estimate, Side};
+
+const TIMES: [f64; 5] = [0.001, 0.25, 0.5, 1.0, 1.875];
+
+/// Returns the force between a mass m and bars of impedance one that meet through springs of stiffness k at the speed
+/// one, before a reflection returns.
+///
+/// **Source**: `f′ = k(1 − f − V)` and `mV′ = count · f`, so that `f″ + kf′ + count (k/m) f = 0` with f(0) = 0 and f′(0) = k.
+fn force(k: f64, per_mass: f64, t: f64) -> f64 {
+    let root = (k * k - 4.0 * k * per_mass).sqrt();
+    let [slow, fast] = [-2.0 * k * per_mass / (k + root), -(k + root) / 2.0];
+    k * ((slow * t).exp() - (fast * t).exp()) / root
+}
+
+fn run(scene: &str) -> ChainRun<Estimate<f64>> {
+    let chain = ChainScene::parse(scene).unwrap().chain;
+    ChainRun::new(&chain, &(), &|_, _| ControlFlow::Continue(())).unwrap()
+}
+
+/// Holds the forces at a node against the closed form; `per_mass` is the number of springs over the mass.
+fn check(run: &ChainRun<Estimate<f64>>, node: usize, (k, per_mass): (f64, f64)) {
+    for t in TIMES {
+        let time = Estimate::<f64>::spelling(&t.to_string().parse::<Number>().unwrap(), &());
+        let found = run.force(node, &time, Side::Right).unwrap();
+        let (truth, place) = (force(k, per_mass, t), format!("k = {k:e}, t = {t}"));
+        // The closed form has some roundings of its own.
+        let off = (found.value() - truth).abs();
+        assert!(off <= found.bound() + 4e-15, "{place}: {found:?} is off by {off:e}");
+        assert!(found.bound() < 1e-12, "{place}: {found:?}");
+    }
+}
+
+/// A bar that strikes a mass through a spring of 10³ … 10¹² EA/L.
+#[test]
+fn a_stiff_spring_between_a_mass_and_a_bar_costs_no_more_pieces() {
+    for decade in 3..=12 {
+        let scene = format!(
+            "[[body]]\nmass = 1\nvelocity = 0\n\
+             [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = -1\njoint = {{ stiffness = 1e{decade} }}\n\
+             [ends]\nbottom = \"free\"\n[run]\ntime = 3"
+        );
+        let (run, k) = (run(&scene), 10f64.powi(decade));
+        assert!(run.pieces() < 200, "{} pieces for 1e{decade}", run.pieces());
+        check(&run, 1, (k, 1.0));
+        // A rigid contact ends with the reflection at t = 2; the spring, a few times 1/k later.
+        let release = run.contacts()[0].release.clone().unwrap();
+        let late = (release.value() - 2.0) * k;
+        assert!((0.1..1.0).contains(&late), "released {late}/k late for 1e{decade}");
+    }
+}
+
+/// A mass that moves between two half-infinite bars at rest, bonded to them by two stiff springs.
+#[test]
+fn a_mass_between_two_stiff_springs_follows_the_closed_form() {
+    let bar = |more: &str| format!("[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = 0\n{more}");
+    for decade in [4, 7, 10] {
+        let joint = format!("joint = {{ stiffness = 1e{decade}, bonded = true }}\n");
+        let scene = format!(
+            "{}[[body]]\nmass = 3\nvelocity = -1\n{joint}{}[ends]\nbottom = {{ infinite = 1 }}\ntop = {{ infinite = 1 }}\n\
+             [run]\ntime = 2",
+            bar(""),
+            bar(&joint)
+        );
+        let (run, k) = (run(&scene), 10f64.powi(decade));
+        assert!(run.pieces() < 200, "{} pieces for 1e{decade}", run.pieces());
+        check(&run, 1, (k, 2.0 / 3.0));
+    }
+}
