@@ -18,7 +18,7 @@ use super::law::Law;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
 use super::onset::{Onset, Series};
 use super::step::{Linear, Step, degree, in_unit, power};
-use super::wave::Wave;
+use super::wave::{Wave, either};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open, Rational, is_exact_zero};
 
@@ -58,8 +58,8 @@ pub(super) struct Cluster<N> {
     pub(super) rounding: N,
     /// Degree of the polynomials.
     pub(super) degree: usize,
-    /// States of the step before, their unit of time, and its width in that unit.
-    pub(super) before: Option<(Vec<Vec<N>>, N, N)>,
+    /// The step before, as far as it was taken.
+    pub(super) before: Option<Taken<N>>,
     /// Latest events of the interfaces.
     pub(super) latest: Vec<Option<Moment<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
@@ -72,6 +72,15 @@ pub(super) struct Cluster<N> {
 
 /// Arriving signals, states and their errors over a step.
 pub(super) type Solved<'a, N> = (&'a [[Curve<N>; 2]], &'a Step<N>, &'a [N]);
+
+/// A step that was taken over a width.
+#[derive(Clone, Debug)]
+pub(super) struct Taken<N> {
+    inputs: Vec<[Curve<N>; 2]>,
+    pub(super) step: Step<N>,
+    errors: Vec<N>,
+    pub(super) width: N,
+}
 
 /// All that leaves an interface over a step, and its state.
 struct Output<N> {
@@ -207,7 +216,15 @@ impl<N: Bounded> Cluster<N> {
         // An event at once is as late as the breaks that it follows.
         let late = if is_at_once { greater(next.late.clone(), self.reached.late.clone()) } else { next.late.clone() };
         let at = if is_exact_zero(&late) { width.clone() } else { width.clone().widened(&late) };
-        let drives_after: Vec<N> = (0..self.interfaces.len()).map(|j| self.drive(j, &at, solved)).collect();
+        let drives =
+            |at: &N, solved| -> Vec<N> { (0..self.interfaces.len()).map(|j| self.drive(j, at, solved)).collect() };
+        let drives_after = drives(&at, solved);
+        let drives_before = match &self.before {
+            Some(Taken { inputs, step, errors, width }) if is_at_once => {
+                drives(&width.clone().widened(&late), (inputs, step, errors))
+            }
+            _ => self.interfaces.iter().map(|interface| interface.drive.clone()).collect(),
+        };
         if is_at_once {
             self.repeated += 1;
             if self.repeated > MOST_REPEATED + 2 * self.interfaces.len() {
@@ -217,15 +234,14 @@ impl<N: Bounded> Cluster<N> {
         } else {
             self.emit(outputs, solved, (&width, series.as_ref()), waves);
             self.take(&step, &errors, &width, series.as_ref());
-            self.before = Some((step.states, step.unit.clone(), width.clone() / &step.unit));
+            self.before = Some(Taken { inputs, step, errors, width });
             self.repeated = 0;
         }
-        let drives_before: Vec<N> = self.interfaces.iter().map(|interface| interface.drive.clone()).collect();
+        // An event that a break causes is at the time of the break; another is within the bounds of it only.
+        let is_told = first.as_ref().is_some_and(|at| is_exact_zero(&at.at) && is_exact_zero(&at.late));
         if !is_at_once {
             self.reached = next;
         } else {
-            // An event that a break causes is at the time of the break; another is within the bounds of it only.
-            let is_told = first.as_ref().is_some_and(|at| is_exact_zero(&at.at) && is_exact_zero(&at.late));
             if !is_told {
                 self.reached.exact = next.exact;
             }
@@ -247,7 +263,12 @@ impl<N: Bounded> Cluster<N> {
             }
             let kind = self.change(j, change, is_at_once);
             if let Some(kind) = kind {
-                let before = if is_at_once { drives_before[j].clone() } else { drives_after[j].clone() };
+                let [old, new] = [&drives_before, &drives_after].map(|drives| drives[j].clone());
+                let before = match is_at_once {
+                    true if is_told => old,
+                    true => either([old, new].into_iter()).unwrap_or_else(|| self.norm.zero()),
+                    false => new,
+                };
                 let drive = [before, drives_after[j].clone()];
                 let t = self.reached.time.clone();
                 occurrences.push((self.first + j, Occurrence { kind: Some(kind), t, drive }));

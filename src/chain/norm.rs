@@ -164,14 +164,19 @@ impl<N: Bounded> Cluster<N> {
     /// Adds the error that the uncertain time of a break or an event causes: the jumps of the rates over that time.
     fn add_slivers(&mut self, step: &Step<N>) {
         let late = self.reached.late.clone();
-        let Some((before, unit, reach)) = self.before.clone().filter(|_| !is_exact_zero(&late)) else { return };
+        if is_exact_zero(&late) {
+            return;
+        }
+        let Some(taken) = self.before.take() else { return };
+        let (before, unit) = (&taken.step.states, &taken.step.unit);
+        let reach = taken.width.clone() / unit;
         for (state, terms) in step.states.iter().enumerate() {
             // Rates and their slopes per time, at the end of the step before and at the beginning of this one. Doubles
             // suffice: what they lose is a rounding of the rates.
             let [old, new] = [rough_slope_at(&before[state], &reach), rough_slope_at(terms, &late.zero())];
-            let [old, new] = [(old, &unit), (new, &step.unit)].map(|(slope, unit)| slope.map(|x| x / unit.to_f64()));
+            let [old, new] = [(old, unit), (new, &step.unit)].map(|(slope, unit)| slope.map(|x| x / unit.to_f64()));
             let jump = (new[0] - old[0]).abs() * (1.0 + 2.0 * f64::EPSILON) + old[1] + new[1];
-            let old_bend = rough_slope(&before[state], &(late.clone() / &unit + &reach), 2) / unit.square();
+            let old_bend = rough_slope(&before[state], &(late.clone() / unit + &reach), 2) / unit.square();
             let bend = rough_slope(terms, &(late.clone() / &step.unit), 2) / step.unit.square() + old_bend;
             let added = upper((late.double(jump) + bend * &late) * &late);
             if let Some(root) = self.linear.root(state) {
@@ -180,5 +185,6 @@ impl<N: Bounded> Cluster<N> {
             let error = self.error_mut(state);
             *error = error.clone() + added;
         }
+        self.before = Some(taken);
     }
 }

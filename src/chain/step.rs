@@ -7,6 +7,7 @@ use super::node::{Source, Stop};
 use crate::number::Bounded;
 
 /// The states over a step.
+#[derive(Clone, Debug)]
 pub(super) struct Step<N> {
     /// Coefficients of each state, for times in the unit.
     pub(super) states: Vec<Vec<N>>,
