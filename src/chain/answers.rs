@@ -120,6 +120,25 @@ impl<N: ToValue> Answers for ChainRun<N> {
             ChainQuantity::Gap => self.gap(place, &time)?,
             ChainQuantity::SpringEnergy => self.spring_energies_within(place, &time, limit)?[0].clone(),
             ChainQuantity::Dissipated => self.spring_energies_within(place, &time, limit)?[1].clone(),
+            ChainQuantity::TotalEnergy => {
+                let mut sum = time.zero();
+                for body in 0..self.bars.len() {
+                    let BodySums { kinetic, strain, potential, .. } = self.sums(body, &time)?;
+                    sum = sum + kinetic + strain + potential;
+                }
+                for node in 0..self.nodes.len() {
+                    let [stored, lost] = self.spring_energies_within(node, &time, limit)?;
+                    sum = sum + stored + lost;
+                }
+                sum
+            }
+            ChainQuantity::TotalMomentum => {
+                let mut sum = time.zero();
+                for (body, bar) in self.bars.iter().enumerate() {
+                    sum = sum + bar.mass() * self.sums(body, &time)?.velocity;
+                }
+                sum
+            }
         };
         Ok(found.to_value())
     }

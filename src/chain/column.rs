@@ -68,13 +68,40 @@ pub enum ChainQuantity {
     /// Energy that the dashpot of a node has taken up, and that a released spring has lost.
     #[strum(serialize = "dissipated")]
     Dissipated,
+    /// Energy of all bodies and springs, and that dashpots have taken up.
+    #[strum(serialize = "chain_energy")]
+    TotalEnergy,
+    /// Momentum of all bodies.
+    #[strum(serialize = "chain_momentum")]
+    TotalMomentum,
 }
 
 impl ChainQuantity {
+    /// Quantities that are asked for together, by the name of the group.
+    pub const GROUPS: [(&'static str, &'static [ChainQuantity]); 4] = [
+        ("end", &[ChainQuantity::EndDisplacement, ChainQuantity::EndVelocity]),
+        ("top", &[ChainQuantity::TopDisplacement, ChainQuantity::TopVelocity]),
+        ("centre", &[ChainQuantity::Centre, ChainQuantity::CentreVelocity]),
+        ("energy", &[ChainQuantity::Kinetic, ChainQuantity::StrainEnergy, ChainQuantity::Energy]),
+    ];
+
+    /// Returns the quantities of a group, or the one of this name; none for an unknown name.
+    fn group(name: &str) -> Vec<Self> {
+        match Self::GROUPS.iter().find(|(known, _)| *known == name) {
+            Some((_, quantities)) => quantities.to_vec(),
+            None => ChainQuantity::from_str(name).into_iter().collect(),
+        }
+    }
+
     /// Returns whether the quantity belongs to a node, and not to a body.
     pub fn is_of_node(self) -> bool {
         use ChainQuantity::{Dissipated, Force, Gap, SpringEnergy};
         matches!(self, Force | Gap | SpringEnergy | Dissipated)
+    }
+
+    /// Returns whether the quantity belongs to the chain as a whole, and to no body or node.
+    pub fn is_total(self) -> bool {
+        matches!(self, ChainQuantity::TotalEnergy | ChainQuantity::TotalMomentum)
     }
 
     /// Returns the meaning of the quantity, without its body or node.
@@ -93,6 +120,8 @@ impl ChainQuantity {
             ChainQuantity::Gap => "gap; negative is the depth of a spring",
             ChainQuantity::SpringEnergy => "energy that the spring holds",
             ChainQuantity::Dissipated => "energy that the dashpot, or a spring let go at a depth, has taken up",
+            ChainQuantity::TotalEnergy => "energy of all bodies and springs, and that dashpots have taken up",
+            ChainQuantity::TotalMomentum => "momentum of all bodies, upwards",
         }
     }
 
@@ -107,7 +136,9 @@ impl ChainQuantity {
             | ChainQuantity::StrainEnergy
             | ChainQuantity::Energy
             | ChainQuantity::SpringEnergy
-            | ChainQuantity::Dissipated => Measure::Energy,
+            | ChainQuantity::Dissipated
+            | ChainQuantity::TotalEnergy => Measure::Energy,
+            ChainQuantity::TotalMomentum => Measure::Impulse,
             ChainQuantity::EndDisplacement
             | ChainQuantity::TopDisplacement
             | ChainQuantity::Centre
@@ -117,12 +148,12 @@ impl ChainQuantity {
 }
 
 /// A quantity of one body or node: `u_top.2` for the second body, `force.bottom`, `force.1` for the joint above the
-/// first body, `force.top`.
+/// first body, `force.top`; or one of the chain, `chain_energy`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChainColumn {
     /// The quantity.
     pub quantity: ChainQuantity,
-    /// The index of the body, from 0, or of the node, 0 at the bottom.
+    /// The index of the body, from 0, or of the node, 0 at the bottom; 0 for a quantity of the chain.
     pub place: usize,
 }
 
@@ -139,15 +170,50 @@ impl ChainColumn {
     /// # Ok::<(), dalembert::problem::ProblemError>(())
     /// ```
     pub fn read(name: &str, chain: &Chain) -> Option<Self> {
-        let (quantity, place) = name.split_once('.')?;
-        let quantity = ChainQuantity::from_str(quantity).ok()?;
+        let Some((quantity, place)) = name.split_once('.') else {
+            let quantity = ChainQuantity::from_str(name).ok().filter(|quantity| quantity.is_total())?;
+            return Some(ChainColumn { quantity, place: 0 });
+        };
+        let quantity = ChainQuantity::from_str(quantity).ok().filter(|quantity| !quantity.is_total())?;
         let body = || place.parse::<usize>().ok().filter(|n| (1..=chain.bodies().len()).contains(n));
         let place = if quantity.is_of_node() { node(place, chain)? } else { body()? - 1 };
         Some(ChainColumn { quantity, place })
     }
 
+    /// Returns the columns that a name stands for: one of [`ChainColumn::read`], or those of a quantity or a group, as
+    /// `force`, `end` or `energy`, of all places or of one (`end.2`). None for an unknown name.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn};
+    /// let bar = || Body::new(1.into(), 1.into(), 1.into());
+    /// let chain = Chain::builder(bar()).contact(1.into(), bar()).until(4.into()).build()?;
+    /// let names = |list: &str| ChainColumn::list(list, &chain).into_iter().map(|column| column.name(&chain));
+    /// assert_eq!(names("gap").collect::<Vec<_>>(), ["gap.bottom", "gap.1", "gap.top"]);
+    /// assert_eq!(names("end.2").collect::<Vec<_>>(), ["u_end.2", "v_end.2"]);
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn list(name: &str, chain: &Chain) -> Vec<Self> {
+        let (group, place) = name.split_once('.').map_or((name, None), |(group, place)| (group, Some(place)));
+        let quantities = ChainQuantity::group(group);
+        let is_asked = |column: &Self| {
+            let at = |place: &str| ChainColumn::read(&format!("{}.{place}", column.quantity), chain) == Some(*column);
+            quantities.contains(&column.quantity) && place.is_none_or(at)
+        };
+        let listed: Vec<Self> = ChainColumn::all(chain).into_iter().filter(is_asked).collect();
+        if listed.is_empty() { ChainColumn::read(name, chain).into_iter().collect() } else { listed }
+    }
+
+    /// Returns every name that [`ChainColumn::list`] reads, but those of groups at one place.
+    pub fn names(chain: &Chain) -> Vec<String> {
+        let groups = ChainQuantity::GROUPS.iter().map(|(name, _)| name.to_string());
+        groups.chain(ChainColumn::all(chain).into_iter().map(|column| column.name(chain))).collect()
+    }
+
     /// Returns the name of the column, which [`ChainColumn::read`] reads.
     pub fn name(self, chain: &Chain) -> String {
+        if self.quantity.is_total() {
+            return self.quantity.to_string();
+        }
         let of_node = self.quantity.is_of_node();
         let place = if of_node { node_name(self.place, chain) } else { (self.place + 1).to_string() };
         format!("{}.{place}", self.quantity)
@@ -155,6 +221,9 @@ impl ChainColumn {
 
     /// Returns the meaning of the column: `velocity of the upper end, upwards, of body 2 (target)`.
     pub fn meaning(self, chain: &Chain) -> String {
+        if self.quantity.is_total() {
+            return self.quantity.meaning().into();
+        }
         let place = match (self.quantity.is_of_node(), chain.bodies().get(self.place).and_then(Body::name)) {
             (true, _) => match self.place {
                 0 => "at the bottom".into(),
@@ -170,7 +239,11 @@ impl ChainColumn {
     /// Returns every column of `chain`; those of springs at nodes that have one.
     pub fn all(chain: &Chain) -> Vec<Self> {
         let bodies = chain.bodies().len();
-        let places = |quantity: ChainQuantity| 0..if quantity.is_of_node() { bodies + 1 } else { bodies };
+        let places = |quantity: ChainQuantity| match quantity {
+            quantity if quantity.is_total() => 0..1,
+            quantity if quantity.is_of_node() => 0..bodies + 1,
+            _ => 0..bodies,
+        };
         let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
         let columns =
             quantities.flat_map(|quantity| places(quantity).map(move |place| ChainColumn { quantity, place }));

@@ -8,6 +8,9 @@ use crate::reason::Warning;
 /// Limit of the wave pieces of a run, unless the chain states another one.
 pub const MAX_PIECES: usize = 2_000_000;
 
+/// Share of the latest time by which a run goes beyond it.
+const BEYOND: f64 = 1.0 / 16.0;
+
 /// A spring with a dashpot beside it, through which two neighbours act on each other.
 ///
 /// The compressive force is `k δ + d δ′` for the depth `δ`, which is the negative gap. In a contact it acts while it
@@ -169,6 +172,25 @@ impl Chain {
     /// **Errors**: those of [`ChainBuilder::build`].
     pub fn with_until(&self, until: Number) -> Result<Chain, ProblemError> {
         ChainBuilder(Chain { until, ..self.clone() }).build()
+    }
+
+    /// Returns the chain with the last time that a run needs to answer up to `latest`: it goes a little beyond, so that
+    /// an event at this time is not at the end of the run.
+    ///
+    /// **Errors**: [`ProblemError`] for a time that is no last time of a run.
+    pub fn reaching(&self, latest: &Number) -> Result<Chain, ProblemError> {
+        if latest.compare(&self.until).is_gt() {
+            return self.with_until(latest.clone());
+        }
+        if latest.to_f64() < 0.0 {
+            return Ok(self.clone());
+        }
+        // A run has a last time above zero.
+        let enough = (latest.to_f64() * (1.0 + BEYOND)).max(self.until.to_f64() * f64::EPSILON);
+        match enough.to_string().parse::<Number>() {
+            Ok(enough) if enough.compare(&self.until).is_lt() => self.with_until(enough),
+            _ => Ok(self.clone()),
+        }
     }
 
     /// Returns the chain with another body in the place of one of its bodies, not checked.

@@ -30,6 +30,16 @@ pub(super) struct Bar<N> {
     pub(super) mass: Option<N>,
 }
 
+impl<N: Bounded> Bar<N> {
+    /// Returns the mass of the body.
+    pub(super) fn mass(&self) -> N {
+        match &self.mass {
+            Some(mass) => mass.clone(),
+            None => self.impedance.clone() * &self.travel,
+        }
+    }
+}
+
 /// A chain in the numbers of a run, at the start. Velocities are those in the frame.
 #[derive(Clone, Debug)]
 pub(super) struct Start<N> {

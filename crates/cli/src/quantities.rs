@@ -6,6 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::failure::Failure;
 use dalembert::Scene;
+use dalembert::chain::ChainQuantity;
 use dalembert::quantity::{Needs, Quantity, Units};
 
 /// A set of quantities with unique names, and its groups.
@@ -17,6 +18,12 @@ pub(crate) enum Scope {
     AlongRod,
     /// Quantities that are one number of a run.
     SingleNumber,
+}
+
+/// Returns whether a name is that of a quantity of a whole chain, which no rod has: `force.1`, `gap`, `chain_energy`.
+pub(crate) fn is_of_chain(name: &str) -> bool {
+    let is_of_rod = || Needs::Time.named(name).is_some();
+    name.contains('.') || (name.parse::<ChainQuantity>().is_ok() && !is_of_rod())
 }
 
 /// Returns whether stresses and forces of a scene have units.
@@ -94,7 +101,7 @@ impl Scope {
 #[derive(Clone)]
 pub(crate) struct NameParser {
     values: Vec<PossibleValue>,
-    /// Whether names such as `u_top.2`, of one body or joint of a chain, are accepted as they are.
+    /// Whether names of quantities of a chain, such as `u_top.2` and `gap`, are accepted as they are.
     with_places: bool,
 }
 
@@ -110,7 +117,7 @@ impl NameParser {
         NameParser { values, with_places: false }
     }
 
-    /// Returns a parser that also accepts names with a place in a chain, which the chain resolves.
+    /// Returns a parser that also accepts names of quantities of a chain, which the chain resolves.
     pub(crate) fn with_places(self) -> Self {
         NameParser { with_places: true, ..self }
     }
@@ -126,7 +133,7 @@ impl TypedValueParser for NameParser {
         value: &OsStr,
     ) -> Result<String, clap::Error> {
         let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
-        if let Some(name) = trimmed.to_str().filter(|name| self.with_places && name.contains('.')) {
+        if let Some(name) = trimmed.to_str().filter(|name| self.with_places && is_of_chain(name)) {
             return Ok(name.into());
         }
         PossibleValuesParser::new(self.values.clone()).parse_ref(command, argument, trimmed)

@@ -4,7 +4,7 @@ use dalembert::chain::{Chain, ChainColumn, ChainQuantity};
 
 use super::data::Source;
 use super::limit::Limit;
-use super::map::name_and_unit;
+use super::map::{compared, name_and_unit};
 use super::options::Options;
 
 /// A bar of a chain, which picks its columns out of data with columns of several bodies.
@@ -55,6 +55,13 @@ impl<'a> Bar<'a> {
         let is_of_none =
             |name: &&String| (0..chain.bodies().len()).all(|body| Bar { chain, body }.column(name).is_none());
         source.head.names.iter().filter(is_of_none).map(String::as_str).collect()
+    }
+
+    /// Returns the columns of quantities without the number of a body or the name of a joint, which may belong to any of
+    /// several bars.
+    pub fn of_any(source: &Source) -> Vec<&str> {
+        let is_of_any = |name: &&String| compared(name_and_unit(name).0, false).is_some();
+        source.head.names.iter().filter(is_of_any).map(String::as_str).collect()
     }
 
     /// Returns the name for this bar of a column with the number of a body or the name of a joint.

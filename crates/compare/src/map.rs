@@ -97,6 +97,9 @@ impl ColumnMap {
                 return Err(MapError::Twice { found: name.clone() });
             }
         }
+        let is_same = |(other, at): &(String, usize), name: &str, taken: Option<usize>| {
+            Some(*at) == taken && other.eq_ignore_ascii_case(name)
+        };
         let (field, places) = (map.place(Quantity::Point).is_some(), map.columns.len());
         let is_place = |name: &str| PLACES.into_iter().any(|(_, known)| is(name, known));
         for (name, place) in entries.iter().filter(|(name, _)| !is_place(name)) {
@@ -104,7 +107,12 @@ impl ColumnMap {
             let twice = found.is_some_and(|found| map.place(found).is_some());
             match found {
                 Some(quantity) if !twice => map.columns.push((quantity, *place)),
-                // Columns without a map may be anything; of several of one quantity the first is taken.
+                // Of columns with different names of one quantity the first is taken, but none of two with one name.
+                Some(quantity)
+                    if text.is_none() && entries.iter().any(|other| is_same(other, name, map.place(quantity))) =>
+                {
+                    return Err(MapError::Twice { found: name.clone() });
+                }
                 _ if text.is_none() => map.unused.extend(Some(name.clone()).filter(|name| !name.is_empty())),
                 Some(_) => return Err(MapError::Twice { found: name.clone() }),
                 None => return Err(MapError::Name { found: name.clone(), field }),

@@ -1,21 +1,21 @@
-//! Scenes with several bodies: `solve`, `sample` and `explain`.
+//! Scenes with several bodies: `solve` and `explain`.
 
 use serde_json::{Map, Value as Json, json};
 
-use crate::failure::{Failure, cannot};
+use crate::failure::Failure;
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, Header, HistoryPart, Layout, RowWriter, SERIES, json_bytes, rows_bytes};
+use crate::output::{Cell, Column, Dataset, HistoryPart, SERIES, json_bytes, rows_bytes};
 use crate::progress::Progress;
 use crate::source::nearest;
 use crate::terminal;
-use dalembert::chain::{Chain, ChainColumn, ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
-use dalembert::number::{List, Value};
-use dalembert::quantity::{Measure, Quantity, Units};
+use dalembert::ChainScene;
+use dalembert::chain::{ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
+use dalembert::number::Value;
+use dalembert::quantity::Measure;
 use dalembert::solve::Numbers;
-use dalembert::{ChainScene, Error, Estimate, Number, Side};
 
 /// Prints what an answer does not decide.
-fn note(history: &ChainHistory) -> Result<(), Failure> {
+pub(super) fn note(history: &ChainHistory) -> Result<(), Failure> {
     history.warning().into_iter().for_each(terminal::note);
     history.chain().strain_warning().into_iter().for_each(terminal::warn);
     let ending = history.ending()?;
@@ -26,7 +26,7 @@ fn note(history: &ChainHistory) -> Result<(), Failure> {
 }
 
 /// Returns the units of forces, impulses and energies in a line, or nothing if none is known.
-fn unit_line(scene: &ChainScene, measures: &[Measure]) -> String {
+pub(super) fn unit_line(scene: &ChainScene, measures: &[Measure]) -> String {
     let named = [(Measure::Force, "force"), (Measure::Impulse, "impulse"), (Measure::Energy, "energies")];
     let asked = named.iter().filter(|(measure, _)| measures.contains(measure) && !scene.unit(*measure).is_empty());
     let texts: Vec<String> = asked.map(|(measure, word)| format!("{word} in {}", scene.unit(*measure))).collect();
@@ -48,7 +48,7 @@ pub(crate) fn unknown_quantity(name: &str, known: &[String]) -> Failure {
     failure!("found the quantity {name} of a chain, expected one of {}{near}", known.join(", "))
 }
 
-fn digits(numbers: Numbers) -> u32 {
+pub(super) fn digits(numbers: Numbers) -> u32 {
     match numbers {
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) | Numbers::Certified(digits) => digits,
         Numbers::Double(_) | Numbers::Exact => 0,
@@ -200,198 +200,7 @@ fn bodies(scene: &ChainScene) -> Json {
     scene.chain.bodies().iter().enumerate().map(body).collect()
 }
 
-/// Rows that are kept at once.
-const CHUNK: usize = 1 << 12;
-
-/// Columns of a chain over time, to be written.
-pub(crate) struct ChainRows<'a> {
-    pub(crate) scene: &'a ChainScene,
-    pub(crate) numbers: Numbers,
-    /// Names of columns; none for all.
-    pub(crate) names: &'a [String],
-    /// Times; `None` stands for the start, the events and the end.
-    pub(crate) times: Option<List>,
-    /// Limit at a jump; `None` stands for both.
-    pub(crate) side: Option<Side>,
-    pub(crate) uncertainty: bool,
-    /// Whether a CSV has no comments.
-    pub(crate) bare: bool,
-    pub(crate) wide: bool,
-}
-
-/// The time of a row.
-struct RowTime {
-    time: Value,
-    origin: Origin,
-}
-
-/// The origin of a time.
-enum Origin {
-    /// A time that was asked for, the start, or the end.
-    Spelled(Number),
-    /// The event with this index.
-    Event(usize),
-}
-
-impl ChainRows<'_> {
-    fn columns(&self) -> Result<Vec<ChainColumn>, Failure> {
-        let chain = &self.scene.chain;
-        let read = |name: &String| {
-            ChainColumn::read(name, chain).ok_or_else(|| {
-                let known = ChainColumn::all(chain).into_iter().map(|column| column.name(chain));
-                unknown_quantity(name, &known.collect::<Vec<_>>())
-            })
-        };
-        if let Some((_, name)) = self.names.iter().enumerate().find(|(k, name)| self.names[..*k].contains(name)) {
-            return Err(failure!("found --quantity {name} twice, expected each once"));
-        }
-        let is_key = |name: &&String| matches!(name.as_str(), "t" | "side");
-        let columns = self.names.iter().filter(|name| !is_key(name)).map(read);
-        match self.names.is_empty() {
-            true => Ok(ChainColumn::all(chain)),
-            false => columns.collect(),
-        }
-    }
-
-    /// Returns the times of the rows; simultaneous events have one row.
-    fn row_times(&self, history: &ChainHistory) -> Result<Vec<RowTime>, Failure> {
-        let spelled = |time: &Number| -> Result<RowTime, Failure> {
-            Ok(RowTime { time: history.time(time)?, origin: Origin::Spelled(time.clone()) })
-        };
-        if let Some(times) = &self.times {
-            let times = times.numbers().ok_or_else(|| failure!("found times of too many digits, expected fewer"))?;
-            return times.iter().map(spelled).collect();
-        }
-        let mut rows = vec![spelled(&0.into())?];
-        let last = spelled(history.chain().until())?;
-        for (k, event) in history.listing()?.events.iter().cloned().enumerate() {
-            let is_new =
-                rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
-            if is_new {
-                rows.push(RowTime { time: event.t, origin: Origin::Event(k) });
-            }
-        }
-        rows.push(last);
-        Ok(rows)
-    }
-
-    /// Adds a row to the cells of each column: time, side and values; for both sides two rows where these differ.
-    fn add(
-        &self,
-        history: &ChainHistory,
-        (columns, row): (&[ChainColumn], &RowTime),
-        cells: &mut [Vec<Cell>],
-    ) -> Result<(), Failure> {
-        let values = |side: Side| -> Result<Vec<Value>, Error> {
-            let value = |column: &ChainColumn| match &row.origin {
-                Origin::Spelled(time) => history.value(*column, time, side),
-                Origin::Event(event) => history.value_at_event(*column, *event, side),
-            };
-            columns.iter().map(value).collect()
-        };
-        let mut push = |side: f64, values: Vec<Value>| {
-            let keys = [row.time.clone(), Estimate::exact(side).into()];
-            cells
-                .iter_mut()
-                .zip(keys.into_iter().chain(values))
-                .for_each(|(cells, value)| cells.push(Cell::Number(value)));
-        };
-        match self.side {
-            Some(side @ Side::Left) => push(-1.0, values(side)?),
-            Some(side @ Side::Right) => push(1.0, values(side)?),
-            None => {
-                let [left, right] = [values(Side::Left)?, values(Side::Right)?];
-                if left.iter().zip(&right).all(|(left, right)| agree(left, right)) {
-                    push(0.0, right);
-                } else {
-                    push(-1.0, left);
-                    push(1.0, right);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Solves the chain, and writes the rows.
-    pub(crate) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
-        let ChainRows { scene, numbers, .. } = self;
-        let (chain, columns) = (&scene.chain, self.columns()?);
-        let latest = self.times.as_ref().and_then(List::greatest);
-        let run = latest.as_ref().map_or_else(|| Ok(chain.clone()), |latest| reaching(chain, latest))?;
-        let progress = Progress::of_chain();
-        let history = run.solve_observed(*numbers, progress.observer())?;
-        let times = self.row_times(&history)?;
-        progress.set_stage("values of the answer");
-        let heads: Vec<Column> = [key(scene, Quantity::Time), key(scene, Quantity::Side)]
-            .into_iter()
-            .chain(columns.iter().map(|column| {
-                let unit = scene.unit(column.quantity.measure());
-                Column::new(column.name(chain)).with_meaning(column.meaning(chain)).with_unit(unit)
-            }))
-            .collect();
-        let bounds = (self.uncertainty, self.bare);
-        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, bounds, digits(*numbers));
-        let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
-        for part in times.chunks(CHUNK) {
-            let mut cells = vec![Vec::new(); heads.len()];
-            part.iter().try_for_each(|row| self.add(&history, (&columns, row), &mut cells))?;
-            writers.iter_mut().try_for_each(|writer| writer.push(&cells)).map_err(cannot("keep the rows"))?;
-        }
-        drop(progress);
-        note(&history)?;
-        let measures: Vec<Measure> = columns.iter().map(|column| column.quantity.measure()).collect();
-        let ends = match self.times {
-            Some(_) => None,
-            None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
-        };
-        let header = Header::of_chain(
-            (scene, latest.as_ref().unwrap_or(chain.until()).to_f64()),
-            *numbers,
-            warnings(&history),
-            ends,
-        );
-        let below = format!("\n{}", unit_line(scene, &measures));
-        let layout = Layout { below, keys: (!self.wide).then_some(2) };
-        writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
-    }
-}
-
-/// Share of the latest time by which a run goes beyond it, so that an event at this time is not at the end of the run.
-const BEYOND: f64 = 1.0 / 16.0;
-
-/// Returns the chain with a last time that the run needs to answer up to `latest`.
-fn reaching(chain: &Chain, latest: &Number) -> Result<Chain, Failure> {
-    let until = chain.until();
-    if latest.compare(until).is_gt() {
-        return Ok(chain.with_until(latest.clone())?);
-    }
-    if latest.to_f64() < 0.0 {
-        return Ok(chain.clone());
-    }
-    // A run has a last time above zero.
-    let enough = (latest.to_f64() * (1.0 + BEYOND)).max(until.to_f64() * f64::EPSILON);
-    match enough.to_string().parse::<Number>() {
-        Ok(enough) if enough.compare(until).is_lt() => Ok(chain.with_until(enough)?),
-        _ => Ok(chain.clone()),
-    }
-}
-
-/// Returns the column of the time or the side.
-fn key(scene: &ChainScene, quantity: Quantity) -> Column {
-    let unit = quantity.measure().map_or("", |measure| scene.unit(measure));
-    Column::from_quantity(quantity, &Units::default()).with_unit(unit)
-}
-
-/// Returns whether two doubles agree within their bounds, or two longer numbers are the same.
-fn agree(a: &Value, b: &Value) -> bool {
-    if a.is_double() && b.is_double() {
-        (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
-    } else {
-        a.to_string() == b.to_string()
-    }
-}
-
-fn warnings(history: &ChainHistory) -> Vec<String> {
+pub(super) fn warnings(history: &ChainHistory) -> Vec<String> {
     history.warning().into_iter().chain(history.chain().strain_warning()).map(|warning| warning.to_string()).collect()
 }
 

@@ -240,6 +240,11 @@ impl Compare {
                 let expected = "a file, which is read once for each";
                 return Err(failure!("found `-` with data of {} bodies, expected {expected}", bars.len()).help(choose));
             }
+            let unnumbered = first.filter(|_| self.options.map.is_none()).map_or_else(Vec::new, Bar::of_any);
+            if let Some(name) = unnumbered.first() {
+                let expected = "the number of its body or the name of its joint, as the others have";
+                return Err(failure!("found the column {name} of a chain, expected {expected}").help(choose));
+            }
             let others = first.map_or_else(Vec::new, |first| Bar::of_none(chain, first)).join(", ");
             if !others.is_empty() {
                 terminal::warn(format!("not compared: {others}; `sample` has the exact values"));

@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 pub(crate) mod chain;
+mod chain_rows;
 pub(crate) mod check;
 pub(crate) mod cite;
 pub(crate) mod compare;

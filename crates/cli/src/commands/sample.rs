@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::chain::ChainRows;
+use super::chain_rows::ChainRows;
 use crate::answer::{Answer, solve};
 use crate::args::{SceneArgs, known_formats, list, words};
 use crate::failure::{Failure, cannot};
@@ -15,7 +15,7 @@ use crate::file::{Destination, Format, write_all};
 use crate::output::{
     Cell, Column, Header, Language, Layout, RowWriter, RunInfo, code, derivative_rows, derivative_table,
 };
-use crate::quantities::{NameParser, Scope, has_material};
+use crate::quantities::{NameParser, Scope, has_material, is_of_chain};
 use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::number::{List, Number};
@@ -59,7 +59,8 @@ struct SampleArgs {
     scene: SceneArgs,
     /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
     /// golden file has the columns as they are listed, by default all. Of a chain they are u_top.2 of the second body,
-    /// force.bottom, force.1 of the joint above the first body, force.top, and so on; by default all
+    /// force.bottom, force.1 of the joint above the first body, force.top, and so on; `gap` stands for all gaps, `end.2`
+    /// for a group of one body, chain_energy and chain_momentum for sums over all bodies; by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).with_places())]
     quantity: Vec<String>,
@@ -77,7 +78,7 @@ struct SampleArgs {
     #[arg(long, value_name = "T", requires = "dt", allow_hyphen_values = true)]
     to: Option<Number>,
     /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is
-    /// both ends and the middle
+    /// both ends and the middle. Of a chain they count from the lower end of each body: u.2, v.2, strain.2
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
     points: Option<List>,
     /// Meaning of the field on the grid of the points
@@ -175,7 +176,7 @@ impl SampleArgs {
 
     /// Returns whether the quantities are those of a rod, and not of the joints and bodies of a chain.
     fn are_of_rod(&self, is_golden: bool) -> bool {
-        let has_place = self.quantity.iter().any(|name| name.contains('.'));
+        let has_place = self.quantity.iter().any(|name| is_of_chain(name));
         !has_place && (is_golden || !self.quantity.is_empty())
     }
 
@@ -199,7 +200,8 @@ impl SampleArgs {
 
     /// Writes values of a scene with several bodies.
     fn chain(&self, scene: &ChainScene, is_golden: bool) -> Result<(), Failure> {
-        let refused = [(self.points.is_some(), "--points"), (!self.derivatives.is_empty(), "--derivatives")];
+        let is_along = self.field != Slice::default();
+        let refused = [(is_along, "--field"), (!self.derivatives.is_empty(), "--derivatives")];
         if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
             return Err(failure!("found {option} with a chain of bodies, expected it with one of them, --body N"));
         }
@@ -208,6 +210,7 @@ impl SampleArgs {
             numbers: self.scene.numbers.numbers_to(scene.accuracy),
             names: &self.quantity,
             times: self.times()?,
+            points: self.points.clone(),
             side: self.side(is_golden),
             uncertainty: self.uncertainty,
             bare: self.bare,

@@ -13,7 +13,7 @@ use crate::args::{SceneArgs, in_threads, known_formats};
 use crate::failure::{self, Failure};
 use crate::file::{Format, write_all};
 use crate::output::{rows_bytes, sweep_data};
-use crate::quantities::{NameParser, Scope, has_material};
+use crate::quantities::{NameParser, Scope, has_material, is_of_chain};
 use crate::source::AnyScene;
 use crate::sweep::{self, Axis, ChainRequest, Grid, Journal, Point, Request, Subject, journal_path};
 use crate::terminal;
@@ -82,8 +82,7 @@ impl Sweep {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let destinations = self.scene.output.destinations(FORMATS)?;
         let axes = self.vary.iter().map(|text| axis(text)).collect::<Result<Vec<_>, _>>()?;
-        // Names with a place are those of a whole chain.
-        let whole = self.quantity.iter().any(|name| name.contains('.'));
+        let whole = self.quantity.iter().any(|name| is_of_chain(name));
         let scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Chain(scene) if whole => AnyScene::Chain(scene),
             scene => AnyScene::Rod(Box::new(scene.into_rod(&self.scene.scene, None)?)),

@@ -232,10 +232,14 @@ pub(crate) struct ChainRequest {
 impl ChainRequest {
     /// Returns the numbers of a chain, or the reasons why they do not exist.
     fn numbers_of(&self, chain: Result<Chain, ProblemError>) -> Vec<PointNumber> {
-        // The run reaches the time, whatever its own end.
-        let late = |chain: &Chain| self.time.clone().filter(|time| time.compare(chain.until()).is_gt());
-        let reaching = |chain: Chain| late(&chain).map_or(Ok(chain.clone()), |time| chain.with_until(time));
-        let history = match chain.and_then(reaching).map(|chain| chain.solve(self.numbers)) {
+        // The run goes to the time, or to its own end if that is later and a contact is asked about.
+        let is_over_time = |(_, query): &(_, ChainQuery)| matches!(query, ChainQuery::Column(_));
+        let are_over_time = self.quantities.iter().all(is_over_time);
+        let run_to = |chain: Chain| match &self.time {
+            Some(time) if are_over_time || time.compare(chain.until()).is_gt() => chain.reaching(time),
+            _ => Ok(chain),
+        };
+        let history = match chain.and_then(run_to).map(|chain| chain.solve(self.numbers)) {
             Ok(Ok(history)) => history,
             Ok(Err(error)) => return vec![PointNumber::missing(error); self.quantities.len()],
             Err(error) => return vec![PointNumber::missing(error); self.quantities.len()],

@@ -91,7 +91,7 @@ fn a_golden_file_names_its_body() {
 #[test]
 fn chains_have_units() {
     assert!(run("solve schwarz-two-bars").ends_with("\nforce in N, impulse in N s\n"));
-    assert!(run("sample schwarz-two-bars --times 2e-4").ends_with("\nforce in N, energies in J\n"));
+    assert!(run("sample schwarz-two-bars --times 2e-4").ends_with("\nforce in N, impulse in N s, energies in J\n"));
     let json: serde_json::Value = serde_json::from_str(&run("solve carpenter-taylor-katona --format json")).unwrap();
     assert_eq!((&json["units"]["force"], &json["units"]["length"]), (&"lbf".into(), &"in".into()));
     assert!(!run("solve hopkinson-striker").contains(" in N"));
@@ -198,7 +198,7 @@ fn bodies_that_are_not_there_are_refused() {
         ("solve openfoam-7-1-2 --body 3", "expected a body from 1, the lowest, to 2"),
         ("solve openfoam-7-1-2 --body 0", "expected a body from 1, the lowest, to 2"),
         ("solve paper-weak --body 2", "expected 1"),
-        ("reference openfoam-7-1-2 --points 1", "expected it with one of them, --body N"),
+        ("reference openfoam-7-1-2 --times 1 --points 1 --field p1", "expected it with one of them, --body N"),
         ("reference openfoam-7-1-2 --body 1 --as python", "expected an undamped rod by itself"),
         ("solve openfoam-7-1-2 --body 1 --impacts 2", "expected the last time of the run"),
     ] {
@@ -437,4 +437,57 @@ fn contacts_beyond_an_early_end_have_no_impulse() {
     assert!(["impulse", "peak_force", "peak_time"].iter().all(|name| last[name].is_null()), "{last}");
     let (_, last) = contacts(&[]);
     assert!(last["impulse"].is_f64(), "{last}");
+}
+
+/// Returns the rows of `sample` in CSV, without the header, as numbers.
+fn sampled(arguments: &str) -> Vec<Vec<f64>> {
+    let out = run(&format!("sample {arguments} --format csv --bare"));
+    out.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+/// **Source**: before the joint of OpenFOAM's bars opens, the contact pushes with 7/170 and sends fronts of the strain
+/// f/EA into both bars, with the velocities v − f/Z and f/Z; at t = 0.2 both have come back from the free ends.
+#[test]
+fn whole_chains_are_sampled_at_points() {
+    let rows = sampled("openfoam-7-1-2 --times 0.2 --points 0,5,10 --quantity t,x,v.1,strain.1,field.2");
+    let force = 7.0 / 170.0;
+    // Z = 0.7 and EA = 49 of the lower bar, Z = 1 and EA = 100 of the upper one.
+    let found = |row: usize, column: usize| rows[row][column];
+    assert!(rows.iter().map(|row| row[..2].to_vec()).eq([[0.2, 0.0], [0.2, 5.0], [0.2, 10.0]]), "{rows:?}");
+    let [strain, other] = [-force / 49.0, -force / 100.0];
+    let velocities = [(1, 2, 0.1 - force / 0.7), (0, 5, force), (2, 5, 2.0 * force)];
+    let strains = [(0, 3, 0.0), (1, 3, strain), (0, 6, other), (2, 6, 0.0)];
+    for (row, column, expected) in velocities.into_iter().chain(strains) {
+        assert!((found(row, column) - expected).abs() < 1e-14, "{row}, {column}: {rows:?}");
+    }
+    for (arguments, part) in [
+        ("--times 1 --points 11 --quantity u.2", "found the point 11 for u.2, expected points from 0 to 10"),
+        ("--points 1", "found --points without times"),
+        ("--times 1 --points 1 --quantity u_end.2", "found the quantity u_end.2 of a chain, expected one of u.1"),
+    ] {
+        let all = ["sample", "openfoam-7-1-2"].into_iter().chain(arguments.split_whitespace());
+        refused(&all.collect::<Vec<_>>(), &[part]);
+    }
+}
+
+/// Groups stand for their quantities at all places, and the whole chain has an energy and a momentum. **Source**: a bar
+/// of mass 1 and speed 0.1 has 0.005 of energy; masses and springs of a scene without loads keep the energy.
+#[test]
+fn chains_have_groups_and_sums() {
+    let columns = |list: &str| {
+        let out = run(&format!("sample openfoam-7-1-2 --times 0.2 --quantity {list} --format csv --bare"));
+        out.lines().next().unwrap().to_string()
+    };
+    assert_eq!(columns("gap"), "t,side,gap.bottom,gap.1,gap.top");
+    assert_eq!(columns("end.2,energy.1"), "t,side,u_end.2,v_end.2,kinetic.1,strain_energy.1,E_total.1");
+    assert_eq!(columns("t,force.1"), "t,force.1");
+    let exact =
+        "sample openfoam-7-1-2 --times 0,0.2,0.3,1 --quantity t,chain_energy,chain_momentum --exact --format csv";
+    assert_eq!(run(exact).lines().filter(|line| line.ends_with(",1/2000,1/100")).count(), 4);
+    let energies = sampled("saint-venant-mass --times 0,0.3,1.7 --quantity t,chain_energy");
+    assert!(energies.iter().all(|row| (row[1] - energies[0][1]).abs() < 1e-13 && row[1] > 0.1), "{energies:?}");
+    let swept = run("sweep saint-venant-mass --vary body.2.mass=1/2,2 --quantity chain_energy --time 1/2 --format csv");
+    let energies: Vec<f64> =
+        swept.lines().skip(1).map(|line| line.split(',').nth(2).unwrap().parse().unwrap()).collect();
+    assert!((energies[0] - 0.25).abs() < 1e-14 && (energies[1] - 1.0).abs() < 1e-14, "{swept}");
 }

@@ -100,6 +100,9 @@ fn what_needs_one_body_is_refused() {
     assert_eq!(refused(&["plain.csv"]), format!("error: found 2 bodies in `bars.toml`, expected {expected}"));
     assert_eq!(refused(&["run.csv", "-o", "run.svg"]), "error: found a picture of all bodies, expected one body");
     assert_eq!(refused(&["run.csv", "--fit", "length"]), "error: found --fit of all bodies, expected one body");
+    folder.write("mixed.csv", "t,u_end,u_end.2\n0,0,0\n1,1,1\n");
+    let expected = "the number of its body or the name of its joint, as the others have";
+    assert_eq!(refused(&["mixed.csv"]), format!("error: found the column u_end of a chain, expected {expected}"));
     assert!(refused(&["run.csv", "--body", "3"]).contains("expected a body from 1, the lowest, to 2"));
     assert!(!folder.has("run.svg"));
 }

@@ -30,4 +30,7 @@ fn what_is_refused() {
     assert_eq!(of(None, "t a b", false), MapError::Nothing { found: "t, a, b".into(), field: false });
     assert_eq!(of(None, "t x force", false), MapError::Nothing { found: "t, x, force".into(), field: true });
     assert_eq!(of(None, "t time u", false), MapError::Twice { found: "time".into() });
+    // One name twice; of two names of one quantity, the first is taken.
+    assert_eq!(of(None, "t u_end U_end", false), MapError::Twice { found: "U_end".into() });
+    assert_eq!(ColumnMap::new(None, &names("t u_end u"), 3, false).unwrap().unused, ["u"]);
 }

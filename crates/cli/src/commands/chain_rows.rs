@@ -1,0 +1,321 @@
+//! Rows of the columns of a chain over time, or at points of its bodies.
+
+use std::fmt::Display;
+
+use super::chain::{digits, note, unit_line, unknown_quantity, warnings};
+use crate::failure::{Failure, cannot};
+use crate::file::Destination;
+use crate::output::{Cell, Column, Header, Layout, RowWriter};
+use crate::progress::Progress;
+use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory};
+use dalembert::number::{List, Scalar, Value};
+use dalembert::quantity::{Measure, Needs, Quantity, SLICE, Units};
+use dalembert::solve::Numbers;
+use dalembert::{ChainScene, Error, Estimate, Number, Side};
+
+/// Rows that are kept at once.
+const CHUNK: usize = 1 << 12;
+
+/// Columns of a chain, to be written.
+pub(crate) struct ChainRows<'a> {
+    pub(crate) scene: &'a ChainScene,
+    pub(crate) numbers: Numbers,
+    /// Names of columns; none for all.
+    pub(crate) names: &'a [String],
+    /// Times; `None` stands for the start, the events and the end.
+    pub(crate) times: Option<List>,
+    /// Points of the bodies, from their lower ends, for the rows of a field.
+    pub(crate) points: Option<List>,
+    /// Limit at a jump; `None` stands for both.
+    pub(crate) side: Option<Side>,
+    pub(crate) uncertainty: bool,
+    /// Whether a CSV has no comments.
+    pub(crate) bare: bool,
+    pub(crate) wide: bool,
+}
+
+/// A column of the rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RowColumn {
+    /// Time, side, or point.
+    Key(Quantity),
+    /// A quantity over time.
+    Whole(ChainColumn),
+    /// A quantity at a point of a body.
+    Point { quantity: Quantity, body: usize },
+}
+
+/// The time of a row.
+struct RowTime {
+    time: Value,
+    origin: Origin,
+}
+
+/// The origin of a time.
+enum Origin {
+    /// A time that was asked for, the start, or the end.
+    Spelled(Number),
+    /// The event with this index.
+    Event(usize),
+}
+
+impl RowColumn {
+    /// Returns the columns that a name stands for; none for an unknown name.
+    fn read(name: &str, chain: &Chain, is_field: bool) -> Vec<Self> {
+        let keys = if is_field { &SLICE[..3] } else { &SLICE[..2] };
+        if let Some(key) = keys.iter().find(|key| key.name() == name) {
+            return vec![RowColumn::Key(*key)];
+        }
+        if !is_field {
+            return ChainColumn::list(name, chain).into_iter().map(RowColumn::Whole).collect();
+        }
+        let (quantity, place) = name.split_once('.').map_or((name, None), |(quantity, place)| (quantity, Some(place)));
+        let quantities = match (quantity, Needs::PointAndTime.named(quantity)) {
+            ("field", _) => SLICE[3..].to_vec(),
+            (_, known) => known.into_iter().filter(|quantity| SLICE[3..].contains(quantity)).collect(),
+        };
+        let is_asked = |body: usize| place.is_none_or(|place| place.parse() == Ok(body + 1));
+        let bodies = bars(chain).filter(|body| is_asked(*body));
+        bodies
+            .flat_map(|body| quantities.iter().map(move |quantity| RowColumn::Point { quantity: *quantity, body }))
+            .collect()
+    }
+
+    /// Returns the name of the column.
+    fn name(self, chain: &Chain) -> String {
+        match self {
+            RowColumn::Key(quantity) => quantity.name().into(),
+            RowColumn::Whole(column) => column.name(chain),
+            RowColumn::Point { quantity, body } => format!("{}.{}", quantity.name(), body + 1),
+        }
+    }
+
+    fn measure(self) -> Option<Measure> {
+        match self {
+            RowColumn::Whole(column) => Some(column.quantity.measure()),
+            RowColumn::Key(quantity) | RowColumn::Point { quantity, .. } => quantity.measure(),
+        }
+    }
+
+    /// Returns the head of the column.
+    fn head(self, scene: &ChainScene) -> Column {
+        let unit = self.measure().map_or("", |measure| scene.unit(measure));
+        let chain = &scene.chain;
+        let meaning = match self {
+            RowColumn::Key(quantity) => return Column::from_quantity(quantity, &Units::default()).with_unit(unit),
+            RowColumn::Whole(column) => column.meaning(chain),
+            RowColumn::Point { quantity, body } => {
+                let name = chain.bodies()[body].name().map_or_else(String::new, |name| format!(" ({name})"));
+                format!("{}, of body {}{name}", quantity.meaning(), body + 1)
+            }
+        };
+        Column::new(self.name(chain)).with_meaning(meaning).with_unit(unit)
+    }
+}
+
+/// Returns the indices of the bodies that are no rigid masses.
+fn bars(chain: &Chain) -> impl Iterator<Item = usize> {
+    let is_bar = |(_, body): &(usize, &Body)| body.rigid_mass().is_none();
+    chain.bodies().iter().enumerate().filter(is_bar).map(|(k, _)| k)
+}
+
+impl ChainRows<'_> {
+    fn is_field(&self) -> bool {
+        self.points.is_some()
+    }
+
+    /// Returns the columns, with their keys before them unless the time is among them.
+    fn columns(&self) -> Result<Vec<RowColumn>, Failure> {
+        let chain = &self.scene.chain;
+        let mut columns: Vec<RowColumn> = Vec::new();
+        for name in self.names {
+            let found = RowColumn::read(name, chain, self.is_field());
+            if found.is_empty() {
+                return Err(unknown_quantity(name, &self.known()));
+            }
+            if let Some(twice) = found.iter().find(|column| columns.contains(column)) {
+                return Err(failure!("found --quantity {} twice, expected each once", twice.name(chain)));
+            }
+            columns.extend(found);
+        }
+        if columns.iter().all(|column| matches!(column, RowColumn::Key(_))) {
+            columns.extend(match self.is_field() {
+                true => RowColumn::read("field", chain, true),
+                false => ChainColumn::all(chain).into_iter().map(RowColumn::Whole).collect(),
+            });
+        }
+        if !columns.contains(&RowColumn::Key(Quantity::Time)) {
+            let keys = if self.is_field() { &SLICE[..3] } else { &SLICE[..2] };
+            columns.retain(|column| !matches!(column, RowColumn::Key(_)));
+            columns.splice(..0, keys.iter().copied().map(RowColumn::Key));
+        }
+        Ok(columns)
+    }
+
+    /// Returns all names of columns.
+    fn known(&self) -> Vec<String> {
+        let chain = &self.scene.chain;
+        match self.is_field() {
+            true => RowColumn::read("field", chain, true).into_iter().map(|column| column.name(chain)).collect(),
+            false => ChainColumn::names(chain),
+        }
+    }
+
+    /// Returns a point as a number of the answers.
+    fn place_of(&self, point: &Number) -> Value {
+        match self.numbers {
+            Numbers::Exact => point.to_rational().into(),
+            _ => Estimate::<f64>::spelling(point, &()).into(),
+        }
+    }
+
+    /// Returns the points; an error for one beyond a body that is asked about.
+    fn listed_points(&self, columns: &[RowColumn]) -> Result<Vec<Number>, Failure> {
+        let Some(points) = &self.points else { return Ok(Vec::new()) };
+        let points = points.numbers().ok_or_else(|| too_long("points"))?;
+        for column in columns {
+            let RowColumn::Point { body, .. } = column else { continue };
+            let length = self.scene.chain.bodies()[*body].length();
+            let is_outside = |point: &&Number| point.to_f64() < 0.0 || point.compare(length).is_gt();
+            if let Some(point) = points.iter().find(is_outside) {
+                let name = column.name(&self.scene.chain);
+                return Err(failure!("found the point {point} for {name}, expected points from 0 to {length}"));
+            }
+        }
+        Ok(points)
+    }
+
+    /// Returns the times of the rows; simultaneous events have one row.
+    fn row_times(&self, history: &ChainHistory) -> Result<Vec<RowTime>, Failure> {
+        let spelled = |time: &Number| -> Result<RowTime, Failure> {
+            Ok(RowTime { time: history.time(time)?, origin: Origin::Spelled(time.clone()) })
+        };
+        if let Some(times) = &self.times {
+            return times.numbers().ok_or_else(|| too_long("times"))?.iter().map(spelled).collect();
+        }
+        let mut rows = vec![spelled(&0.into())?];
+        let last = spelled(history.chain().until())?;
+        for (k, event) in history.listing()?.events.iter().cloned().enumerate() {
+            let is_new =
+                rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
+            if is_new {
+                rows.push(RowTime { time: event.t, origin: Origin::Event(k) });
+            }
+        }
+        rows.push(last);
+        Ok(rows)
+    }
+
+    /// Adds a row to the cells of each column, at a point of a field; for both sides two rows where these differ.
+    fn add(
+        &self,
+        history: &ChainHistory,
+        columns: &[RowColumn],
+        (row, point): (&RowTime, Option<&Number>),
+        cells: &mut [Vec<Cell>],
+    ) -> Result<(), Failure> {
+        let values = |side: Side| -> Result<Vec<Option<Value>>, Error> {
+            // Columns of one body follow each other.
+            let mut field = None;
+            let mut value = |column: &RowColumn| match (column, &row.origin, point) {
+                (RowColumn::Key(_), ..) => Ok(None),
+                (RowColumn::Whole(column), Origin::Spelled(time), _) => history.value(*column, time, side).map(Some),
+                (RowColumn::Whole(column), Origin::Event(event), _) => {
+                    history.value_at_event(*column, *event, side).map(Some)
+                }
+                (RowColumn::Point { quantity, body }, Origin::Spelled(time), Some(point)) => {
+                    if field.as_ref().is_none_or(|(known, _)| known != body) {
+                        field = Some((*body, history.field(*body, point, time, side)?));
+                    }
+                    let numbers = field.as_ref().map(|(_, field)| field.numbers());
+                    let place = SLICE[3..].iter().position(|known| known == quantity);
+                    Ok(numbers.zip(place).map(|(numbers, place)| numbers[place].clone()))
+                }
+                (RowColumn::Point { .. }, ..) => Ok(None),
+            };
+            columns.iter().map(&mut value).collect()
+        };
+        let mut push = |side: f64, values: Vec<Option<Value>>| {
+            for ((cells, column), value) in cells.iter_mut().zip(columns).zip(values) {
+                cells.push(match (column, point) {
+                    (RowColumn::Key(Quantity::Time), _) => Cell::Number(row.time.clone()),
+                    (RowColumn::Key(Quantity::Point), Some(point)) => Cell::Number(self.place_of(point)),
+                    (RowColumn::Key(_), _) => Cell::Number(Estimate::exact(side).into()),
+                    _ => Cell::number(value),
+                });
+            }
+        };
+        match self.side {
+            Some(side @ Side::Left) => push(-1.0, values(side)?),
+            Some(side @ Side::Right) => push(1.0, values(side)?),
+            None => {
+                let [left, right] = [values(Side::Left)?, values(Side::Right)?];
+                let are_alike = |(left, right): (&Option<Value>, &Option<Value>)| match (left, right) {
+                    (Some(left), Some(right)) => agree(left, right),
+                    _ => true,
+                };
+                if left.iter().zip(&right).all(are_alike) {
+                    push(0.0, right);
+                } else {
+                    push(-1.0, left);
+                    push(1.0, right);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves the chain, and writes the rows.
+    pub(crate) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
+        let ChainRows { scene, numbers, .. } = self;
+        let (chain, columns) = (&scene.chain, self.columns()?);
+        if self.is_field() && self.times.is_none() {
+            return Err(failure!("found --points without times, expected --times, --dt or --times-from with it"));
+        }
+        let points = self.listed_points(&columns)?;
+        let latest = self.times.as_ref().and_then(List::greatest);
+        let run = latest.as_ref().map_or_else(|| Ok(chain.clone()), |latest| chain.reaching(latest))?;
+        let progress = Progress::of_chain();
+        let history = run.solve_observed(*numbers, progress.observer())?;
+        let times = self.row_times(&history)?;
+        progress.set_stage("values of the answer");
+        let heads: Vec<Column> = columns.iter().map(|column| column.head(scene)).collect();
+        let bounds = (self.uncertainty, self.bare);
+        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, bounds, digits(*numbers));
+        let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
+        let places: Vec<Option<&Number>> = if self.is_field() { points.iter().map(Some).collect() } else { vec![None] };
+        let all: Vec<(&RowTime, Option<&Number>)> =
+            times.iter().flat_map(|time| places.iter().map(move |place| (time, *place))).collect();
+        for part in all.chunks(CHUNK) {
+            let mut cells = vec![Vec::new(); heads.len()];
+            part.iter().try_for_each(|row| self.add(&history, &columns, *row, &mut cells))?;
+            writers.iter_mut().try_for_each(|writer| writer.push(&cells)).map_err(cannot("keep the rows"))?;
+        }
+        drop(progress);
+        note(&history)?;
+        let measures: Vec<Measure> = columns.iter().filter_map(|column| column.measure()).collect();
+        let ends = match self.times {
+            Some(_) => None,
+            None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
+        };
+        let last = latest.as_ref().unwrap_or(chain.until()).to_f64();
+        let header = Header::of_chain((scene, last), *numbers, warnings(&history), ends);
+        let below = format!("\n{}", unit_line(scene, &measures));
+        let keys = columns.iter().take_while(|column| matches!(column, RowColumn::Key(_))).count();
+        let layout = Layout { below, keys: (!self.wide).then_some(keys) };
+        writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
+    }
+}
+
+fn too_long(what: impl Display) -> Failure {
+    failure!("found {what} of too many digits, expected fewer")
+}
+
+/// Returns whether two doubles agree within their bounds, or two longer numbers are the same.
+fn agree(a: &Value, b: &Value) -> bool {
+    if a.is_double() && b.is_double() {
+        (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
+    } else {
+        a.to_string() == b.to_string()
+    }
+}
