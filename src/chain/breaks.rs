@@ -1,12 +1,12 @@
 //! Breaks of the signals that arrive at a cluster.
 
 use super::cluster::Cluster;
-use super::curve::greater;
+use super::curve::{greater, upper};
 use super::interface::Moment;
 use super::node::{Occurrence, Source};
 use super::step::refs;
 use super::wave::Wave;
-use crate::number::{Bounded, is_exact_zero};
+use crate::number::Bounded;
 
 impl<N: Bounded> Cluster<N> {
     /// Looks up the breaks that have left the neighbours since.
@@ -75,9 +75,11 @@ impl<N: Bounded> Cluster<N> {
                 self.doubts();
             }
         }
-        if !is_exact_zero(&spread) {
-            self.reached = Moment::beside(self.reached.at.clone(), spread, self.reached.exact.take());
+        // A wave that leaves has the breaks that have been passed as one within the bounds of all of them.
+        if self.reached.late.below(&spread) == Ok(true) {
+            self.reached.time = self.reached.time.clone().widened(&spread);
         }
+        self.reached.late = upper(spread);
         occurrences
     }
 

@@ -2,7 +2,7 @@
 
 use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
-use super::interface::{Interface, Row};
+use super::interface::{Input, Interface, Row};
 use super::node::{Source, Stop};
 use crate::number::Bounded;
 
@@ -78,14 +78,14 @@ impl<N: Bounded> Linear<N> {
     }
 
     /// Returns the states that decay much faster than a step over a width follows the others, by their places among the
-    /// dynamic states, and a width over which it does.
+    /// dynamic states, and a width over which it does. None of the places in `moving` is among them.
     ///
     /// **Source**: a state f of fast decay κ is `Σ M_fj x_j/κ` and slopes of that over κ, which leaves the others with
     /// rates of at most `|M_ij| + Σ |M_if M_fj|/κ`. Only springs are fast beside other states, as they do not act on
     /// each other at once.
-    fn fast(&self, masses: usize, degree: usize, width: f64) -> (Vec<usize>, f64) {
+    fn fast(&self, masses: usize, degree: usize, width: f64, moving: &[usize]) -> (Vec<usize>, f64) {
         let decay = |i: usize| self.dynamic[i].decay.as_ref().map_or(0.0, N::to_f64);
-        let may_be = |i: &usize| self.dynamic.len() == 1 || self.dynamic[*i].state >= masses;
+        let may_be = |i: &usize| !moving.contains(i) && (self.dynamic.len() == 1 || self.dynamic[*i].state >= masses);
         let is_fast = |i: &usize, width: f64| decay(*i) * width > degree as f64;
         let all = || 0..self.dynamic.len();
         let mut fast: Vec<usize> = all().filter(may_be).filter(|i| is_fast(i, width)).collect();
@@ -119,7 +119,7 @@ const WIDEST: f64 = 2.0;
 const UNEVEN: f64 = 0.971_828_182_845;
 
 /// Roundings of a state that do not count as a decaying part.
-const NOISE: f64 = 64.0;
+const NOISE: i64 = 64;
 
 /// Returns the degree at which `θᵏ/k!` falls below a rounding, for steps of [`WIDEST`].
 pub(super) fn degree(bits: u32) -> usize {
@@ -301,13 +301,17 @@ impl<N: Bounded> Cluster<N> {
             return Err(Stop::Open);
         }
         let tolerance = self.speed.clone() * &self.rounding;
-        if product > self.degree as f64 {
-            let (fast, slow) = self.linear.fast(self.masses.len(), self.degree, width.to_f64());
+        // The places of states that have not decayed yet.
+        let mut moving = Vec::new();
+        while product > self.degree as f64 {
+            let (fast, slow) = self.linear.fast(self.masses.len(), self.degree, width.to_f64(), &moving);
+            if fast.is_empty() {
+                break;
+            }
             let slow = if slow < width.to_f64() { width.double(slow) } else { width.clone() };
-            if !fast.is_empty()
-                && let Some(solved) = self.solve_stiff(inputs, &fast, &slow, &tolerance)
-            {
-                return Ok(self.shortened(solved, (slow, *rate), &tolerance));
+            match self.solve_stiff(inputs, &fast, &slow, &tolerance) {
+                Ok(solved) => return Ok(self.shortened(solved, (slow, *rate), &tolerance)),
+                Err(place) => moving.push(place),
             }
         }
         let shorter = even(*rate, width.to_f64());
@@ -373,15 +377,16 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Solves the equation over a width in which the states at the places `fast` among the dynamic ones follow the others
-    /// at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state. Returns `None` as long as a part of
-    /// one that decays is more than some roundings.
+    /// at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state.
+    ///
+    /// **Errors**: the place of the slowest state of which a part that decays is more than some roundings.
     fn solve_stiff(
         &self,
         inputs: &[[Curve<N>; 2]],
         fast: &[usize],
         width: &N,
         tolerance: &N,
-    ) -> Option<Polynomials<N>> {
+    ) -> Result<Polynomials<N>, usize> {
         let zero = self.norm.zero();
         let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
         let unit = unit_of(width);
@@ -432,15 +437,29 @@ impl<N: Bounded> Cluster<N> {
                 break;
             }
         }
-        let mut fast = Vec::new();
-        for (state, decay) in decays {
-            let off = (begun[state].clone() - &states[state][0]).magnitude();
-            let noise = self.noise((state, &decay), &states[state][0], tolerance);
-            if (off.clone() / noise).to_f64() > NOISE {
-                return None;
-            }
-            fast.push(Fast { state, decay, off });
+        // Signals that are known within a bound leave an equal part unknown.
+        let known = |side: &Input<N>, curve: &Curve<N>| match side.source {
+            Source::Mass(mass) => self.masses[mass].error.clone(),
+            _ => curve.error.clone(),
+        };
+        let errors = self.interfaces.iter().zip(&inputs).map(|(interface, curves)| {
+            let [below, above] = [0, 1].map(|side| known(&interface.sides[side], &curves[side]));
+            [below, above, zero.clone()]
+        });
+        let blurs = self.rates(&errors.collect::<Vec<_>>(), true);
+        let off = |(state, _): &(usize, N)| (begun[*state].clone() - &states[*state][0]).magnitude();
+        let moves = |own: &(usize, N)| {
+            let (state, decay) = own;
+            let noise = self.noise((*state, decay), &states[*state][0], tolerance) * zero.int(NOISE);
+            off(own).below(&(blurs[*state].clone() / decay + noise)) != Ok(true)
+        };
+        let rate = |i: &usize| decays[*i].1.to_f64();
+        let slowest = (0..decays.len()).filter(|i| moves(&decays[*i])).min_by(|i, j| rate(i).total_cmp(&rate(j)));
+        if let Some(slowest) = slowest {
+            return Err(fast[slowest]);
         }
+        let fast: Vec<Fast<N>> =
+            decays.iter().map(|own| Fast { state: own.0, decay: own.1.clone(), off: off(own) }).collect();
         let mut radii: Vec<Vec<N>> = vec![vec![zero.clone()]; states.len()];
         let mut rates = vec![zero.clone(); states.len()];
         for k in 0..=last {
@@ -454,7 +473,7 @@ impl<N: Bounded> Cluster<N> {
                 }
             }
         }
-        Some(Polynomials { states, unit, radii, rates, fast })
+        Ok(Polynomials { states, unit, radii, rates, fast })
     }
 
     /// Returns the size of roundings of a state that decays fast.

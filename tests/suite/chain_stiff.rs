@@ -72,3 +72,26 @@ fn a_mass_between_two_stiff_springs_follows_the_closed_form() {
         check(&run, 1, (k, 2.0 / 3.0));
     }
 }
+
+/// A mass between two bars with springs of 10⁵ and 10⁹ EA/L: the slow spring decays while the fast one follows.
+#[test]
+fn springs_of_different_stiffness_beside_a_mass_keep_the_energy() {
+    let scene = "[[body]]\nlength = 1\nmodulus = 1\ndensity = 1\n\
+                 [[body]]\nmass = 0.7\ngap = 0.05\njoint = { stiffness = 1e5 }\n\
+                 [[body]]\nlength = 1.3\nmodulus = 2\ndensity = 1\nvelocity = -1\ngap = 0.02\n\
+                 joint = { stiffness = 1e9 }\n[run]\ntime = 4";
+    let run = run(scene);
+    assert!(run.pieces() < 2000 && run.events().len() == 4, "{} pieces, {:?}", run.pieces(), run.events());
+    for time in ["0.021", "0.3", "0.9", "2.1", "3.7"] {
+        let time = Estimate::<f64>::spelling(&time.parse::<Number>().unwrap(), &());
+        let mut energy = 0.0;
+        for body in 0..3 {
+            let sums = run.sums(body, &time).unwrap();
+            energy += sums.kinetic.value() + sums.strain.value();
+        }
+        for node in [1, 2] {
+            energy += run.spring_energies(node, &time, Side::Right).unwrap()[0].value();
+        }
+        assert!((energy - 0.65).abs() < 1e-12, "{energy} at {}", time.value());
+    }
+}

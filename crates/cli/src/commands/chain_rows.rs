@@ -131,6 +131,9 @@ impl ChainRows<'_> {
         for name in self.names {
             let found = RowColumn::read(name, chain, self.is_field());
             if found.is_empty() {
+                if !self.is_field() && !RowColumn::read(name, chain, true).is_empty() {
+                    return Err(failure!("found the quantity {name} without points, expected --points with it"));
+                }
                 return Err(unknown_quantity(name, &self.known()));
             }
             if let Some(twice) = found.iter().find(|column| columns.contains(column)) {
@@ -138,7 +141,7 @@ impl ChainRows<'_> {
             }
             columns.extend(found);
         }
-        if columns.iter().all(|column| matches!(column, RowColumn::Key(_))) {
+        if columns.is_empty() {
             columns.extend(match self.is_field() {
                 true => RowColumn::read("field", chain, true),
                 false => ChainColumn::all(chain).into_iter().map(RowColumn::Whole).collect(),

@@ -463,6 +463,7 @@ fn whole_chains_are_sampled_at_points() {
     for (arguments, part) in [
         ("--times 1 --points 11 --quantity u.2", "found the point 11 for u.2, expected points from 0 to 10"),
         ("--points 1", "found --points without times"),
+        ("--times 1 --quantity field", "found the quantity field without points, expected --points with it"),
         ("--times 1 --points 1 --quantity u_end.2", "found the quantity u_end.2 of a chain, expected one of u.1"),
     ] {
         let all = ["sample", "openfoam-7-1-2"].into_iter().chain(arguments.split_whitespace());
