@@ -303,7 +303,7 @@ impl<N: Bounded> Cluster<N> {
         let tolerance = self.speed.clone() * &self.rounding;
         // The places of states that have not decayed yet.
         let mut moving = Vec::new();
-        while product > self.degree as f64 {
+        loop {
             let (fast, slow) = self.linear.fast(self.masses.len(), self.degree, width.to_f64(), &moving);
             if fast.is_empty() {
                 break;
