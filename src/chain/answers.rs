@@ -120,7 +120,7 @@ impl<N: ToValue> Answers for ChainRun<N> {
             ChainQuantity::Gap => self.gap(place, &time)?,
             ChainQuantity::SpringEnergy => self.spring_energies_within(place, &time, limit)?[0].clone(),
             ChainQuantity::Dissipated => self.spring_energies_within(place, &time, limit)?[1].clone(),
-            ChainQuantity::TotalEnergy => {
+            ChainQuantity::ChainEnergy => {
                 let mut sum = time.zero();
                 for body in 0..self.bars.len() {
                     let BodySums { kinetic, strain, potential, .. } = self.sums(body, &time)?;
@@ -132,7 +132,7 @@ impl<N: ToValue> Answers for ChainRun<N> {
                 }
                 sum
             }
-            ChainQuantity::TotalMomentum => {
+            ChainQuantity::ChainMomentum => {
                 let mut sum = time.zero();
                 for (body, bar) in self.bars.iter().enumerate() {
                     sum = sum + bar.mass() * self.sums(body, &time)?.velocity;

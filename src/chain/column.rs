@@ -70,10 +70,10 @@ pub enum ChainQuantity {
     Dissipated,
     /// Energy of all bodies and springs, and that dashpots have taken up.
     #[strum(serialize = "chain_energy")]
-    TotalEnergy,
+    ChainEnergy,
     /// Momentum of all bodies.
     #[strum(serialize = "chain_momentum")]
-    TotalMomentum,
+    ChainMomentum,
 }
 
 impl ChainQuantity {
@@ -100,8 +100,8 @@ impl ChainQuantity {
     }
 
     /// Returns whether the quantity belongs to the chain as a whole, and to no body or node.
-    pub fn is_total(self) -> bool {
-        matches!(self, ChainQuantity::TotalEnergy | ChainQuantity::TotalMomentum)
+    pub fn is_of_chain(self) -> bool {
+        matches!(self, ChainQuantity::ChainEnergy | ChainQuantity::ChainMomentum)
     }
 
     /// Returns the meaning of the quantity, without its body or node.
@@ -120,8 +120,8 @@ impl ChainQuantity {
             ChainQuantity::Gap => "gap; negative is the depth of a spring",
             ChainQuantity::SpringEnergy => "energy that the spring holds",
             ChainQuantity::Dissipated => "energy that the dashpot, or a spring let go at a depth, has taken up",
-            ChainQuantity::TotalEnergy => "energy of all bodies and springs, and that dashpots have taken up",
-            ChainQuantity::TotalMomentum => "momentum of all bodies, upwards",
+            ChainQuantity::ChainEnergy => "energy of all bodies and springs, and that dashpots have taken up",
+            ChainQuantity::ChainMomentum => "momentum of all bodies, upwards",
         }
     }
 
@@ -137,8 +137,8 @@ impl ChainQuantity {
             | ChainQuantity::Energy
             | ChainQuantity::SpringEnergy
             | ChainQuantity::Dissipated
-            | ChainQuantity::TotalEnergy => Measure::Energy,
-            ChainQuantity::TotalMomentum => Measure::Impulse,
+            | ChainQuantity::ChainEnergy => Measure::Energy,
+            ChainQuantity::ChainMomentum => Measure::Impulse,
             ChainQuantity::EndDisplacement
             | ChainQuantity::TopDisplacement
             | ChainQuantity::Centre
@@ -171,10 +171,10 @@ impl ChainColumn {
     /// ```
     pub fn read(name: &str, chain: &Chain) -> Option<Self> {
         let Some((quantity, place)) = name.split_once('.') else {
-            let quantity = ChainQuantity::from_str(name).ok().filter(|quantity| quantity.is_total())?;
+            let quantity = ChainQuantity::from_str(name).ok().filter(|quantity| quantity.is_of_chain())?;
             return Some(ChainColumn { quantity, place: 0 });
         };
-        let quantity = ChainQuantity::from_str(quantity).ok().filter(|quantity| !quantity.is_total())?;
+        let quantity = ChainQuantity::from_str(quantity).ok().filter(|quantity| !quantity.is_of_chain())?;
         let body = || place.parse::<usize>().ok().filter(|n| (1..=chain.bodies().len()).contains(n));
         let place = if quantity.is_of_node() { node(place, chain)? } else { body()? - 1 };
         Some(ChainColumn { quantity, place })
@@ -196,7 +196,7 @@ impl ChainColumn {
         let (group, place) = name.split_once('.').map_or((name, None), |(group, place)| (group, Some(place)));
         let quantities = ChainQuantity::group(group);
         let is_asked = |column: &Self| {
-            let at = |place: &str| ChainColumn::read(&format!("{}.{place}", column.quantity), chain) == Some(*column);
+            let at = |place: &str| column.name(chain) == format!("{}.{place}", column.quantity);
             quantities.contains(&column.quantity) && place.is_none_or(at)
         };
         let listed: Vec<Self> = ChainColumn::all(chain).into_iter().filter(is_asked).collect();
@@ -211,7 +211,7 @@ impl ChainColumn {
 
     /// Returns the name of the column, which [`ChainColumn::read`] reads.
     pub fn name(self, chain: &Chain) -> String {
-        if self.quantity.is_total() {
+        if self.quantity.is_of_chain() {
             return self.quantity.to_string();
         }
         let of_node = self.quantity.is_of_node();
@@ -221,7 +221,7 @@ impl ChainColumn {
 
     /// Returns the meaning of the column: `velocity of the upper end, upwards, of body 2 (target)`.
     pub fn meaning(self, chain: &Chain) -> String {
-        if self.quantity.is_total() {
+        if self.quantity.is_of_chain() {
             return self.quantity.meaning().into();
         }
         let place = match (self.quantity.is_of_node(), chain.bodies().get(self.place).and_then(Body::name)) {
@@ -240,7 +240,7 @@ impl ChainColumn {
     pub fn all(chain: &Chain) -> Vec<Self> {
         let bodies = chain.bodies().len();
         let places = |quantity: ChainQuantity| match quantity {
-            quantity if quantity.is_total() => 0..1,
+            quantity if quantity.is_of_chain() => 0..1,
             quantity if quantity.is_of_node() => 0..bodies + 1,
             _ => 0..bodies,
         };

@@ -83,7 +83,7 @@ impl<N: Bounded> Cluster<N> {
         }
     }
 
-    /// Returns the bound of the error of a state.
+    /// Returns the bound of the error of a state, for change.
     pub(super) fn error_mut(&mut self, state: usize) -> &mut N {
         match state.checked_sub(self.masses.len()) {
             None => &mut self.masses[state].error,

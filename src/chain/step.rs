@@ -403,7 +403,7 @@ impl<N: Bounded> Cluster<N> {
             Some(next) => next.clone() * zero.int(k as i64 + 1) / &unit,
             None => zero.clone(),
         };
-        // Returns the greatest change of a fast state in this order, in what is allowed for it.
+        // Returns the greatest change of a fast state in this order, in units of its roundings.
         let follow = |states: &mut [Vec<N>], k: usize| {
             let slow = |state: usize| if is_fast(state) { zero.clone() } else { states[state][k].clone() };
             let forced = self.rates_in_order(&inputs, k, &slow);
@@ -437,7 +437,7 @@ impl<N: Bounded> Cluster<N> {
                 break;
             }
         }
-        // Signals that are known within a bound leave an equal part unknown.
+        // A part within the errors of the signals does not count: it may be none of the motion.
         let known = |side: &Input<N>, curve: &Curve<N>| match side.source {
             Source::Mass(mass) => self.masses[mass].error.clone(),
             _ => curve.error.clone(),

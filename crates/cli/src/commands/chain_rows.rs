@@ -1,7 +1,5 @@
 //! Rows of the columns of a chain over time, or at points of its bodies.
 
-use std::fmt::Display;
-
 use super::chain::{digits, note, unit_line, unknown_quantity, warnings};
 use crate::failure::{Failure, cannot};
 use crate::file::Destination;
@@ -310,7 +308,7 @@ impl ChainRows<'_> {
     }
 }
 
-fn too_long(what: impl Display) -> Failure {
+fn too_long(what: &str) -> Failure {
     failure!("found {what} of too many digits, expected fewer")
 }
 

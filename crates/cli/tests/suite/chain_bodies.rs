@@ -472,7 +472,8 @@ fn whole_chains_are_sampled_at_points() {
 }
 
 /// Groups stand for their quantities at all places, and the whole chain has an energy and a momentum. **Source**: a bar
-/// of mass 1 and speed 0.1 has 0.005 of energy; masses and springs of a scene without loads keep the energy.
+/// of mass 0.1 and speed 0.1 has the energy 0.0005 and the momentum 0.01; a mass of 1/2 at the speed 1 has 1/4. A chain
+/// without loads keeps its energy.
 #[test]
 fn chains_have_groups_and_sums() {
     let columns = |list: &str| {
