@@ -32,6 +32,7 @@ impl<N: Bounded> Cluster<N> {
     pub(super) fn pass_breaks(&mut self, waves: &[[Wave<N>; 2]]) -> Vec<(usize, Occurrence<N>)> {
         let mut occurrences = Vec::new();
         let mut spread = self.reached.late.clone();
+        let mut all = Vec::new();
         for j in 0..self.interfaces.len() {
             let mut passed: Vec<(Moment<N>, usize, N)> = Vec::new();
             for side in 0..2 {
@@ -74,13 +75,43 @@ impl<N: Bounded> Cluster<N> {
                 occurrences.push((self.first + j, Occurrence { kind: None, t, drive: [drive.clone(), drive] }));
                 self.doubts();
             }
+            all.extend(passed.into_iter().map(|(moment, side, jump)| (moment, j, side, jump)));
         }
+        self.note_jolts(&all);
         // A wave that leaves has the breaks that have been passed as one within the bounds of all of them.
         if self.reached.late.below(&spread) == Ok(true) {
             self.reached.time = self.reached.time.clone().widened(&spread);
         }
         self.reached.late = upper(spread);
         occurrences
+    }
+
+    /// Notes the rates that breaks whose order is not known may cause between them. Each comes with its interface, its
+    /// side and its jump. Opposite forces on a mass are a doubt if a contact beside it touches, which they may close or
+    /// release.
+    fn note_jolts(&mut self, passed: &[(Moment<N>, usize, usize, N)]) {
+        self.jolts.clear();
+        if passed.iter().all(|(moment, ..)| moment.is(&passed[0].0)) {
+            return;
+        }
+        let zero = self.norm.zero();
+        let mut values = vec![[zero.clone(), zero.clone(), zero.clone()]; self.interfaces.len()];
+        let mut accelerations = Vec::new();
+        for (_, j, side, jump) in passed {
+            let sum = values[*j][*side].clone() + jump.magnitude();
+            values[*j][*side] = sum;
+            let mut alone = vec![[zero.clone(), zero.clone(), zero.clone()]; self.interfaces.len()];
+            alone[*j][*side] = jump.clone();
+            accelerations.push(self.rates(&alone, false));
+        }
+        let is_hidden = |i: usize| {
+            let touches = self.interfaces[i..=i + 1].iter().any(|interface| interface.touches || interface.is_fresh);
+            touches && oppose(accelerations.iter().map(|rates| &rates[i]))
+        };
+        if (0..self.masses.len()).any(is_hidden) {
+            self.doubts();
+        }
+        self.jolts = self.rates(&values, true);
     }
 
     /// Returns the signal that arrives at a side of an interface at the time that is reached.
@@ -109,8 +140,12 @@ impl<N: Bounded> Cluster<N> {
                 row.of(refs(&values))
             };
             let acts: Vec<N> = passed.iter().map(acts).collect();
-            let rises = acts.iter().any(|by| by.positive() == Ok(true));
-            rises && acts.iter().any(|by| by.negative() == Ok(true))
+            oppose(acts.iter())
         })
     }
+}
+
+/// Returns whether one of the numbers is positive and another negative.
+fn oppose<'a, N: Bounded + 'a>(numbers: impl Iterator<Item = &'a N> + Clone) -> bool {
+    numbers.clone().any(|x| x.positive() == Ok(true)) && numbers.into_iter().any(|x| x.negative() == Ok(true))
 }

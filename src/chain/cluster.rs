@@ -64,6 +64,8 @@ pub(super) struct Cluster<N> {
     pub(super) latest: Vec<Option<Moment<N>>>,
     /// Number of significant jumps of each interface at the time that is reached, if their order is not known.
     pub(super) jumps: Vec<usize>,
+    /// Bounds of the rates of the states between breaks at that time whose order is not known; empty if it is.
+    pub(super) jolts: Vec<N>,
     /// Number of events without a step between them.
     repeated: usize,
     /// The first time of a decision that the bounds leave open.
@@ -123,6 +125,7 @@ impl<N: Bounded> Cluster<N> {
             first,
             latest: vec![None; interfaces.len()],
             jumps: vec![0; interfaces.len()],
+            jolts: Vec::new(),
             interfaces,
             masses,
             linear: Linear::default(),

@@ -28,7 +28,7 @@ impl<N: Bounded> Cluster<N> {
         };
         let Linear { dynamic, .. } = &self.linear;
         let width = &step.width;
-        let norm = if dynamic.len() > 1 { Some(self.energy_bound(inputs, step)) } else { None };
+        let norm = if dynamic.len() > 1 { Some(upper(self.energy_bound(inputs, step))) } else { None };
         let mut errors = vec![zero.clone(); count];
         let mut fading = Vec::new();
         if !dynamic.is_empty() {
@@ -42,16 +42,15 @@ impl<N: Bounded> Cluster<N> {
                     }
                 }
                 let (before, defect) = (self.error(own.state), &step.defects[own.state]);
+                let rate = upper(rate);
+                let grown = rate.clone() * width;
                 let (most, held) = match &own.decay {
-                    Some(_) if is_exact_zero(&rate) => (before.clone(), zero.clone()),
                     Some(decay) => {
-                        let held = rate / decay;
-                        (greater(before.clone(), held.clone()), held)
+                        let level = rate / decay;
+                        let most = smaller(greater(before.clone(), level.clone()), before.clone() + &grown);
+                        (most, smaller(level, grown))
                     }
-                    None => {
-                        let held = rate * width;
-                        (before.clone() + &held, held)
-                    }
+                    None => (before.clone() + &grown, grown),
                 };
                 fading.push((before, upper(held + defect)));
                 let most = upper(most + defect);
@@ -70,7 +69,7 @@ impl<N: Bounded> Cluster<N> {
         }
         self.fading = fading;
         if let Some(norm) = norm {
-            self.norm = upper(norm);
+            self.norm = norm;
         }
         errors
     }
@@ -178,7 +177,8 @@ impl<N: Bounded> Cluster<N> {
             let jump = (new[0] - old[0]).abs() * (1.0 + 2.0 * f64::EPSILON) + old[1] + new[1];
             let old_bend = rough_slope(&before[state], &(late.clone() / unit + &reach), 2) / unit.square();
             let bend = rough_slope(terms, &(late.clone() / &step.unit), 2) / step.unit.square() + old_bend;
-            let added = upper((late.double(jump) + bend * &late) * &late);
+            let jump = self.jolts.get(state).map_or(late.double(jump), |jolt| jolt.clone() + late.double(jump));
+            let added = upper((jump + bend * &late) * &late);
             if let Some(root) = self.linear.root(state) {
                 self.norm = self.norm.clone() + added.clone() * root;
             }

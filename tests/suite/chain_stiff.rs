@@ -95,3 +95,25 @@ fn springs_of_different_stiffness_beside_a_mass_keep_the_energy() {
         assert!((energy - 0.65).abs() < 1e-12, "{energy} at {}", time.value());
     }
 }
+
+/// Two opposite pushes on a mass, one of which begins later by less than a rounding of doubles. They balance before and
+/// after, but one acts alone in between.
+#[test]
+fn opposite_pushes_on_a_mass_within_a_rounding_are_within_its_bound() {
+    let bar = |joint: &str| format!("[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = 0\n{joint}");
+    let end = |from: &str| {
+        format!("{{ force = [[0, 0], [\"{from}\", 0], [\"{from}\", 1], [\"0.500001\", 1], [\"0.500001\", 0]] }}")
+    };
+    let scene = format!(
+        "{}[[body]]\nmass = 1\nvelocity = 0\njoint = \"bonded\"\n{}[ends]\nbottom = {}\ntop = {}\n[run]\ntime = 2",
+        bar(""),
+        bar("joint = \"bonded\"\n"),
+        end("1/2"),
+        end("0.50000000000000001")
+    );
+    let time = Estimate::<f64>::spelling(&"1.50001".parse::<Number>().unwrap(), &());
+    let velocity = run(&scene).sums(1, &time).unwrap().velocity;
+    // A wave doubles at the mass, and the impulse of the wave that begins later is smaller by 1e-17.
+    let truth = 2e-17;
+    assert!(velocity.bound() > truth && velocity.bound() < 1e-14, "{velocity:?}");
+}
