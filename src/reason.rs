@@ -288,13 +288,15 @@ pub enum Warning {
     },
     /// Strains of a material that the theory does not hold for.
     #[error(
-        "the strain reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
+        "the strain{} reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
          the material and of velocities, such as GPa in place of Pa",
-        .strain.decimal(3)
+        .body.map(|body| format!(" of body {body}")).unwrap_or_default(), .strain.decimal(3)
     )]
     StrainAboveOne {
         /// The greatest `|v_x|` that is known.
         strain: f64,
+        /// The number of the bar in a chain of several bodies, from 1, the lowest.
+        body: Option<usize>,
     },
 }
 

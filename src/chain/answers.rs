@@ -11,31 +11,9 @@ use super::wave::Limit;
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
 use crate::number::{
-    Bounded, Estimate, Float, Interval, IntervalPrecision, Number, Open, Rational, Reads, Value, Wide,
+    Bounded, Estimate, Float, Interval, IntervalPrecision, IntoValue, Number, Open, Rational, Value, Wide,
 };
 use crate::solve::{LONG, Observer, Rung};
-
-/// A number that can be handed out as a [`Value`].
-trait ToValue: Bounded {
-    fn to_value(self) -> Value;
-}
-
-macro_rules! to_value {
-    ($($type:ty),*) => {$(
-        impl ToValue for $type {
-            fn to_value(self) -> Value {
-                self.into()
-            }
-        }
-    )*};
-}
-to_value!(Estimate<f64>, Estimate<Float>, Rational, Interval);
-
-impl<const N: usize> ToValue for Estimate<Wide<N>> {
-    fn to_value(self) -> Value {
-        Estimate::<Float>::read(self).into()
-    }
-}
 
 /// A time that is asked about.
 #[derive(Clone, Copy, Debug)]
@@ -77,9 +55,9 @@ impl Instant<'_> {
     }
 }
 
-impl<N: ToValue> Answers for ChainRun<N> {
+impl<N: IntoValue> Answers for ChainRun<N> {
     fn listing(&self) -> ChainListing {
-        let value = N::to_value;
+        let value = N::into;
         let events = self.events().iter().cloned().map(|event| event.map(value)).collect();
         let touches = self.touches().iter().cloned().map(|touch| touch.map(value)).collect();
         let contacts = self.contacts().into_iter().map(|contact| contact.map(value)).collect();
@@ -90,11 +68,11 @@ impl<N: ToValue> Answers for ChainRun<N> {
     }
 
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>> {
-        self.force_pieces(node).into_iter().map(|piece| piece.map(N::to_value)).collect()
+        self.force_pieces(node).into_iter().map(|piece| piece.map(N::into)).collect()
     }
 
     fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
-        time.in_run(self).map(N::to_value)
+        time.in_run(self).map(N::into)
     }
 
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
@@ -140,12 +118,12 @@ impl<N: ToValue> Answers for ChainRun<N> {
                 sum
             }
         };
-        Ok(found.to_value())
+        Ok(found.into())
     }
 
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         let [point, time] = [point, time].map(|x| N::spelling(x, &self.end.precision()));
-        Ok(self.field_within(body, &point, &time, Limit::at(side))?.map(N::to_value))
+        Ok(self.field_within(body, &point, &time, Limit::at(side))?.map(N::into))
     }
 
     fn ending(&self) -> &Ending {

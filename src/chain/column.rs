@@ -24,56 +24,70 @@ fn node_name(node: usize, chain: &Chain) -> String {
     }
 }
 
-/// A quantity of a chain over time.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray,
-)]
-pub enum ChainQuantity {
-    /// Displacement of the lower end of a body.
-    #[strum(serialize = "u_end")]
-    EndDisplacement,
-    /// Velocity of the lower end of a body.
-    #[strum(serialize = "v_end")]
-    EndVelocity,
-    /// Displacement of the upper end of a body.
-    #[strum(serialize = "u_top")]
-    TopDisplacement,
-    /// Velocity of the upper end of a body.
-    #[strum(serialize = "v_top")]
-    TopVelocity,
-    /// Displacement of the centre of mass of a body.
-    #[strum(serialize = "h")]
-    Centre,
-    /// Velocity of the centre of mass of a body.
-    #[strum(serialize = "h_rate")]
-    CentreVelocity,
-    /// Kinetic energy of a body.
-    #[strum(serialize = "kinetic")]
-    Kinetic,
-    /// Strain energy of a body.
-    #[strum(serialize = "strain_energy")]
-    StrainEnergy,
-    /// Kinetic and strain energy of a body, and its weight times the displacement of its centre.
-    #[strum(serialize = "E_total")]
-    Energy,
-    /// Compressive force of a node.
-    #[strum(serialize = "force")]
-    Force,
-    /// Gap of a node; the depth of a spring is its negative.
-    #[strum(serialize = "gap")]
-    Gap,
-    /// Energy that the spring of a node holds.
-    #[strum(serialize = "spring_energy")]
-    SpringEnergy,
-    /// Energy that the dashpot of a node has taken up, and that a released spring has lost.
-    #[strum(serialize = "dissipated")]
-    Dissipated,
-    /// Energy of all bodies and springs, and that dashpots have taken up.
-    #[strum(serialize = "chain_energy")]
-    ChainEnergy,
-    /// Momentum of all bodies.
-    #[strum(serialize = "chain_momentum")]
-    ChainMomentum,
+/// The owner of a quantity.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Owner {
+    Body,
+    Node,
+    Chain,
+}
+
+/// Defines the quantities over time, each with its name, owner, measure and meaning.
+macro_rules! quantities {
+    ($($quantity:ident, $name:literal, $owner:ident, $measure:ident, $meaning:literal;)*) => {
+        /// A quantity of a chain over time.
+        #[derive(
+            Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::IntoStaticStr,
+            strum::VariantArray,
+        )]
+        pub enum ChainQuantity {
+            $(
+                #[doc = $meaning]
+                #[strum(serialize = $name)]
+                $quantity,
+            )*
+        }
+
+        impl ChainQuantity {
+            fn owner(self) -> Owner {
+                match self {
+                    $(ChainQuantity::$quantity => Owner::$owner,)*
+                }
+            }
+
+            /// Returns the measure of the quantity.
+            pub fn measure(self) -> Measure {
+                match self {
+                    $(ChainQuantity::$quantity => Measure::$measure,)*
+                }
+            }
+
+            /// Returns the meaning of the quantity, without its body or node.
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $(ChainQuantity::$quantity => $meaning,)*
+                }
+            }
+        }
+    };
+}
+
+quantities! {
+    EndDisplacement, "u_end", Body, Length, "displacement of the lower end, upwards";
+    EndVelocity, "v_end", Body, Velocity, "velocity of the lower end, upwards";
+    TopDisplacement, "u_top", Body, Length, "displacement of the upper end, upwards";
+    TopVelocity, "v_top", Body, Velocity, "velocity of the upper end, upwards";
+    Centre, "h", Body, Length, "displacement of the centre of mass, upwards";
+    CentreVelocity, "h_rate", Body, Velocity, "velocity of the centre of mass, upwards";
+    Kinetic, "kinetic", Body, Energy, "kinetic energy";
+    StrainEnergy, "strain_energy", Body, Energy, "strain energy";
+    Energy, "E_total", Body, Energy, "kinetic and strain energy, and weight times the displacement of the centre";
+    Force, "force", Node, Force, "force, positive in compression";
+    Gap, "gap", Node, Length, "gap; negative is the depth of a spring";
+    SpringEnergy, "spring_energy", Node, Energy, "energy that the spring holds";
+    Dissipated, "dissipated", Node, Energy, "energy that the dashpot, or a spring let go at a depth, has taken up";
+    ChainEnergy, "chain_energy", Chain, Energy, "energy of all bodies and springs, and that dashpots have taken up";
+    ChainMomentum, "chain_momentum", Chain, Impulse, "momentum of all bodies, upwards";
 }
 
 impl ChainQuantity {
@@ -95,55 +109,12 @@ impl ChainQuantity {
 
     /// Returns whether the quantity belongs to a node, and not to a body.
     pub fn is_of_node(self) -> bool {
-        use ChainQuantity::{Dissipated, Force, Gap, SpringEnergy};
-        matches!(self, Force | Gap | SpringEnergy | Dissipated)
+        self.owner() == Owner::Node
     }
 
     /// Returns whether the quantity belongs to the chain as a whole, and to no body or node.
     pub fn is_of_chain(self) -> bool {
-        matches!(self, ChainQuantity::ChainEnergy | ChainQuantity::ChainMomentum)
-    }
-
-    /// Returns the meaning of the quantity, without its body or node.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            ChainQuantity::EndDisplacement => "displacement of the lower end, upwards",
-            ChainQuantity::EndVelocity => "velocity of the lower end, upwards",
-            ChainQuantity::TopDisplacement => "displacement of the upper end, upwards",
-            ChainQuantity::TopVelocity => "velocity of the upper end, upwards",
-            ChainQuantity::Centre => "displacement of the centre of mass, upwards",
-            ChainQuantity::CentreVelocity => "velocity of the centre of mass, upwards",
-            ChainQuantity::Kinetic => "kinetic energy",
-            ChainQuantity::StrainEnergy => "strain energy",
-            ChainQuantity::Energy => "kinetic and strain energy, and weight times the displacement of the centre",
-            ChainQuantity::Force => "force, positive in compression",
-            ChainQuantity::Gap => "gap; negative is the depth of a spring",
-            ChainQuantity::SpringEnergy => "energy that the spring holds",
-            ChainQuantity::Dissipated => "energy that the dashpot, or a spring let go at a depth, has taken up",
-            ChainQuantity::ChainEnergy => "energy of all bodies and springs, and that dashpots have taken up",
-            ChainQuantity::ChainMomentum => "momentum of all bodies, upwards",
-        }
-    }
-
-    /// Returns the measure of the quantity.
-    pub fn measure(self) -> Measure {
-        match self {
-            ChainQuantity::Force => Measure::Force,
-            ChainQuantity::EndVelocity | ChainQuantity::TopVelocity | ChainQuantity::CentreVelocity => {
-                Measure::Velocity
-            }
-            ChainQuantity::Kinetic
-            | ChainQuantity::StrainEnergy
-            | ChainQuantity::Energy
-            | ChainQuantity::SpringEnergy
-            | ChainQuantity::Dissipated
-            | ChainQuantity::ChainEnergy => Measure::Energy,
-            ChainQuantity::ChainMomentum => Measure::Impulse,
-            ChainQuantity::EndDisplacement
-            | ChainQuantity::TopDisplacement
-            | ChainQuantity::Centre
-            | ChainQuantity::Gap => Measure::Length,
-        }
+        self.owner() == Owner::Chain
     }
 }
 
@@ -211,38 +182,36 @@ impl ChainColumn {
 
     /// Returns the name of the column, which [`ChainColumn::read`] reads.
     pub fn name(self, chain: &Chain) -> String {
-        if self.quantity.is_of_chain() {
-            return self.quantity.to_string();
+        match self.quantity.owner() {
+            Owner::Chain => self.quantity.to_string(),
+            Owner::Node => format!("{}.{}", self.quantity, node_name(self.place, chain)),
+            Owner::Body => format!("{}.{}", self.quantity, self.place + 1),
         }
-        let of_node = self.quantity.is_of_node();
-        let place = if of_node { node_name(self.place, chain) } else { (self.place + 1).to_string() };
-        format!("{}.{place}", self.quantity)
     }
 
     /// Returns the meaning of the column: `velocity of the upper end, upwards, of body 2 (target)`.
     pub fn meaning(self, chain: &Chain) -> String {
-        if self.quantity.is_of_chain() {
-            return self.quantity.meaning().into();
-        }
-        let place = match (self.quantity.is_of_node(), chain.bodies().get(self.place).and_then(Body::name)) {
-            (true, _) => match self.place {
-                0 => "at the bottom".into(),
-                node if node == chain.bodies().len() => "at the top".into(),
-                node => format!("at the joint above body {node}"),
+        let Self { quantity, place } = self;
+        let meaning = quantity.meaning();
+        match quantity.owner() {
+            Owner::Chain => meaning.into(),
+            Owner::Node if place == 0 => format!("{meaning}, at the bottom"),
+            Owner::Node if place == chain.bodies().len() => format!("{meaning}, at the top"),
+            Owner::Node => format!("{meaning}, at the joint above body {place}"),
+            Owner::Body => match chain.bodies().get(place).and_then(Body::name) {
+                Some(name) => format!("{meaning}, of body {} ({name})", place + 1),
+                None => format!("{meaning}, of body {}", place + 1),
             },
-            (false, Some(name)) => format!("of body {} ({name})", self.place + 1),
-            (false, None) => format!("of body {}", self.place + 1),
-        };
-        format!("{}, {place}", self.quantity.meaning())
+        }
     }
 
     /// Returns every column of `chain`; those of springs at nodes that have one.
     pub fn all(chain: &Chain) -> Vec<Self> {
         let bodies = chain.bodies().len();
-        let places = |quantity: ChainQuantity| match quantity {
-            quantity if quantity.is_of_chain() => 0..1,
-            quantity if quantity.is_of_node() => 0..bodies + 1,
-            _ => 0..bodies,
+        let places = |quantity: ChainQuantity| match quantity.owner() {
+            Owner::Chain => 0..1,
+            Owner::Node => 0..bodies + 1,
+            Owner::Body => 0..bodies,
         };
         let quantities = <ChainQuantity as strum::VariantArray>::VARIANTS.iter().copied();
         let columns =

@@ -471,8 +471,9 @@ impl Chain {
             let slope = steepest(&body.displacement);
             (speed / wave_speed).max(force / (impedance * wave_speed)).max(slope).max(size(&body.strain))
         };
-        let strain = self.bodies.iter().map(strained).fold(0.0, f64::max);
-        (strain > 1.0).then_some(Warning::StrainAboveOne { strain })
+        let strains = self.bodies.iter().map(strained).zip(1..);
+        let (strain, body) = strains.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(strain, _)| *strain > 1.0)?;
+        Some(Warning::StrainAboveOne { strain, body: Some(body).filter(|_| self.bodies.len() > 1) })
     }
 
     /// Checks the springs, and that neighbours without an elastic side between them have one.

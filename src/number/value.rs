@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use serde::{Serialize, Serializer};
 
 use super::text::{DOUBLE_DIGITS, bound_of_log2, double_bound, show, show_beside, shown_bound};
-use super::{Bounded, Estimate, Float, Interval, Number, Rational, Reads, Scalar};
+use super::{Bounded, Estimate, Float, Interval, Number, Rational, Reads, Scalar, Wide};
 
 /// A number of an answer, with its bound, its digits and its unit.
 ///
@@ -220,6 +220,12 @@ impl Value {
 impl From<Estimate<f64>> for Value {
     fn from(number: Estimate<f64>) -> Self {
         Value::new(Stored::Double(number))
+    }
+}
+
+impl<const LIMBS: usize> From<Estimate<Wide<LIMBS>>> for Value {
+    fn from(number: Estimate<Wide<LIMBS>>) -> Self {
+        Estimate::<Float>::read(number).into()
     }
 }
 

@@ -60,7 +60,7 @@ impl Problem {
         let given =
             Parameter::Strain(None).list(self).unwrap_or_default().iter().map(|(_, strain)| strain.to_f64().abs());
         let strain = given.fold(known.max(impact).max(slope), f64::max);
-        (strain > 1.0).then_some(Warning::StrainAboveOne { strain })
+        (strain > 1.0).then_some(Warning::StrainAboveOne { strain, body: None })
     }
 
     /// The speed at the first touch under `gravity`, without drag; `None` for a start that is not uniform.
