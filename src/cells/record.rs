@@ -85,7 +85,11 @@ impl<S: RoundedSpecial> Record<'_, S> {
                     ahead.ground = self.medium.ground_of(&ahead.state);
                 }
                 if skipped > 0 {
-                    self.medium.leap(&mut ahead.state, &ahead.ground, skipped);
+                    ahead.state = self.pool.leap((k, skipped), || {
+                        let mut state = ahead.state.clone();
+                        self.medium.leap(&mut state, &ahead.ground, skipped);
+                        state
+                    });
                 }
                 while ahead.state.time() <= *to && (ahead.state.round < end || ahead.state.segments[0].at != fraction) {
                     self.medium.strip(&mut ahead.state, false, &mut |cell| visit((cell, now)));

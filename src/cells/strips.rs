@@ -105,12 +105,17 @@ impl<S: RoundedSpecial> Strips<S> {
 }
 
 /// Cache of recent queries: each query takes the strips it needs and puts them back. The nodes along the whole rod at
-/// one time serve all queries about that time, such as those of the solution and of its lists at an event.
+/// one time serve all queries about that time, such as those of the solution and of its lists at an event, and a state
+/// after a part of a leap all queries within one round trip.
 #[derive(Debug)]
 pub(super) struct Pool<S> {
     strips: Mutex<Vec<Strips<S>>>,
     lines: Mutex<VecDeque<(S, Nodes<S>)>>,
+    leaps: Mutex<VecDeque<(Leap, State<S>)>>,
 }
+
+/// The piece of a leap, and the number of its round trips up to a state.
+type Leap = (usize, i64);
 
 /// A node of a quadrature along the rod.
 #[derive(Clone, Debug)]
@@ -146,7 +151,7 @@ static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_paral
 
 impl<S> Default for Pool<S> {
     fn default() -> Self {
-        Pool { strips: Mutex::default(), lines: Mutex::default() }
+        Pool { strips: Mutex::default(), lines: Mutex::default(), leaps: Mutex::default() }
     }
 }
 
@@ -157,7 +162,7 @@ impl<S> Clone for Pool<S> {
     }
 }
 
-impl<S: PartialEq> Pool<S> {
+impl<S: Clone + PartialEq> Pool<S> {
     /// Takes the strips after checkpoint `start` out of the cache, if they are there.
     pub(super) fn take(&self, start: usize) -> Option<Strips<S>> {
         let mut all = locked(&self.strips);
@@ -173,10 +178,7 @@ impl<S: PartialEq> Pool<S> {
     }
 
     /// Returns the nodes at `time`, from the cache or from `find`.
-    pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Nodes<S>
-    where
-        S: Clone,
-    {
+    pub(super) fn line(&self, time: &S, find: impl FnOnce() -> Vec<Node<S>>) -> Nodes<S> {
         let known = locked(&self.lines).iter().rev().find(|(at, _)| at == time).map(|(_, line)| line.clone());
         known.unwrap_or_else(|| {
             let line = Arc::new(find());
@@ -187,6 +189,20 @@ impl<S: PartialEq> Pool<S> {
                 nodes -= all.pop_front().map_or(0, |(_, line)| line.len());
             }
             line
+        })
+    }
+
+    /// Returns the state after a part of a leap, from the cache or from `find`.
+    pub(super) fn leap(&self, leap: Leap, find: impl FnOnce() -> State<S>) -> State<S> {
+        let known = locked(&self.leaps).iter().find(|(at, _)| *at == leap).map(|(_, state)| state.clone());
+        known.unwrap_or_else(|| {
+            let state = find();
+            let mut all = locked(&self.leaps);
+            if all.len() >= *MOST {
+                all.pop_front();
+            }
+            all.push_back((leap, state.clone()));
+            state
         })
     }
 }
