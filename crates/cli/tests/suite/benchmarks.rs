@@ -1,13 +1,13 @@
 //! The page of published tests, and the references of a run.
 
-use crate::command::{quiet, refused, refused_with, run_with};
+use crate::command::{json, quiet, refused, refused_with, run_with};
 use crate::guide::{docs, rebuilds};
 use serde_json::Value;
 
 /// Holds docs/benchmarks.md against the scenes.
 #[test]
 fn the_page_is_that_of_the_scenes() {
-    let page = quiet(&["scenes", "--targets", "--format", "markdown"]);
+    let page = quiet("scenes --targets --format markdown");
     let path = docs().join("benchmarks.md");
     if rebuilds() {
         std::fs::write(&path, &page).unwrap();
@@ -24,7 +24,7 @@ fn the_page_is_that_of_the_scenes() {
         let (name, _) = section.split_once('"').unwrap();
         let command = format!("dalembert scenes {name} --targets\n");
         assert!(section.contains(&command), "{name}");
-        assert_eq!(run_with(&["scenes", name, "--targets"], "").code, Some(0), "{name}");
+        assert_eq!(run_with(&format!("scenes {name} --targets"), "").code, Some(0), "{name}");
         let row = page.lines().find(|line| line.contains(&format!("](#{name})"))).unwrap();
         assert!(!row.ends_with("|  |"), "{name} has a verdict");
     }
@@ -48,7 +48,7 @@ fn exact_values_are_those_of_other_routes() {
         ("stem-absorbing-column", "v_top.1", "0.2", -2.2026692946e-5),
         ("kratos-absorbing-column", "v_top.1", "0.1", -0.06965451903188581),
     ] {
-        let rows: Value = serde_json::from_str(&quiet(&["scenes", scene, "--targets", "--format", "json"])).unwrap();
+        let rows = json(&format!("scenes {scene} --targets"));
         let time = time.parse::<f64>().ok();
         let of = |row: &&Value| row["quantity"] == quantity && row["t"].as_f64() == time;
         let found = rows.as_array().unwrap().iter().find(of).unwrap()["ours"].as_f64().unwrap();
@@ -62,16 +62,16 @@ fn exact_values_are_those_of_other_routes() {
 fn known_differences_are_expected() {
     let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[[target]]\nquantity = 'release'\n\
                  published = 2.5\nexpected = 'differs'\nnote = 'a slip'\nsource = 'nowhere'\n";
-    let run = run_with(&["scenes", "-", "--targets"], scene);
+    let run = run_with("scenes - --targets", scene);
     assert!(run.code == Some(0) && run.out.contains("no to 5e-2 (1)"), "{}", run.out);
     assert!(
         run.out.ends_with("1 published values: 0 agree, 1 differ, 1 of them as the scene expects\n"),
         "{}",
         run.out
     );
-    let run = run_with(&["scenes", "-", "--targets"], &scene.replace("2.5", "2.0"));
+    let run = run_with("scenes - --targets", &scene.replace("2.5", "2.0"));
     assert!(run.code == Some(1) && run.out.contains("YES to 5e-2 (1)"), "{}", run.out);
-    let page = run_with(&["scenes", "-", "--targets", "--format", "markdown"], scene).out;
+    let page = run_with("scenes - --targets --format markdown", scene).out;
     assert!(page.contains("| release | – | 2.5 | 2 | -0.5 | no | nowhere. a slip |"), "{page}");
 }
 
@@ -90,7 +90,7 @@ fn chains_have_values_of_their_nodes() {
         ("quantity = 'force.1'\ntime = 2\npublished = 0\n", "0"),
         ("quantity = 'v_top.1'\ntime = 3\npublished = -1\n", "-1"),
     ] {
-        let run = run_with(&["scenes", "-", "--targets", "--format", "csv"], &target(lines));
+        let run = run_with("scenes - --targets --format csv", &target(lines));
         assert!(run.code == Some(0) && run.out.contains(&format!(",{ours},")), "{lines}{}{}", run.out, run.err);
     }
     for (lines, found) in [
@@ -103,16 +103,16 @@ fn chains_have_values_of_their_nodes() {
         ("quantity = 'release.1'\ncontact = 0\npublished = 0\n", "the number of a contact, from 1 on"),
         ("quantity = 'release.1'\nexpected = 'off'\npublished = 0\n", "one of agrees, differs"),
     ] {
-        refused_with(&["scenes", "-", "--targets"], &target(lines), &[found]);
+        refused_with("scenes - --targets", &target(lines), &[found]);
     }
     let second = target("quantity = 'release.1'\ncontact = 2\npublished = 0\n");
-    refused_with(&["scenes", "-", "--targets"], &second, &["found contact number 2 asked for"]);
+    refused_with("scenes - --targets", &second, &["found contact number 2 asked for"]);
 }
 
 /// The references of a run: program, paper, numbers, scene and values.
 #[test]
 fn a_run_is_cited() {
-    let text = quiet(&["cite", "saint-venant-mass", "--digits", "30"]);
+    let text = quiet("cite saint-venant-mass --digits 30");
     let entries =
         ["@misc{dalembert,", "@article{mpfr,", "@misc{saint-venant-mass,", "@misc{saint-venant-mass-value-1,"];
     for entry in entries {
@@ -124,15 +124,15 @@ fn a_run_is_cited() {
     let count = |c: char| text.matches(c).count();
     assert_eq!(count('{'), count('}'));
 
-    let text = quiet(&["cite", "doyen-ern-piperno"]);
+    let text = quiet("cite doyen-ern-piperno");
     assert!(text.contains("@techreport{wang-hansen-2016,") && !text.contains("@article{mpfr"), "{text}");
     assert!(text.contains("D. Doyen, A. Ern and S. Piperno, Time-integration schemes"), "{text}");
     assert!(text.contains("  journal = {SIAM Journal on Scientific Computing},\n  volume = {33},\n"), "{text}");
-    let bib = quiet(&["cite", "code-aster-sdnv100", "--format", "bibtex"]);
+    let bib = quiet("cite code-aster-sdnv100 --format bibtex");
     assert!(bib.starts_with("@misc{dalembert,\n  author = {{The dalembert developers}},\n"), "{bib}");
     assert!(bib.contains("  title = {{deck sdnv100a, TEST\\_RESU analytique, DEPL N5}},\n"), "{bib}");
     let own = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\n[publication]\ntitle = 'A & B'\nyear = '2026'\n";
-    assert!(run_with(&["cite", "-"], own).out.contains("A & B, 2026 (source of the scene)."));
-    refused_with(&["cite", "-"], &own.replace("year", "yaer"), &["did you mean year?"]);
-    refused(&["cite", "doyen-ern-piperno", "--format", "json"], &["json"]);
+    assert!(run_with("cite -", own).out.contains("A & B, 2026 (source of the scene)."));
+    refused_with("cite -", &own.replace("year", "yaer"), &["did you mean year?"]);
+    refused("cite doyen-ern-piperno --format json", &["json"]);
 }

@@ -4,7 +4,7 @@ use crate::command::{Run, json, refused, run};
 
 #[test]
 fn every_promise_is_kept() {
-    let Run { code, out: page, err } = run(&["check", "--format", "markdown"]);
+    let Run { code, out: page, err } = run("check --format markdown");
     let failed: Vec<&str> = page.lines().filter(|line| line.contains("FAILED")).collect();
     assert_eq!((code, err.as_str(), failed), (Some(0), "", Vec::new()));
     // What the theory gives: late bounces to the last digit; (4.75), (4.74) and Figure 7 for r = 0.1, 0.2, 0.3.
@@ -31,7 +31,7 @@ fn every_promise_is_kept() {
 
 #[test]
 fn the_command() {
-    let json = json(&["check", "--only", "corollary-1", "--format", "json"]);
+    let json = json("check --only corollary-1");
     assert_eq!((&json["schema"], &json["cases"][0]["verdict"]), (&1.into(), &"reproduced".into()));
-    refused(&["check", "--only", "corollary-9"], &["found --only corollary-9, expected a group"]);
+    refused("check --only corollary-9", &["found --only corollary-9, expected a group"]);
 }

@@ -10,11 +10,9 @@ const DRAGGED: &str = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 1\n[impact]\
 
 #[test]
 fn every_format_carries_the_warnings() {
-    let solve = ["solve", "-"];
-    let sample = ["sample", "-", "--quantity", "end", "--times", "0.5"];
-    for command in [&solve[..], &sample[..]] {
+    for command in ["solve -", "sample - --quantity end --times 0.5"] {
         let run = |format: &str| {
-            let Run { code, out, err } = run_with(&[command, &["--format", format]].concat(), DRAGGED);
+            let Run { code, out, err } = run_with(&format!("{command} --format {format}"), DRAGGED);
             assert_eq!(code, Some(0), "{err}");
             (out, err)
         };
@@ -36,7 +34,7 @@ fn every_format_carries_the_warnings() {
 /// The end of a periodic contact is 2L/c = 2/3, which twelve digits do not spell.
 #[test]
 fn the_uncertainty_covers_the_rounding_of_the_printed_digits() {
-    let out = run(&["solve", "doyen-ern-piperno", "--wide"]).out;
+    let out = run("solve doyen-ern-piperno --wide").out;
     let row: Vec<&str> = out.lines().find(|line| line.contains("release")).unwrap().split_whitespace().collect();
     let [time, bound] = [row[1], row[2]].map(|text| text.parse::<f64>().unwrap());
     let off = (time - 2.0 / 3.0).abs();
@@ -50,18 +48,17 @@ fn the_uncertainty_covers_the_rounding_of_the_printed_digits() {
 /// A parameter that is no fraction is said in every format, as an event at no fraction is.
 #[test]
 fn every_format_says_where_fractions_end() {
-    let sample = ["sample", "siconos-impacting-bar", "--quantity", "end", "--times", "0", "--exact", "--digits", "12"];
+    let sample = "sample siconos-impacting-bar --quantity end --times 0 --exact --digits 12";
     let said = "the wave speed √(350000000/13) is no fraction";
-    let of = |format: &str| run(&[&sample[..], &["--format", format]].concat()).out;
-    let json: Value = serde_json::from_str(&of("json")).unwrap();
-    assert_eq!(json["exact_until"]["reason"], said);
+    let of = |format: &str| run(&format!("{sample} --format {format}")).out;
+    assert_eq!(run(&format!("{sample} --format json")).json()["exact_until"]["reason"], said);
     assert!(of("csv").contains(&format!("# note: {said}; all is in digits\n")), "{}", of("csv"));
     assert!(of("table").ends_with(&format!("{said}; these are 12 digits\n")), "{}", of("table"));
 }
 
 /// The pieces of a CSV of the stress: its comments, and `start, end, left, right` with what stands behind them.
-fn stress(scene: &str, more: &[&str]) -> (String, Vec<([f64; 4], String)>) {
-    let Run { code, out, err } = run(&[&["solve", scene, "--format", "csv", "--part", "stress"], more].concat());
+fn stress(scene: &str, more: &str) -> (String, Vec<([f64; 4], String)>) {
+    let Run { code, out, err } = run(&format!("solve {scene} --format csv --part stress {more}"));
     assert_eq!((code, err.as_str()), (Some(0), ""));
     let (comments, rows): (Vec<&str>, Vec<&str>) = out.lines().partition(|line| line.starts_with('#'));
     let row = |row: &&str| {
@@ -83,9 +80,9 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
         .problem
         .doubles()
         .unwrap();
-    let (said, lines) = stress("figure-4-r02", &[]);
+    let (said, lines) = stress("figure-4-r02", "");
     assert!(said.contains("within 1e-6 of the greatest v_x(0,t); the coefficients"), "{said}");
-    let (said, curves) = stress("figure-4-r02", &["--coefficients"]);
+    let (said, curves) = stress("figure-4-r02", "--coefficients");
     assert!(said.contains("T_k(x)"), "{said}");
     let peak = lines.iter().flat_map(|(row, _)| [row[2].abs(), row[3].abs()]).fold(0.0, f64::max);
     let end = history.end();
@@ -111,7 +108,7 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
     }
     assert!(curved > 100 && off <= 1e-6 * peak && off > 1e-8 * peak, "{curved} {off:e} {peak}");
     assert!(lines.len() < 3000, "{}", lines.len());
-    let refused = run(&["solve", "figure-4-r02", "--coefficients"]);
+    let refused = run("solve figure-4-r02 --coefficients");
     assert_eq!(refused.code, Some(2));
     assert!(refused.err.contains("expected it with --part stress only"), "{}", refused.err);
 }
@@ -119,9 +116,8 @@ fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
 /// At t = 0 nothing is lost to rounding, and no bits are spent on it: the end stands on the ground.
 #[test]
 fn the_start_in_digits() {
-    let args =
-        ["sample", "doyen-ern-piperno", "--quantity", "end", "--times", "0", "--digits", "12", "--format", "csv"];
-    let out = run(&[&args[..], &["--bare", "--uncertainty"]].concat()).out;
+    let args = "sample doyen-ern-piperno --quantity end --times 0 --digits 12 --format csv";
+    let out = run(&format!("{args} --bare --uncertainty")).out;
     assert_eq!(out.lines().nth(1).unwrap(), "0,0,right,0,0,0,0");
 }
 
@@ -131,8 +127,8 @@ fn the_start_in_digits() {
 fn the_last_time_of_a_damped_rod_has_its_sides() {
     let scene = "[rod]\nlength = 1\nwave_speed = 1\ndamping = 0.01\n[impact]\nspeed = 1\n";
     let at = |times: &str, side: &str| {
-        let args = ["sample", "-", "--quantity", "end", "--times", times, "--side", side, "--format", "csv"];
-        let out = run_with(&[&args[..], &["--bare", "--uncertainty"]].concat(), scene).out;
+        let args = format!("sample - --quantity end --times {times} --side {side} --format csv");
+        let out = run_with(&format!("{args} --bare --uncertainty"), scene).out;
         let cells: Vec<&str> = out.lines().nth(1).unwrap().split(',').collect();
         // v_t(0,t) and its uncertainty.
         [5, 6].map(|k| cells[k].parse::<f64>().unwrap())
@@ -148,7 +144,6 @@ fn the_last_time_of_a_damped_rod_has_its_sides() {
 #[test]
 fn a_proved_release_has_nothing_to_pull_after_it() {
     let scene = "[rod]\nlength = 1\nwave_speed = \"1/3\"\ndamping = \"1/300\"\n[impact]\nspeed = 1\n";
-    let args = ["sample", "-", "--quantity", "strain", "--times", "6", "--certified", "--format", "json"];
-    let json: Value = serde_json::from_str(&run_with(&args, scene).out).unwrap();
+    let json = run_with("sample - --quantity strain --times 6 --certified --format json", scene).json();
     assert_eq!(column(&json, "strain")[0]["value"], "0");
 }

@@ -6,16 +6,16 @@ use serde_json::Value;
 #[test]
 fn exactness_ends_at_a_surd_and_says_so() {
     // μ = 1: v(0,t) = 1 − (t − 3)²/2 before the second impact.
-    let out = quiet(&["solve", "mu-1-period-36", "--exact"]);
+    let out = quiet("solve mu-1-period-36 --exact");
     assert!(out.contains("exactness ends before the impact at t = 3 + √2 ≈ 4.41421356237"), "{out}");
-    let Run { out, err, .. } = run(&["solve", "mu-1-period-36", "--exact", "--format", "json"]);
+    let Run { out, err, .. } = run("solve mu-1-period-36 --exact --format json");
     let history: Value = serde_json::from_str(&out).unwrap();
     assert!(err.starts_with("note: exactness ends before the impact at t = 3 + √2"), "{err}");
     assert_eq!((&history["end"]["event"], &history["end"]["surd"]), (&"impact".into(), &"3 + √2".into()));
     assert_eq!(history["events"].as_array().unwrap().len(), 2);
 
     // With digits it goes on, and says from where.
-    let Run { code, out, err } = run(&["solve", "mu-1-period-36", "--exact", "--digits", "20", "--format", "json"]);
+    let Run { code, out, err } = run("solve mu-1-period-36 --exact --digits 20 --format json");
     assert_eq!(code, Some(0));
     assert!(err.starts_with("note: exactness ends before the impact at t = 3 + √2"), "{err}");
     let history: Value = serde_json::from_str(&out).unwrap();
@@ -28,9 +28,9 @@ fn exactness_ends_at_a_surd_and_says_so() {
     }
 
     // A sample beyond the surd is refused by its name, not answered in doubles.
-    let beyond = ["sample", "mu-1-period-36", "--quantity", "end", "--times", "4,5", "--exact"];
-    refused(&beyond, &["found time 5", "exactness ends before the impact at t = 3 + √2", "--digits N"]);
-    let Run { code, err, .. } = run(&[&beyond[..], &["--digits", "12"]].concat());
+    let beyond = "sample mu-1-period-36 --quantity end --times 4,5 --exact";
+    refused(beyond, &["found time 5", "exactness ends before the impact at t = 3 + √2", "--digits N"]);
+    let Run { code, err, .. } = run(&format!("{beyond} --digits 12"));
     assert_eq!(code, Some(0));
     assert!(err.contains("what follows is in 12 digits"), "{err}");
 }
@@ -40,28 +40,28 @@ fn exactness_ends_at_a_surd_and_says_so() {
 fn no_file_ends_in_silence() {
     let scene = "rod = { length = 2, wave_speed = 50 }\nimpact.speed = 2\ngravity.acceleration = 9.81\nrun.time = 1\n";
     let said = "exactness ends before the impact at t = 18544/24525 − 22√90901/24525 ≈ ";
-    let json = ["reference", "-", "--exact", "--format", "json"];
+    let json = "reference - --exact --format json";
     for (args, mark) in [
-        (&["solve", "-", "--exact", "--format", "csv"][..], "# "),
-        (&["solve", "-", "--exact", "--format", "csv", "--part", "stress"], "# "),
-        (&["reference", "-", "--exact"], "# "),
-        (&json, "  \"ends\": \""),
-        (&["reference", "-", "--exact", "--as", "python"], "# "),
-        (&["reference", "-", "--exact", "--as", "c"], "// "),
-        (&["reference", "-", "--exact", "--as", "matlab"], "% "),
+        ("solve - --exact --format csv", "# "),
+        ("solve - --exact --format csv --part stress", "# "),
+        ("reference - --exact", "# "),
+        (json, "  \"ends\": \""),
+        ("reference - --exact --as python", "# "),
+        ("reference - --exact --as c", "// "),
+        ("reference - --exact --as matlab", "% "),
     ] {
         let Run { code, out, err } = run_with(args, scene);
-        assert_eq!(code, Some(0), "{args:?}");
+        assert_eq!(code, Some(0), "{args}");
         let line = out.lines().find_map(|line| line.strip_prefix(mark)?.strip_prefix(said)).unwrap_or_default();
         // The double next to that root, and that of the run in doubles.
         let near = (18544.0 - 22.0 * 90901f64.sqrt()) / 24525.0;
-        assert_eq!(line.split(',').next().and_then(|near| near.parse::<f64>().ok()), Some(near), "{args:?}: {out}");
-        assert!(err.starts_with(&format!("note: {said}")) && err.lines().count() == 1, "{args:?}: {err}");
+        assert_eq!(line.split(',').next().and_then(|near| near.parse::<f64>().ok()), Some(near), "{args}: {out}");
+        assert!(err.starts_with(&format!("note: {said}")) && err.lines().count() == 1, "{args}: {err}");
     }
     // Times that are chosen have no end to explain, and a run that gets as far as it was asked to has nothing to note.
-    let Run { out, err, .. } = run_with(&[&json[..], &["--times", "0,1/10"]].concat(), scene);
+    let Run { out, err, .. } = run_with(&format!("{json} --times 0,1/10"), scene);
     assert!(out.contains("\n  \"ends\": null,\n") && err.is_empty(), "{out}{err}");
-    let whole = quiet(&["reference", "doyen-ern-piperno", "--exact"]);
+    let whole = quiet("reference doyen-ern-piperno --exact");
     assert!(whole.contains("\n# ends at t = 16: the impact after the last contact asked for\n"), "{whole}");
 }
 
@@ -70,7 +70,7 @@ fn no_file_ends_in_silence() {
 #[test]
 fn samples_of_a_rod_at_rest() {
     let sample = |scene: &str, times: &str| {
-        let Run { code, err, .. } = run_with(&["sample", "-", "--quantity", "end", "--times", times], scene);
+        let Run { code, err, .. } = run_with(&format!("sample - --quantity end --times {times}"), scene);
         assert_eq!(code, Some(0), "{err}");
         err
     };

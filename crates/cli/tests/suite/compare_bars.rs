@@ -35,9 +35,9 @@ fn agree(found: &[(&str, f64)], expected: &[(&str, f64)]) {
 #[test]
 fn each_bar_is_compared_with_its_columns() {
     let folder = folder();
-    let output = folder.run(&["compare", "bars.toml", "run.csv", "--format", "json"]);
+    let output = folder.run("compare bars.toml run.csv --format json");
     assert_eq!(output.err, "warning: not compared: gap.1; `sample` has the exact values\n");
-    let report: Value = serde_json::from_str(&output.text(0)).unwrap();
+    let report = output.json();
     assert_eq!((&report["title"], &report["bodies"][0]["name"]), (&"Two bars".into(), &"target".into()));
     let bodies = report["bodies"].as_array().unwrap();
     assert_eq!(bodies.iter().map(|body| body["body"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2]);
@@ -46,14 +46,14 @@ fn each_bar_is_compared_with_its_columns() {
     assert_eq!(bodies[1]["files"][0]["notes"], serde_json::json!(["not used: n"]));
 
     // One body alone, by either kind of names.
-    let one = folder.json(&["compare", "bars.toml", "run.csv", "--body", "2"]);
+    let one = folder.json("compare bars.toml run.csv --body 2");
     assert_eq!(one["title"], "Two bars: body 2");
     agree(&norms(&one), &[("u_end", 0.0), ("force", 0.1)]);
-    let map = ["--map", "t=t,u=u_end.2"];
-    let one = folder.json(&[&["compare", "bars.toml", "run.csv", "--body", "2"][..], &map].concat());
+    let map = "--map t=t,u=u_end.2";
+    let one = folder.json(&format!("compare bars.toml run.csv --body 2 {map}"));
     agree(&norms(&one), &[("u_end", 0.0)]);
-    let map = ["--map", "t=t,u.2=u_end.2"];
-    let all = folder.json(&[&["compare", "bars.toml", "run.csv"][..], &map].concat());
+    let map = "--map t=t,u.2=u_end.2";
+    let all = folder.json(&format!("compare bars.toml run.csv {map}"));
     assert_eq!(all["bodies"].as_array().unwrap().len(), 1);
     agree(&norms(&all["bodies"][0]["files"][0]), &[("u_end", 0.0)]);
 }
@@ -61,10 +61,10 @@ fn each_bar_is_compared_with_its_columns() {
 #[test]
 fn tables_and_rows_have_every_bar() {
     let folder = folder();
-    let table = folder.run(&["compare", "bars.toml", "run.csv"]).text(0);
+    let table = folder.run("compare bars.toml run.csv").text(0);
     let titles: Vec<&str> = table.lines().filter(|line| line.starts_with("Two bars")).collect();
     assert_eq!(titles, ["Two bars: target", "Two bars: body 2"]);
-    let rows = folder.run(&["compare", "bars.toml", "run.csv", "--format", "csv"]).text(0);
+    let rows = folder.run("compare bars.toml run.csv --format csv").text(0);
     let header: Vec<&str> = rows.lines().next().unwrap().split(',').collect();
     let of = |name: &str| ["ours", "theirs", "difference"].map(|whose| format!("{name}_{whose}")).to_vec();
     assert_eq!(header[..], [vec!["t".to_string()], of("v_top.1"), of("u_end.2"), of("force.1")].concat());
@@ -75,7 +75,7 @@ fn tables_and_rows_have_every_bar() {
 fn bounds_hold_for_the_bars_that_have_what_they_bound() {
     let folder = folder();
     let outcome = |bounds: &str, code: i32| {
-        let output = folder.run(&["compare", "bars.toml", "run.csv", "--quiet", "--fail-above", bounds]);
+        let output = folder.run(&format!("compare bars.toml run.csv --quiet --fail-above {bounds}"));
         output.text(code);
         output.err
     };
@@ -91,19 +91,19 @@ fn bounds_hold_for_the_bars_that_have_what_they_bound() {
 fn what_needs_one_body_is_refused() {
     let folder = folder();
     folder.write("plain.csv", "t,u\n0,0\n1,1\n");
-    let refused = |args: &[&str]| {
-        let output = folder.run(&[&["compare", "bars.toml"], args].concat());
+    let refused = |args: &str| {
+        let output = folder.run(&format!("compare bars.toml {args}"));
         assert_eq!(output.text(2), "");
         output.err.lines().next().unwrap().to_string()
     };
     let expected = "columns with the number of a bar or the name of a joint, such as u_end.2 and force.1";
-    assert_eq!(refused(&["plain.csv"]), format!("error: found 2 bodies in `bars.toml`, expected {expected}"));
-    assert_eq!(refused(&["run.csv", "-o", "run.svg"]), "error: found a picture of all bodies, expected one body");
-    assert_eq!(refused(&["run.csv", "--fit", "length"]), "error: found --fit of all bodies, expected one body");
+    assert_eq!(refused("plain.csv"), format!("error: found 2 bodies in `bars.toml`, expected {expected}"));
+    assert_eq!(refused("run.csv -o run.svg"), "error: found a picture of all bodies, expected one body");
+    assert_eq!(refused("run.csv --fit length"), "error: found --fit of all bodies, expected one body");
     folder.write("mixed.csv", "t,u_end,u_end.2\n0,0,0\n1,1,1\n");
     let expected = "the number of its body or the name of its joint, as the others have";
-    assert_eq!(refused(&["mixed.csv"]), format!("error: found the column u_end of a chain, expected {expected}"));
-    assert!(refused(&["run.csv", "--body", "3"]).contains("expected a body from 1, the lowest, to 2"));
+    assert_eq!(refused("mixed.csv"), format!("error: found the column u_end of a chain, expected {expected}"));
+    assert!(refused("run.csv --body 3").contains("expected a body from 1, the lowest, to 2"));
     assert!(!folder.has("run.svg"));
 }
 
@@ -111,14 +111,13 @@ fn what_needs_one_body_is_refused() {
 #[test]
 fn values_of_a_chain_are_causes() {
     let folder = Folder::new();
-    let source = folder.run(&["scenes", "openfoam-7-1-2"]).text(0);
+    let source = folder.run("scenes openfoam-7-1-2").text(0);
     let hints = |wrong: &str, right: &str| {
         assert!(source.contains(right), "{source}");
         folder.write("wrong.toml", source.replace(right, wrong));
-        let columns = ["--quantity", "u_top,v_top,force_top", "--times", "0..0.5:1001", "--side", "right"];
-        let sampled = ["sample", "wrong.toml", "--body", "1", "--format", "csv", "-o", "run.csv"];
-        folder.run(&[&sampled, &columns[..]].concat()).text(0);
-        let report = folder.json(&["compare", "openfoam-7-1-2", "run.csv", "--body", "1"]);
+        let sampled = "sample wrong.toml --body 1 --format csv -o run.csv";
+        folder.run(&format!("{sampled} --quantity u_top,v_top,force_top --times 0..0.5:1001 --side right")).text(0);
+        let report = folder.json("compare openfoam-7-1-2 run.csv --body 1");
         let hint = |hint: &Value| (hint["text"].as_str().unwrap().to_string(), hint["value"].as_f64().unwrap());
         report["hints"].as_array().unwrap().iter().map(hint).collect::<Vec<_>>()
     };
@@ -147,10 +146,10 @@ fn hints_of_fall(joint: &str, ground: &str, changed: impl Fn(String) -> String) 
     let scene = |joint: &str, ground: &str| FALL.replace("JOINT", joint).replace("GROUND", ground);
     folder.write("rigid.toml", scene("", ""));
     folder.write("soft.toml", scene(joint, ground));
-    let times = ["--times", "0..0.55:551", "--side", "right", "--bare", "--format", "csv"];
-    let data = folder.run(&[&["sample", "soft.toml", "--quantity", COLUMNS][..], &times].concat()).text(0);
+    let times = "--times 0..0.55:551 --side right --bare --format csv";
+    let data = folder.run(&format!("sample soft.toml --quantity {COLUMNS} {times}")).text(0);
     folder.write("run.csv", changed(data));
-    let report = folder.json(&["compare", "rigid.toml", "run.csv"]);
+    let report = folder.json("compare rigid.toml run.csv");
     [0, 1].map(|body| {
         let hints = report["bodies"][body]["files"][0]["hints"].as_array().unwrap();
         let hint = |hint: &Value| (hint["text"].as_str().unwrap().to_string(), hint["value"].as_f64().unwrap());

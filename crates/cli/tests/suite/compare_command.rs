@@ -19,10 +19,21 @@ fn folder(data: &str) -> Folder {
 
 /// Holds a comparison to be refused.
 #[track_caller]
-fn refused(folder: &Folder, args: &[&str], said: &[&str]) {
+fn refused(folder: &Folder, args: &str, said: &[&str]) {
     let words = folder.refused(args, said);
     // What a map or a step mends, a flag gives.
     assert_eq!(words.contains("a map such as"), words.contains("help: --map"), "{words}");
+}
+
+/// Holds all quantities of a report to the exact ones within `most`, relative where those are not zero, and no hint.
+#[track_caller]
+fn agrees(report: &Value, most: f64, what: &str) {
+    for quantity in report["quantities"].as_array().unwrap() {
+        let norm = &quantity["linf"];
+        let off = norm["relative"].as_f64().or(norm["absolute"].as_f64()).unwrap();
+        assert!(off <= most, "{what}: {quantity}");
+    }
+    assert_eq!(report["hints"], serde_json::json!([]), "{what}");
 }
 
 const EXACT: &str = "t,u,v,force\n0,0,0,1\n1,0,0,1\n2,0,0,1\n3,1,1,0\n4,2,1,0\n";
@@ -32,7 +43,7 @@ const EXACT: &str = "t,u,v,force\n0,0,0,1\n1,0,0,1\n2,0,0,1\n3,1,1,0\n4,2,1,0\n"
 fn samples_on_a_jump() {
     for data in [EXACT, "t,u,v,force\n0,0,-1,0\n1,0,0,1\n2,0,1,0\n3,1,1,0\n4,2,1,0\n"] {
         let folder = folder(data);
-        let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+        let report = folder.json("compare rod.toml run.csv");
         for quantity in report["quantities"].as_array().unwrap() {
             assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
             let on_jumps = if quantity["name"] == "u_end" { 0 } else { 2 };
@@ -46,7 +57,7 @@ fn samples_on_a_jump() {
 #[test]
 fn the_json() {
     let folder = folder("t,u,force\n0,0,1\n1,0.5,1\n2,0,1\n3,1,0\n4,2,0\n");
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     assert_eq!(report["schema"], 1);
     let u = &report["quantities"][0];
     // One sample of weight 1 is off by ½; ‖u‖₁ = 1 · 1 + ½ · 2, ‖u‖₂² = 1 + ½ · 4.
@@ -81,9 +92,9 @@ fn every_form_of_data() {
         (
             "d.dat",
             EXACT.split_once('\n').unwrap().1.replace(',', " ").replace("2 0 0 1", "\n2 0 0 1.0D0"),
-            "t=0,u=1,v=2,force=3",
+            "--map t=0,u=1,v=2,force=3",
         ),
-        ("e.txt", "9 0\n9 0\n9 0\n9 1\n9 2\n".into(), "u=1"),
+        ("e.txt", "9 0\n9 0\n9 0\n9 1\n9 2\n".into(), "--map u=1 --dt 1"),
         // Line ends of old, a mark of byte order, quotes everywhere, other programs' names and units.
         ("f.csv", EXACT.replace('\n', "\r"), ""),
         ("g.csv", format!("\u{feff}{EXACT}"), ""),
@@ -101,13 +112,10 @@ fn every_form_of_data() {
             "",
         ),
     ];
-    for (name, data, map) in forms {
+    for (name, data, options) in forms {
         let folder = folder("");
         folder.write(name, data);
-        let mut args = vec!["compare", "rod.toml", name];
-        args.extend(if map.is_empty() { vec![] } else { vec!["--map", map] });
-        args.extend(if name == "e.txt" { vec!["--dt", "1"] } else { vec![] });
-        let report = folder.json(&args);
+        let report = folder.json(&format!("compare rod.toml {name} {options}"));
         assert_eq!(report["quantities"][0]["name"], "u_end", "{name}");
         assert_eq!(report["quantities"][0]["linf"]["absolute"], 0.0, "{name}");
     }
@@ -118,13 +126,13 @@ fn every_form_of_data() {
 fn files_of_other_programs() {
     let rows = EXACT.split_once('\n').unwrap().1.replace(',', " ");
     let folder = folder(&format!("5 4\n{rows}"));
-    let table = folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
+    let table = folder.run("compare rod.toml run.csv").text(0);
     assert!(table.contains("the first line holds the numbers of rows and columns: skipped"), "{table}");
     assert!(table.contains("the columns have no names: taken as t=0,u=1,v=2,force=3"), "{table}");
     let names = "# time displacement velocity Reaction-Force iterations\n";
     let with_more: String = rows.lines().map(|row| format!("{row} 7\n")).collect();
     folder.write("run.csv", format!("{names}{with_more}"));
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     let found: Vec<&Value> = report["quantities"].as_array().unwrap().iter().map(|one| &one["name"]).collect();
     assert_eq!(found, ["u_end", "v_end", "force"]);
     assert_eq!(report["notes"], serde_json::json!(["not used: iterations"]));
@@ -141,15 +149,10 @@ fn nothing_is_wrong_with_exact_data() {
     for scene in [held.as_str(), soft] {
         folder.write("rod.toml", scene);
         let few = "0.1,0.4,1.9,2.3,2.35,4,5.6,6.1,7.7,7.9,8.2";
-        for times in [&[][..], &["--times", few], &["--times", "0.5..8:300"]] {
-            folder.run(&[&["reference", "rod.toml", "-o", "golden.csv"], times].concat()).text(0);
-            let report = folder.json(&["compare", "rod.toml", "golden.csv"]);
-            for quantity in report["quantities"].as_array().unwrap() {
-                let relative = quantity["linf"]["relative"].as_f64();
-                let most = relative.unwrap_or_else(|| quantity["linf"]["absolute"].as_f64().unwrap());
-                assert!(most <= 1e-12, "{scene} {times:?}: {quantity}");
-            }
-            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {times:?}");
+        for times in ["", &format!("--times {few}"), "--times 0.5..8:300"] {
+            folder.run(&format!("reference rod.toml -o golden.csv {times}")).text(0);
+            let report = folder.json("compare rod.toml golden.csv");
+            agrees(&report, 1e-12, &format!("{scene} {times}"));
         }
     }
 }
@@ -160,16 +163,12 @@ fn reference_files_agree() {
     let folder = folder("");
     for name in ["golden.csv", "golden.npz"] {
         let columns = "t,u_end,v_end,strain,stress,force,u_top,v_top,h,h_rate,E_total,E_h,E_z,kinetic,impulse";
-        let reference =
-            ["reference", "doyen-ern-piperno", "--columns", columns, "--dt", "1/128", "--to", "8", "-o", name];
-        folder.run(&[&reference[..], &["--side", "right"]].concat()).text(0);
-        let report = folder.json(&["compare", "doyen-ern-piperno", name]);
+        let reference = format!("reference doyen-ern-piperno --columns {columns} --dt 1/128 --to 8 -o {name}");
+        folder.run(&format!("{reference} --side right")).text(0);
+        let report = folder.json(&format!("compare doyen-ern-piperno {name}"));
         assert_eq!(report["quantities"].as_array().unwrap().len(), 14);
         assert!(!report.to_string().contains("not used"), "{name}: {report}");
-        for quantity in report["quantities"].as_array().unwrap() {
-            assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-12, "{quantity}");
-        }
-        assert_eq!(report["hints"], serde_json::json!([]));
+        agrees(&report, 1e-12, name);
     }
 }
 
@@ -183,48 +182,44 @@ fn both_limits_of_a_reference_file() {
     // points.
     // All but the times and the sides.
     let all = dalembert::quantity::Needs::Time.quantities().count() - 2;
-    let cases: [(&str, &[&str], usize, u64); 5] = [
-        ("doyen-ern-piperno", &["--dt", "1/128", "--to", "8"], all, 6),
-        ("doyen-ern-piperno", &[], all, 26),
-        ("doyen-ern-piperno", &["--columns", "t,v_end,force", "--times", "0..4:13"], 2, 8),
-        ("getfem-dynamic-contact", &["--points", "0..1:5", "--times", "0..3:13"], 3, 30),
-        ("paper-strong", &["--times", "0,1/3,1,2,3"], all, 4),
+    let cases = [
+        ("doyen-ern-piperno", "--dt 1/128 --to 8", all, 6),
+        ("doyen-ern-piperno", "", all, 26),
+        ("doyen-ern-piperno", "--columns t,v_end,force --times 0..4:13", 2, 8),
+        ("getfem-dynamic-contact", "--points 0..1:5 --times 0..3:13", 3, 30),
+        ("paper-strong", "--times 0,1/3,1,2,3", all, 4),
     ];
     for (scene, asked, count, on_jumps) in cases {
-        let numbers = ["", "--exact"];
-        for (name, numbers) in [("a.csv", numbers[0]), ("a.npz", numbers[0]), ("a.csv", numbers[1])] {
-            let numbers = if numbers.is_empty() { &[][..] } else { &[numbers] };
-            folder.run(&[&["reference", scene, "-o", name][..], asked, numbers].concat()).text(0);
-            let report = folder.json(&["compare", scene, name]);
-            assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked:?}");
+        for (name, numbers) in [("a.csv", ""), ("a.npz", ""), ("a.csv", "--exact")] {
+            folder.run(&format!("reference {scene} -o {name} {asked} {numbers}")).text(0);
+            let report = folder.json(&format!("compare {scene} {name}"));
+            assert_eq!(report["quantities"].as_array().unwrap().len(), count, "{scene} {asked}");
             for quantity in report["quantities"].as_array().unwrap() {
                 // Times such as 1/3 are rounded in the file, where ours are asked at them; fractions show what ours has
                 // lost, which is far within the 1e-9 that it promises.
                 let most = if numbers.is_empty() { 8.0 * f64::EPSILON } else { 1e-12 };
                 let off = quantity["linf"]["relative"].as_f64().unwrap_or(0.0);
-                assert!(off <= most, "{scene} {name} {numbers:?} {asked:?}: {quantity}");
+                assert!(off <= most, "{scene} {name} {numbers} {asked}: {quantity}");
                 if matches!(quantity["name"].as_str(), Some("force" | "strain")) {
-                    assert_eq!(quantity["on_jumps"], on_jumps, "{scene} {asked:?}: {quantity}");
+                    assert_eq!(quantity["on_jumps"], on_jumps, "{scene} {asked}: {quantity}");
                 }
             }
-            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {asked:?}");
+            assert_eq!(report["hints"], serde_json::json!([]), "{scene} {asked}");
         }
     }
-    folder.run(&["reference", "figure-4-r02", "--times", "0..6:61", "-o", "a.csv"]).text(0);
-    for quantity in folder.json(&["compare", "figure-4-r02", "a.csv"])["quantities"].as_array().unwrap() {
-        assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
-    }
+    folder.run("reference figure-4-r02 --times 0..6:61 -o a.csv").text(0);
+    agrees(&folder.json("compare figure-4-r02 a.csv"), 1e-12, "figure-4-r02");
 }
 
 /// A limit that is said to be the other one is wrong, although the nearer one would do.
 #[test]
 fn the_side_that_is_said_counts() {
     let folder = folder("t,side,force\n0,right,1\n1,both,1\n2,right,1\n3,both,0\n4,both,0\n");
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     assert_eq!(report["quantities"][0]["linf"], serde_json::json!({"absolute": 1.0, "relative": 1.0, "t": 2.0}));
     // Two rows, each with half of the weight: ∫F over them is exact.
     folder.write("run.csv", "t,force\n0,0\n0,1\n2,1\n2,0\n4,0\n");
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     let contact = &report["contacts"][0];
     assert_eq!(contact["ours"], contact["theirs"]);
     assert_eq!(report["audit"]["not_covered"], serde_json::json!([]));
@@ -235,13 +230,10 @@ fn the_side_that_is_said_counts() {
 fn nothing_to_find() {
     let folder = folder("");
     for (scene, columns) in [("getfem-dynamic-contact", "t,u_end,u_top"), ("mu-3-2-chaotic", "t,v_end,force")] {
-        let reference = ["reference", scene, "--columns", columns, "--dt", "0.01", "--to", "6", "--side", "right"];
-        folder.run(&[&reference[..], &["-o", "golden.csv"]].concat()).text(0);
-        let report = folder.json(&["compare", scene, "golden.csv"]);
-        for quantity in report["quantities"].as_array().unwrap() {
-            assert!(quantity["linf"]["relative"].as_f64().unwrap_or(0.0) <= 1e-12, "{quantity}");
-        }
-        assert_eq!(report["hints"], serde_json::json!([]));
+        let reference = format!("reference {scene} --columns {columns} --dt 0.01 --to 6 --side right");
+        folder.run(&format!("{reference} -o golden.csv")).text(0);
+        let report = folder.json(&format!("compare {scene} golden.csv"));
+        agrees(&report, 1e-12, scene);
     }
 }
 
@@ -250,9 +242,9 @@ fn nothing_to_find() {
 fn many_samples() {
     let folder = folder("");
     for scene in ["doyen-ern-piperno", "figure-4-r02"] {
-        let reference = ["reference", scene, "--columns", "t,u_end,v_end,force,E_z", "--dt", "1/16384", "--to", "2.5"];
-        folder.run(&[&reference[..], &["--side", "right", "-o", "many.npz"]].concat()).text(0);
-        let report = folder.json(&["compare", scene, "many.npz"]);
+        let reference = format!("reference {scene} --columns t,u_end,v_end,force,E_z --dt 1/16384 --to 2.5");
+        folder.run(&format!("{reference} --side right -o many.npz")).text(0);
+        let report = folder.json(&format!("compare {scene} many.npz"));
         for quantity in report["quantities"].as_array().unwrap() {
             assert_eq!(quantity["samples"], 40961);
             assert!(quantity["linf"]["relative"].as_f64().unwrap() <= 1e-10, "{scene}: {quantity}");
@@ -265,7 +257,7 @@ fn many_samples() {
 fn a_field() {
     let folder =
         folder("t,x,u,strain\n0.5,0,0,-1\n0.5,0.25,-0.25,-1\n0.5,1,-0.5,0\n1,0,0,-1\n1,0.5,-0.5,-1\n1,1,-1,0\n");
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     for quantity in report["quantities"].as_array().unwrap() {
         assert_eq!(quantity["linf"]["absolute"], 0.0, "{quantity}");
     }
@@ -278,13 +270,13 @@ fn a_field() {
 #[test]
 fn bounds_for_tests() {
     let folder = folder("t,u\n0,0\n1,0\n2,0\n3,1.1\n4,2\n");
-    let above = |bound: &str| folder.run(&["compare", "rod.toml", "run.csv", "--fail-above", bound]);
+    let above = |bound: &str| folder.run(&format!("compare rod.toml run.csv --fail-above {bound}"));
     assert!(above("u.l2=0.1,u_end.linf=0.5").text(0).contains("u_end"));
     let failed = above("u.linf=0.04");
     failed.text(1);
     assert!(failed.err.contains("expected u.linf ≤ 4e-2, found 5.000e-2"));
-    folder.run(&["compare", "rod.toml", "run.csv", "--fail-above", "missed=0,invented=0,penetration=0"]).text(0);
-    folder.run(&["compare", "rod.toml", "run.csv", "--fail-below", "coverage=1.1"]).text(1);
+    folder.run("compare rod.toml run.csv --fail-above missed=0,invented=0,penetration=0").text(0);
+    folder.run("compare rod.toml run.csv --fail-below coverage=1.1").text(1);
     above("energy=0.1").text(2);
     above("order.u=0.1").text(2);
     above("v.l2=0.1").text(2);
@@ -297,16 +289,13 @@ fn bounds_for_tests() {
 fn a_run_that_breaks_off() {
     let folder = folder("t,u\n0,0\n1,0\n2,0\n");
     folder.write("gates.toml", "[above]\n\"u.l2\" = 0.1\n[below]\ncoverage = 0.9\n");
-    let asked = |more: &[&str]| {
-        let args = ["compare", "rod.toml", "run.csv", "--gates", "gates.toml", "--junit", "out.xml"];
-        folder.run(&[&args[..], more].concat())
-    };
-    assert!(asked(&[]).text(1).contains("covers 50 % of the run to t = 4, 1 of 1 contacts: THE RUN BREAKS OFF"));
+    let asked = |more: &str| folder.run(&format!("compare rod.toml run.csv --gates gates.toml --junit out.xml {more}"));
+    assert!(asked("").text(1).contains("covers 50 % of the run to t = 4, 1 of 1 contacts: THE RUN BREAKS OFF"));
     let xml = folder.read("out.xml");
     assert!(xml.contains("tests=\"3\" failures=\"2\"") && xml.contains("name=\"data up to t = 4\""), "{xml}");
-    assert!(asked(&["--to", "2"]).text(0).contains("covers 100 % of the run to t = 2, 1 of 1 contacts\n"));
+    assert!(asked("--to 2").text(0).contains("covers 100 % of the run to t = 2, 1 of 1 contacts\n"));
     folder.write("gates.toml", "[above]\n\"u.l7\" = 0.1\n");
-    assert!(asked(&[]).err.contains("gates.toml: found `u.l7=0.1`, expected"));
+    assert!(asked("").err.contains("gates.toml: found `u.l7=0.1`, expected"));
 }
 
 /// u + h² at steps h: second order in every norm.
@@ -318,7 +307,7 @@ fn several_files_show_the_order() {
         let row = |k: i32| format!("{},{}\n", f64::from(k) * h, (f64::from(k) * h - 2.0).max(0.0) + h * h);
         folder.write(name, format!("t,u\n{}", (0..=count).map(row).collect::<String>()));
     }
-    let report = folder.json(&["compare", "rod.toml", "a.csv", "b.csv", "c.csv"]);
+    let report = folder.json("compare rod.toml a.csv b.csv c.csv");
     assert_eq!(report["files"].as_array().unwrap().len(), 3);
     let orders = report["orders"].as_array().unwrap();
     assert_eq!(orders.len(), 2);
@@ -327,25 +316,25 @@ fn several_files_show_the_order() {
             assert!((order[norm].as_f64().unwrap() - 2.0).abs() < 1e-9, "{order}");
         }
     }
-    let below = |bound: &str| folder.run(&["compare", "rod.toml", "a.csv", "b.csv", "c.csv", "--fail-below", bound]);
+    let below = |bound: &str| folder.run(&format!("compare rod.toml a.csv b.csv c.csv --fail-below {bound}"));
     below("order.u=1.9").text(0);
     below("order.u.linf=2.1").text(1);
     // Of files that end at other times there is none.
     folder.write("d.csv", "t,u\n0,0\n0.5,0\n1,0\n1.5,0\n2,0\n");
-    let table = folder.run(&["compare", "rod.toml", "a.csv", "d.csv"]).text(0);
+    let table = folder.run("compare rod.toml a.csv d.csv").text(0);
     assert!(table.contains("no order of u_end from 0.1 to 0.5: the files do not cover the same times"), "{table}");
     // Widths of twice the ratio halve the order.
-    let report = folder.json(&["compare", "rod.toml", "a.csv", "b.csv", "--widths", "0.4,0.1"]);
+    let report = folder.json("compare rod.toml a.csv b.csv --widths 0.4,0.1");
     assert!((report["orders"][0]["l2"].as_f64().unwrap() - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn residuals_and_pictures() {
     let folder = folder(EXACT);
-    let csv = folder.run(&["compare", "rod.toml", "run.csv", "--format", "csv"]).text(0);
+    let csv = folder.run("compare rod.toml run.csv --format csv").text(0);
     assert!(csv.starts_with("t,u_end_ours,u_end_theirs,u_end_difference,v_end_ours,"));
     assert_eq!(csv.lines().count(), 6);
-    let table = folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.svg", "-o", "a.png"]).text(0);
+    let table = folder.run("compare rod.toml run.csv -o a.svg -o a.png").text(0);
     assert!(table.contains("no hint"));
     let svg = folder.read("a.svg");
     assert!(svg.contains("theirs − ours") && svg.contains("run.csv"));
@@ -371,7 +360,7 @@ fn chattering(peak: f64, size: f64) -> String {
 fn words_of_hints() {
     let said = |data: &str| {
         let folder = folder(data);
-        let table = folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
+        let table = folder.run("compare rod.toml run.csv").text(0);
         table.lines().filter(|line| line.contains("hint")).map(String::from).collect::<Vec<_>>()
     };
     let none = "no hint: no single wrong number that was tried explains what differs";
@@ -393,7 +382,7 @@ fn a_factor_that_chatter_falsifies() {
     };
     let folder = folder(&format!("t,force\n{}", (0..=192).map(row).collect::<String>()));
     folder.write("rod.toml", SCENE.replace("[run]", "[gravity]\nacceleration = 0.5\n[run]"));
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     let hints = report["hints"].as_array().unwrap();
     let factor = hints.iter().find(|hint| hint["kind"] == "force_factor").unwrap();
     let [value, error] = ["value", "error"].map(|key| factor[key].as_f64().unwrap());
@@ -406,18 +395,18 @@ fn all_files_or_none() {
     let folder = folder(EXACT);
     fs::create_dir(folder.path("folder.csv")).unwrap();
     for bad in ["nowhere/b.csv", "folder.csv"] {
-        folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", bad]).text(2);
+        folder.run(&format!("compare rod.toml run.csv -o a.json -o {bad}")).text(2);
         assert!(!folder.has("a.json"));
     }
     assert_eq!(folder.count(), 3);
-    folder.run(&["compare", "rod.toml", "run.csv", "-o", "a.json", "-o", "b.csv"]).text(0);
+    folder.run("compare rod.toml run.csv -o a.json -o b.csv").text(0);
     assert!(folder.has("a.json") && folder.has("b.csv"));
 }
 
 /// Squares of data beyond the range of doubles are none of the report's concern.
 #[test]
 fn norms_of_huge_data() {
-    let report = folder("t,u\n0,0\n2,0\n3,1e300\n4,2\n").json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder("t,u\n0,0\n2,0\n3,1e300\n4,2\n").json("compare rod.toml run.csv");
     let quantity = &report["quantities"][0];
     // Weights 1, 3/2, 1, 1/2; ours 0, 0, 1, 2.
     assert_eq!((&quantity["l1"]["absolute"], &quantity["l2"]["absolute"]), (&1e300.into(), &1e300.into()));
@@ -431,12 +420,12 @@ fn times_in_another_unit() {
         let folder =
             folder(&EXACT.replace("3,1,1,0", &format!("3{scale},1,1,0")).replace("4,2,", &format!("4{scale},2,")));
         let doubt = format!("own run, which ends at t = 4: are they in {unit}?");
-        refused(&folder, &["compare", "rod.toml", "run.csv"], &["run.csv: found times up to 4000", &doubt]);
+        refused(&folder, "compare rod.toml run.csv", &["run.csv: found times up to 4000", &doubt]);
         // A run of impacts ends at one of them.
         folder.write("rod.toml", SCENE.replace("time = 4", "impacts = 1"));
-        folder.run(&["compare", "rod.toml", "run.csv"]).text(2);
+        folder.run("compare rod.toml run.csv").text(2);
         folder.write("rod.toml", SCENE.replace("time = 4", &format!("time = 4{scale}")));
-        folder.run(&["compare", "rod.toml", "run.csv"]).text(0);
+        folder.run("compare rod.toml run.csv").text(0);
     }
 }
 
@@ -479,7 +468,7 @@ fn what_is_refused() {
     ];
     for (data, said) in cases {
         let folder = folder(data);
-        refused(&folder, &["compare", "rod.toml", "run.csv", "-o", "out.json"], &[said]);
+        refused(&folder, "compare rod.toml run.csv -o out.json", &[said]);
         assert!(!folder.has("out.json"));
     }
 }
@@ -494,9 +483,9 @@ fn every_kind_of_array() {
     let table = EXACT.lines().skip(1).flat_map(|line| line.split(',').map(|x| x.parse::<f64>().unwrap()));
     let table = Array2::from_shape_vec((5, 4), table.collect()).unwrap();
     let path = folder.path("a.npy");
-    let args = ["compare", "rod.toml", "a.npy", "--map", "t=0,u=1,v=2,force=3"];
+    let args = "compare rod.toml a.npy --map t=0,u=1,v=2,force=3";
     let exact = || {
-        let report = folder.json(&args);
+        let report = folder.json(args);
         assert!(report["quantities"].as_array().unwrap().iter().all(|found| found["linf"]["absolute"] == 0.0));
     };
     fn write<T: WritableElement>(path: &str, array: &Array2<T>) {
@@ -510,7 +499,7 @@ fn every_kind_of_array() {
     columns_first.assign(&table);
     write(&path, &columns_first);
     exact();
-    let refused = |said: &str| refused(&folder, &args, &[said]);
+    let refused = |said: &str| refused(&folder, args, &[said]);
     Array0::from_elem((), 1.0).write_npy(fs::File::create(&path).unwrap()).unwrap();
     refused("a.npy: found an array of shape [], expected one column");
     Array3::<f64>::zeros((1, 5, 4)).write_npy(fs::File::create(&path).unwrap()).unwrap();

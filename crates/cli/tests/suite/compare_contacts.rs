@@ -21,13 +21,13 @@ fn starts_with_stress() {
     let (mut count, mut below) = (0, 0);
     for (scene, source) in scenes {
         folder.write(scene, source);
-        let both = columns.map(|columns| (columns, vec![]));
-        let sides = ["left", "right"].map(|side| one.map(|columns| (columns, vec!["--side", side])));
+        let both = columns.map(|columns| (columns, ""));
+        let sides = ["--side left", "--side right"].map(|side| one.map(|columns| (columns, side)));
         for (columns, side) in both.into_iter().chain(sides.into_iter().flatten()) {
             for step in ["0.01", "0.07", "0.3"] {
-                let golden = ["reference", scene, "--dt", step, "--to", "9", "--columns", columns, "-o", "golden.csv"];
-                folder.run(&[&golden[..], &side].concat()).text(0);
-                let report = folder.json(&["compare", scene, "golden.csv"]);
+                let golden = format!("reference {scene} --dt {step} --to 9 --columns {columns} {side} -o golden.csv");
+                folder.run(&golden).text(0);
+                let report = folder.json(&format!("compare {scene} golden.csv"));
                 let audit = &report["audit"];
                 let found = [&audit["missed"], &audit["invented"], &audit["tension"]["value"]].map(Value::as_f64);
                 assert_eq!(found, [Some(0.0); 3], "{scene} {columns} {step}: {audit}");

@@ -21,14 +21,14 @@ fn what_data_do_not_tell() {
         "rod = { length = 1, wave_speed = 2.1 }\ngravity.acceleration = 1\nimpact = { speed = 1, gap = 0.05 }\n";
     folder.write("rod.toml", scene);
     let said = ["run.csv: found data that do not tell length, wave_speed apart"];
-    folder.refused(&["compare", "rod.toml", "run.csv", "--fit", "length,wave_speed"], &said);
+    folder.refused("compare rod.toml run.csv --fit length,wave_speed", &said);
 }
 
 /// The examples: a measured bounce, whose truth is 0.42 and 9.81, and bounds for CI.
 #[test]
 fn the_examples() {
     let [scene, data] = ["../../examples/bounce.toml", "../../examples/bounce.csv"];
-    let report = json(&["compare", scene, data, "--fit", "impact_speed,gravity", "--format", "json"]);
+    let report = json(&format!("compare {scene} {data} --fit impact_speed,gravity"));
     for (value, truth) in report["fit"]["values"].as_array().unwrap().iter().zip([0.42, 9.81]) {
         let [value, error] = ["value", "error"].map(|key| value[key].as_f64().unwrap());
         assert!((value - truth).abs() <= 2.0 * error && error < 1e-3 * truth, "{report}");

@@ -34,7 +34,7 @@ fn units_in_names() {
     let written = |header: &str, units: [f64; 4]| {
         let row = |row: &[f64; 4]| (0..4).map(|k| (row[k] / units[k]).to_string()).collect::<Vec<_>>().join(",") + "\n";
         folder.write("run.csv", header.to_string() + "\n" + &rows.iter().map(row).collect::<String>());
-        folder.json(&["compare", "rod.toml", "run.csv"])
+        folder.json("compare rod.toml run.csv")
     };
     let plain = written("t,u,force,E_total", [1.0; 4]);
     assert_eq!(plain["notes"], serde_json::json!([]));
@@ -58,12 +58,12 @@ fn units_in_names() {
     }
     // Names apart by white space, a unit beside each.
     folder.write("run.dat", "# t [ms]  u [m]\n0 0\n1000 0\n2000 0\n3000 1\n");
-    assert_eq!(norms(&folder.json(&["compare", "rod.toml", "run.dat"])), [("u_end".into(), 0.0)]);
+    assert_eq!(norms(&folder.json("compare rod.toml run.dat")), [("u_end".into(), 0.0)]);
     // What measures something else is refused; a map takes a column as it is.
     folder.write("run.csv", "t,force [MPa]\n0,1\n1,1\n");
     let said = "found the column `force [MPa]`, expected it in N as in the scene";
-    folder.refused(&["compare", "rod.toml", "run.csv"], &[said]);
-    folder.run(&["compare", "rod.toml", "run.csv", "--map", "t=t,force=1"]).text(0);
+    folder.refused("compare rod.toml run.csv", &[said]);
+    folder.run("compare rod.toml run.csv --map t=t,force=1").text(0);
 }
 
 /// A scene without units has numbers without units: they are taken as they are, and it is said.
@@ -73,7 +73,7 @@ fn units_without_units() {
     let scene = SCENE.replace("modulus = 1\ndensity = 1\narea = 1", "wave_speed = 1");
     folder.write("rod.toml", scene);
     folder.write("run.csv", "t [ms],u\n0,0\n1,0\n2,0\n");
-    let report = folder.json(&["compare", "rod.toml", "run.csv"]);
+    let report = folder.json("compare rod.toml run.csv");
     assert_eq!(report["notes"], serde_json::json!(["units: t [ms] as it is, the scene having no units"]));
 }
 
@@ -82,7 +82,7 @@ fn units_without_units() {
 fn a_folder_of_arrays() {
     let folder = folder();
     fs::create_dir(folder.path("arrays")).unwrap();
-    let refused = |said: &str| folder.refused(&["compare", "rod.toml", "arrays"], &[said]);
+    let refused = |said: &str| folder.refused("compare rod.toml arrays", &[said]);
     refused("arrays: cannot be read: found no .npy in the folder");
     let write = |name: &str, values: Vec<f64>| {
         Array1::from(values).write_npy(fs::File::create(folder.path(&format!("arrays/{name}"))).unwrap()).unwrap();
@@ -91,7 +91,7 @@ fn a_folder_of_arrays() {
     write("u.npy", vec![0.0, 0.0, 1.0]);
     write("contact_force.npy", vec![1.0, 1.0, 0.0]);
     write("mesh.npy", vec![1.0, 2.0]);
-    let report = folder.json(&["compare", "rod.toml", "arrays"]);
+    let report = folder.json("compare rod.toml arrays");
     assert_eq!(norms(&report), [("force".into(), 0.0), ("u_end".into(), 0.0)]);
     assert_eq!(report["notes"], serde_json::json!(["not used: mesh"]));
     write("u.npy", vec![0.0, 0.0]);

@@ -10,11 +10,11 @@ fn the_contact_explains_what_a_penalty_does() {
     let folder = Folder::new();
     let data = folder.path("run.csv");
     // Many times are those of rays, where pieces of the exact signals meet.
-    let args = ["sample", "getfem-penalty", "--times", "0..3:301", "--quantity", "u_end,v_end,force,E_total"];
-    quiet(&[&args[..], &["--format", "csv", "-o", &data]].concat());
-    let soft = json(&["compare", "getfem-penalty", &data, "--format", "json"]);
-    let given = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "20", "--to", "3"];
-    let given = json(&[&given[..], &["--format", "json"]].concat());
+    let args = "sample getfem-penalty --times 0..3:301 --quantity u_end,v_end,force,E_total";
+    quiet(&format!("{args} --format csv -o {data}"));
+    let soft = json(&format!("compare getfem-penalty {data}"));
+    let given = format!("compare getfem-dynamic-contact {data} --contact-stiffness 20 --to 3");
+    let given = json(&given);
     for report in [&soft, &given] {
         let parts = report["softness"].as_array().unwrap();
         assert_eq!(parts.len(), 4);
@@ -28,7 +28,7 @@ fn the_contact_explains_what_a_penalty_does() {
         let depth = parts[0]["contact"]["absolute"].as_f64().unwrap();
         assert!((0.02..0.04).contains(&depth), "{depth}");
     }
-    let table = quiet(&["compare", "getfem-penalty", &data]);
+    let table = quiet(&format!("compare getfem-penalty {data}"));
     assert!(table.contains("theirs − rigid   their contact: soft − rigid   their scheme: theirs − soft"), "{table}");
     // A single rod on a spring is audited as one on rigid ground is, but it goes into the ground.
     for report in [&soft, &given] {
@@ -41,12 +41,12 @@ fn the_contact_explains_what_a_penalty_does() {
     }
     assert!(table.contains("; ours: 0.025 at t = 2"), "{table}");
     // A stiffer spring is not that of the data.
-    let stiff = ["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "200", "--to", "3"];
-    let stiff = json(&[&stiff[..], &["--format", "json"]].concat());
+    let stiff = format!("compare getfem-dynamic-contact {data} --contact-stiffness 200 --to 3");
+    let stiff = json(&stiff);
     let scheme = |report: &Value| report["softness"][0]["scheme"]["absolute"].as_f64().unwrap();
     assert!(scheme(&stiff) > 0.01, "{}", scheme(&stiff));
     // Rigid contact has no such parts.
-    let rigid = json(&["compare", "getfem-dynamic-contact", &data, "--to", "3", "--format", "json"]);
+    let rigid = json(&format!("compare getfem-dynamic-contact {data} --to 3"));
     assert_eq!(rigid["softness"], serde_json::json!([]));
     for (scene, said) in [
         ("figure-4-r01", "found a damped rod on a spring, expected a rod without damping"),
@@ -55,9 +55,9 @@ fn the_contact_explains_what_a_penalty_does() {
             "found a body of a chain on a spring, expected a joint with a stiffness in its scene, or a rod by itself",
         ),
     ] {
-        refused(&["compare", scene, &data, "--contact-stiffness", "20"], &[said]);
+        refused(&format!("compare {scene} {data} --contact-stiffness 20"), &[said]);
     }
-    refused(&["compare", "getfem-dynamic-contact", &data, "--contact-stiffness", "-1"], &["stiffness = -1"]);
+    refused(&format!("compare getfem-dynamic-contact {data} --contact-stiffness -1"), &["stiffness = -1"]);
 }
 
 /// A rod by itself and the same rod as a chain of one body are compared alike: samples on rays of the start, which no
@@ -77,7 +77,7 @@ fn a_rod_and_a_chain_of_one_body_are_compared_alike() {
     });
     std::fs::write(&data, format!("t,v_end\n{}", rows.collect::<String>())).unwrap();
     for scene in ["getfem-dynamic-contact", &chain] {
-        let report = json(&["compare", scene, &data, "--to", "3", "--format", "json"]);
+        let report = json(&format!("compare {scene} {data} --to 3"));
         let column = &report["quantities"][0];
         assert_eq!(column["on_jumps"], 4, "{column}");
         for norm in ["linf", "linf_off_jumps"] {
@@ -98,19 +98,10 @@ fn another_stiffness_is_named() {
     };
     for (stiffness, share) in [(49.0, -0.02), (60.0, 0.2), (50.0, 0.0)] {
         scene(stiffness);
-        let args = [
-            "--times",
-            "0..4:801",
-            "--quantity",
-            "u_end,v_end,force",
-            "--format",
-            "csv",
-            "-o",
-            &folder.path("run.csv"),
-        ];
-        quiet(&[&["sample", &folder.path("rod.toml")][..], &args].concat());
+        let args = format!("--times 0..4:801 --quantity u_end,v_end,force --format csv -o {}", folder.path("run.csv"));
+        quiet(&format!("sample {} {args}", folder.path("rod.toml")));
         scene(50.0);
-        let report = json(&["compare", &folder.path("rod.toml"), &folder.path("run.csv"), "--format", "json"]);
+        let report = json(&format!("compare {} {}", folder.path("rod.toml"), folder.path("run.csv")));
         let hints = report["hints"].as_array().unwrap();
         if share == 0.0 {
             assert!(hints.is_empty(), "{hints:?}");
@@ -150,25 +141,24 @@ fn penalty_run(elements: usize, stiffness: f64) -> String {
 fn finer_meshes_leave_the_part_of_the_contact() {
     let folder = Folder::new();
     let scene = "rod = { length = 1, wave_speed = 1 }\nimpact.speed = 1\nrun.time = 3\n";
-    folder.write("rod.toml", scene);
+    let scene = folder.write("rod.toml", scene);
     let parts: Vec<[f64; 2]> = [50, 200]
         .iter()
         .map(|elements| {
             let data = folder.path(&format!("{elements}.csv"));
             std::fs::write(&data, penalty_run(*elements, 20.0)).unwrap();
-            let report =
-                json(&["compare", &folder.path("rod.toml"), &data, "--contact-stiffness", "20", "--format", "json"]);
+            let report = json(&format!("compare {scene} {data} --contact-stiffness 20"));
             ["contact", "scheme"].map(|which| report["softness"][0][which]["absolute"].as_f64().unwrap())
         })
         .collect();
     // The stiffness that explains the finer run best is its own.
-    let fit = ["--contact-stiffness", "10", "--fit", "stiffness", "--format", "json"];
-    let fitted = json(&[&["compare", &folder.path("rod.toml"), &folder.path("200.csv")][..], &fit].concat());
+    let fit = format!("compare {scene} {} --contact-stiffness 10 --fit stiffness", folder.path("200.csv"));
+    let fitted = json(&fit);
     let found = fitted["fit"]["values"][0]["value"].as_f64().unwrap();
     assert!((found - 20.0).abs() < 0.2, "{found}");
     // What remains is the error of the scheme, which the standard error does not know.
     assert!(fitted["fit"]["correlation"].as_f64().unwrap() > 0.5, "{}", fitted["fit"]);
-    let table = quiet(&[&["compare", &folder.path("rod.toml"), &folder.path("200.csv")][..], &fit[..4]].concat());
+    let table = quiet(&fit);
     assert!(table.contains("a finer mesh shows it"), "{table}");
     let [[coarse_contact, coarse], [fine_contact, fine]] = parts[..] else { panic!("{parts:?}") };
     assert!((coarse_contact - fine_contact).abs() < 0.01 * fine_contact, "{parts:?}");

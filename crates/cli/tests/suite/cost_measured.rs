@@ -8,8 +8,8 @@ use strum::VariantArray;
 use crate::command::{Folder, quiet, refused, run};
 
 #[track_caller]
-fn json(args: &[&str]) -> Value {
-    crate::command::json(&[&["cost"], args, &["--format", "json"]].concat())
+fn json(args: &str) -> Value {
+    crate::command::json(&format!("cost {args}"))
 }
 
 /// The truth of a later event is proved, damped or not.
@@ -18,7 +18,7 @@ fn the_truth_of_a_later_event() {
     use dalembert::{Run, Scene};
     let source = builtin::get("figure-4-r02").unwrap().source.replace("[impact]", "[run]\nimpacts = 2\n\n[impact]");
     let folder = Folder::new();
-    let found = json(&[&folder.write("scene.toml", source), "--quantity", "last_event", "--seconds", "0.5"]);
+    let found = json(&format!("{} --quantity last_event --seconds 0.5", folder.write("scene.toml", source)));
     let mut scene = Scene::parse(builtin::get("figure-4-r02").unwrap().source).unwrap();
     scene.problem = scene.problem.with_run(Run::Impacts(2)).unwrap();
     let last = scene.problem.doubles().unwrap().events().last().unwrap().t;
@@ -27,7 +27,7 @@ fn the_truth_of_a_later_event() {
     // Proofs reach it: no setting of theirs is left out but for its time.
     let left_out = found["left_out"].as_array().unwrap();
     assert!(left_out.iter().all(|item| item["route"] != "enclosures" || item["setting"].is_string()), "{found:#}");
-    let found = json(&["mu-1-period-36", "--quantity", "last_event", "--seconds", "0.5"]);
+    let found = json("mu-1-period-36 --quantity last_event --seconds 0.5");
     assert!(found["truth_proved"] == true, "{found:#}");
     assert!(found["truth_log10_half_width"].as_f64().is_none_or(|width| width < -19.0), "{found:#}");
 }
@@ -35,9 +35,9 @@ fn the_truth_of_a_later_event() {
 #[test]
 fn schema() {
     for args in [
-        &["figure-4-r02", "--seconds", "0.5", "--quantity", "restitution"][..],
-        &["doyen-ern-piperno", "--seconds", "0.5"],
-        &["getfem-dynamic-contact", "--seconds", "0.5", "--quantity", "energy", "--time", "1.25"],
+        "figure-4-r02 --seconds 0.5 --quantity restitution",
+        "doyen-ern-piperno --seconds 0.5",
+        "getfem-dynamic-contact --seconds 0.5 --quantity energy --time 1.25",
     ] {
         let found = json(args);
         assert_eq!(found["schema"], 1);
@@ -52,10 +52,10 @@ fn schema() {
             assert!(Family::VARIANTS.iter().any(|family| route == family.to_string()), "{route}");
         }
         let chosen: Vec<&Value> = rows.iter().filter(|row| row["chosen"] == true).collect();
-        assert_eq!(chosen.len(), 1, "{args:?}");
+        assert_eq!(chosen.len(), 1, "{args}");
         assert_eq!(chosen[0]["setting"], "double");
     }
-    let out = run(&["cost", "doyen-ern-piperno", "--seconds", "0.2", "--format", "csv"]).text(0);
+    let out = run("cost doyen-ern-piperno --seconds 0.2 --format csv").text(0);
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }
 
@@ -63,18 +63,18 @@ fn schema() {
 /// gt²/2.
 #[test]
 fn a_quantity_is_asked_at_a_time_at_which_it_is_not_zero() {
-    let found = json(&["../../examples/bounce.toml", "--quantity", "u_end", "--seconds", "0.2"]);
+    let found = json("../../examples/bounce.toml --quantity u_end --seconds 0.2");
     let time = found["time"].as_f64().unwrap();
     let expected = 0.005 - 0.4 * time - 9.7 * time * time / 2.0;
     assert!((found["truth"].as_f64().unwrap() - expected).abs() < 1e-15 && expected > 1e-3, "{found:#}");
     // A time that is given is kept.
-    let found = json(&["../../examples/bounce.toml", "--quantity", "u_end", "--time", "0.075", "--seconds", "0.2"]);
+    let found = json("../../examples/bounce.toml --quantity u_end --time 0.075 --seconds 0.2");
     assert_eq!(found["truth"], 0.0);
 }
 
 #[test]
 fn effects() {
-    let found = json(&["doyen-ern-piperno", "--effects", "--seconds", "0.1"]);
+    let found = json("doyen-ern-piperno --effects --seconds 0.1");
     let rows = found["rows"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["effect"].as_str().unwrap()).collect();
     assert_eq!(names, ["damping", "gravity", "repeated_impacts", "fixed_top", "field_energies", "plan"]);
@@ -86,16 +86,16 @@ fn effects() {
 #[test]
 fn bad_input_is_refused_before_anything_is_measured() {
     for (args, said) in [
-        (&["figure-4-r02", "--seconds", "0"][..], "found 0 seconds"),
-        (&["figure-4-r02", "--seconds", "nan"], "NaN seconds"),
-        (&["figure-4-r02", "--seconds", "-1", "--effects"], "found -1 seconds"),
-        (&["figure-4-r02", "--quantity", "stress", "--time", "-1"], "found time -1"),
-        (&["figure-4-r02", "--quantity", "bounce_time", "--time", "1"], "not asked at a time"),
-        (&["figure-4-r02", "--quantity", "beauty"], "beauty"),
-        (&["no-such-scene"], "no-such-scene"),
-        (&["figure-4-r02", "--effects", "-o", "effects.svg"], "found --effects with a picture"),
+        ("figure-4-r02 --seconds 0", "found 0 seconds"),
+        ("figure-4-r02 --seconds nan", "NaN seconds"),
+        ("figure-4-r02 --seconds -1 --effects", "found -1 seconds"),
+        ("figure-4-r02 --quantity stress --time -1", "found time -1"),
+        ("figure-4-r02 --quantity bounce_time --time 1", "not asked at a time"),
+        ("figure-4-r02 --quantity beauty", "beauty"),
+        ("no-such-scene", "no-such-scene"),
+        ("figure-4-r02 --effects -o effects.svg", "found --effects with a picture"),
     ] {
-        refused(&[&["cost"], args].concat(), &[said]);
+        refused(&format!("cost {args}"), &[said]);
     }
 }
 
@@ -104,13 +104,13 @@ fn a_scene_without_a_bounce_says_so() {
     let scene = "rod = { length = \"1/2\", wave_speed = 1, damping = 3.3 }\nimpact = { speed = 1 }\n";
     let folder = Folder::new();
     let said = ["found bounce_time asked of a scene that has none", "overdamped"];
-    refused(&["cost", &folder.write("scene.toml", scene), "--seconds", "1"], &said);
+    refused(&format!("cost {} --seconds 1", folder.write("scene.toml", scene)), &said);
 }
 
 /// The doubles of every route end near the roundoff, and no route is better than its numbers.
 #[test]
 fn errors_fall_along_the_settings() {
-    let table = json(&["figure-4-r02", "--quantity", "energy", "--time", "2", "--seconds", "1"]);
+    let table = json("figure-4-r02 --quantity energy --time 2 --seconds 1");
     let rows = table["rows"].as_array().unwrap();
     let error = |row: &Value| row["log10_error"].as_f64().unwrap_or(f64::NEG_INFINITY);
     // Two settings that both end in rounding may stand either way: within a few dozen roundings of each other.
@@ -127,9 +127,10 @@ fn pictures() {
     let folder = Folder::new();
     let source = builtin::get("figure-4-r02").unwrap().source;
     let scene = folder.write("scene.toml", source.replacen("title = \"", "title = \"<&> ", 1));
-    let args = [&scene, "--quantity", "stress", "--seconds", "1"];
-    let outputs = ["-o", &folder.path("cost.svg"), "-o", &folder.path("cost.png"), "-o", &folder.path("cost.json")];
-    assert_eq!(quiet(&[&["cost"], &args[..], &outputs].concat()), "");
+    let args = format!("{scene} --quantity stress --seconds 1");
+    let outputs =
+        format!("-o {} -o {} -o {}", folder.path("cost.svg"), folder.path("cost.png"), folder.path("cost.json"));
+    assert_eq!(quiet(&format!("cost {args} {outputs}")), "");
     let svg = folder.read("cost.svg");
     let table: Value = serde_json::from_str(&folder.read("cost.json")).unwrap();
     for row in table["rows"].as_array().unwrap() {

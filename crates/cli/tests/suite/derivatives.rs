@@ -3,7 +3,7 @@
 
 use std::str::FromStr;
 
-use crate::command::{Folder, json, quiet, run};
+use crate::command::{Folder, csv, json, quiet, run};
 use crate::common::{compares, uniform};
 use dalembert::rug::{Float, Rational};
 use dalembert::solve::NoDerivative;
@@ -529,8 +529,8 @@ fn thresholds() {
 /// The formula of the second landing, in JSON, CSV and the table.
 #[test]
 fn the_command() {
-    let asked = ["solve", "doyen-ern-piperno", "--derivatives", "impact_speed,density"];
-    let found = json(&[&asked[..], &["--exact", "--format", "json"]].concat());
+    let asked = "solve doyen-ern-piperno --derivatives impact_speed,density";
+    let found = json(&format!("{asked} --exact"));
     let by = |key: &str, name: &str| found["events"][2]["derivatives"][key][name].clone();
     assert_eq!(by("t", "impact_speed"), serde_json::json!({"left": "3/5", "right": "3/25"}));
     // The speed on the left is that before a ray, on the right that behind it.
@@ -540,20 +540,18 @@ fn the_command() {
     // An impulse of ρ L (2μ + g t₁) = 200ρ + 200/3 ρ√ρ.
     assert_eq!(found["contacts"][0]["derivatives"]["impulse"]["density"], "300");
     assert_eq!(found["contacts"][0]["derivatives"]["e_P"]["impact_speed"], "0");
-    let in_doubles = run(&[&asked[..], &["--format", "csv"]].concat());
+    let in_doubles = run(&format!("{asked} --format csv"));
     // In doubles the event meets a ray, and the derivatives are difference quotients.
     let warning = |by| format!("warning: the errors of the derivatives by {by} are estimates, no bounds\n");
     assert_eq!((in_doubles.code, in_doubles.err), (Some(0), ["impact_speed", "density"].map(warning).concat()));
-    let table: Vec<Vec<&str>> =
-        in_doubles.out.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| table[0].iter().position(|head| *head == name).unwrap();
-    let cell = |name: &str| table[3][column(name)];
+    let table = csv(&in_doubles.out);
+    let cell = |name: &str| table[3][table[0].iter().position(|head| *head == name).unwrap()].as_str();
     assert_eq!(
         (cell("t_by_impact_speed"), cell("t_by_impact_speed_left"), cell("t_by_impact_speed_right")),
         ("", "0.6", "0.12")
     );
     assert!(cell("t_by_impact_speed_left_uncertainty").parse::<f64>().unwrap() < 1e-9);
-    let shown = quiet(&asked);
+    let shown = quiet(asked);
     let row = shown.lines().find(|line| line.starts_with(" impact at 2.66666666667     right")).unwrap();
     let words: Vec<&str> = row.split_whitespace().skip(4).collect();
     assert_eq!(words, ["0.12", "jumps", "0.8", "-0.2"]);
@@ -569,10 +567,10 @@ fn what_an_event_costs() {
         folder.write(&format!("{speed}.toml"), format!("{rod}impact.speed = {speed}\nrun.impacts = 10\n"))
     };
     let times = |speed: f64| -> Vec<f64> {
-        let solved = json(&["solve", &file(speed), "--format", "json"]);
+        let solved = json(&format!("solve {}", file(speed)));
         solved["events"].as_array().unwrap().iter().map(|event| event["t"].as_f64().unwrap()).collect()
     };
-    let found = &json(&["explain", &file(3.0), "--format", "json"])["sensitivity"];
+    let found = &json(&format!("explain {}", file(3.0)))["sensitivity"];
     let (here, more) = (times(3.0), times(3.0 + 1e-5));
     let share = |k: usize| (more[k] - here[k]) / 1e-5 * 3.0 / here[k];
     let changed: Vec<f64> = (0..here.len()).map(share).filter(|share| share.abs() > 1e-6).map(f64::abs).collect();

@@ -2,6 +2,7 @@
 //! and by Euler's identities.
 
 use crate::command::{json, quiet};
+use crate::command_samples::names;
 use crate::common::{compares, uniform};
 use crate::derivatives::{bessel, dimension, given, linear_starts, number, undamped};
 use dalembert::rug::Rational;
@@ -171,21 +172,19 @@ fn what_has_no_derivative_at_a_time_is_refused() {
 /// GetFEM's compressed rod, on the ground from 1 to 2: `v_t(0,·) = −v(0,0)/L` before it.
 #[test]
 fn the_command() {
-    let asked = ["sample", "getfem-dynamic-contact", "--quantity", "end", "--times", "1/2,3/2", "--exact"];
-    let by = ["--derivatives", "displacement[0],length"];
-    let found = json(&[&asked[..], &by, &["--format", "json"]].concat());
+    let asked = "sample getfem-dynamic-contact --quantity end --times 1/2,3/2 --exact";
+    let by = "--derivatives displacement[0],length";
+    let found = json(&format!("{asked} {by}"));
     let rows = found["rows"].as_array().unwrap();
     assert_eq!(rows[0], serde_json::json!(["1/2", "right", "1/4", "-1/2", "1/2", "-1", "1/4", "1/2"]));
     assert_eq!(rows[1], serde_json::json!(["3/2", "right", "0", "0", "0", "0", "0", "0"]));
-    let names: Vec<_> = found["columns"].as_array().unwrap().iter().map(|column| column["name"].as_str()).collect();
-    assert_eq!(names[4..6], [Some("u_end_by_displacement[0]"), Some("v_end_by_displacement[0]")]);
+    assert_eq!(names(&found)[4..6], ["u_end_by_displacement[0]", "v_end_by_displacement[0]"]);
     // On the ray of the impact the sides differ, and a velocity has a derivative on one of them.
-    let on_ray = ["sample", "getfem-dynamic-contact", "--quantity", "v_end", "--times", "1", "--exact"];
-    let found = json(&[&on_ray[..], &["--derivatives", "length", "--format", "json"]].concat());
+    let found = json("sample getfem-dynamic-contact --quantity v_end --times 1 --exact --derivatives length");
     assert_eq!(found["rows"], serde_json::json!([["1", "right", "0", null, "0", "jumps"]]));
-    let csv = quiet(&[&asked[..], &by, &["--format", "csv"]].concat());
+    let csv = quiet(&format!("{asked} {by} --format csv"));
     assert!(csv.contains(",u_end_by_displacement[0],v_end_by_displacement[0],"), "{csv}");
-    let shown = quiet(&[&asked[..], &by].concat());
+    let shown = quiet(&format!("{asked} {by}"));
     assert!(
         shown.contains("by displacement[0]:") && shown.contains(" t = 1/2   both        1/2           -1"),
         "{shown}"

@@ -6,8 +6,9 @@ use std::path::Path;
 
 use dalembert::{History, Numbers, Plan, Problem, Quantity, Question};
 
-use crate::command::{Folder, quiet, refused, run};
+use crate::command::{Folder, csv, quiet, refused, run, with_snapshots};
 use crate::common::close;
+use crate::derivatives::bessel;
 
 /// How many shapes each class of a picture has, in the order in which they come, and the labels of its axes.
 fn structure(svg: &str) -> String {
@@ -44,20 +45,17 @@ fn count(svg: &str, class: &str) -> Option<usize> {
 
 #[test]
 fn a_scene_is_told_in_four_pictures() {
-    let svg = quiet(&["plot", "doyen-ern-piperno", "--to", "26/3", "-o", "-"]);
+    let svg = quiet("plot doyen-ern-piperno --to 26/3 -o -");
     // Contacts [0, 2/3], [8/3, 10/3], [16/3, 6], [8, 26/3]. The ray of an impact is in the rod until the next contact
     // has undone it: it leaves the ground at 0, 2/3, 4/3, 2 and 8/3, and the same again 16/3 later.
     assert_eq!((count(&svg, "rays"), count(&svg, "contacts")), (Some(10), Some(4)));
     // The stress jumps where each contact begins and ends, but for the two ends of the picture.
     assert_eq!(count(&svg, "jumps"), Some(6));
-    assert_eq!(svg, quiet(&["plot", "doyen-ern-piperno", "--to", "26/3", "-o", "-"]), "the same bytes");
-    let snapshots = concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots");
-    insta::with_settings!({snapshot_path => snapshots, prepend_module_to_snapshot => false}, {
-        insta::assert_snapshot!("picture_doyen_ern_piperno", structure(&svg));
-    });
+    assert_eq!(svg, quiet("plot doyen-ern-piperno --to 26/3 -o -"), "the same bytes");
+    with_snapshots(|| insta::assert_snapshot!("picture_doyen_ern_piperno", structure(&svg)));
     // Between the rays of an undamped rod each cell is one polygon; a damped one is cut finer.
     assert!(count(&svg, "cells").is_some_and(|cells| cells < 60), "{}", structure(&svg));
-    let damped = quiet(&["plot", "figure-4-r02", "--quantity", "xt", "-o", "-"]);
+    let damped = quiet("plot figure-4-r02 --quantity xt -o -");
     assert!(count(&damped, "cells") > Some(200) && count(&damped, "contacts") == Some(1));
 }
 
@@ -66,7 +64,7 @@ fn a_scene_is_told_in_four_pictures() {
 #[test]
 fn a_penalty_makes_fronts_without_a_jump() {
     let jumps = |scene| {
-        let svg = quiet(&["plot", scene, "--to", "3", "--quantity", "xt,stress", "-o", "-"]);
+        let svg = quiet(&format!("plot {scene} --to 3 --quantity xt,stress -o -"));
         (count(&svg, "rays"), count(&svg, "jumps"), count(&svg, "contacts"))
     };
     assert_eq!(jumps("getfem-penalty"), (Some(3), None, Some(1)));
@@ -78,21 +76,21 @@ fn units_stand_on_the_axes() {
     let folder = Folder::new();
     let rod = "rod = { length = 0.5, modulus = 210e9, density = 7850, area = 1e-4 }\nimpact = { speed = 4 }\n";
     let path = &folder.write("rod.toml", rod);
-    let svg = quiet(&["plot", path, "--quantity", "stress,force,u_end,E_total", "--to", "1e-3", "-o", "-"]);
+    let svg = quiet(&format!("plot {path} --quantity stress,force,u_end,E_total --to 1e-3 -o -"));
     let found = structure(&svg);
     for label in ["text t [ms]", "text E vx(0,t) [MPa]", "text −E S vx(0,t) [kN]", "text v(0,t) [mm]", "text E [J]"] {
         assert!(found.contains(label), "{label}: {found}");
     }
     // ρ c v = 7850 · 5172 · 4 = 162 MPa: the number beside the last tick below it.
     assert!(svg.contains(">−150<"));
-    refused(&["plot", path, "paper-strong", "--quantity", "u_end", "-o", "-"], &["different units, `m` and none"]);
+    refused(&format!("plot {path} paper-strong --quantity u_end -o -"), &["different units, `m` and none"]);
 }
 
 /// The page's list of energies has the colours of `plot`, in both themes; all that is drawn comes from the library.
 #[test]
 fn the_page_has_the_colours_of_plot() {
     let style = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../web/page/style.css")).unwrap();
-    let svg = quiet(&["plot", "paper-strong", "--quantity", "energy", "-o", "-"]);
+    let svg = quiet("plot paper-strong --quantity energy -o -");
     for name in ["--translation: ", "--vibration: "] {
         let colors: Vec<&str> = style.split(name).skip(1).filter_map(|rest| rest.split(';').next()).collect();
         let [light, dark] = colors[..] else { panic!("{name} for both themes: {colors:?}") };
@@ -103,7 +101,7 @@ fn the_page_has_the_colours_of_plot() {
 
 #[test]
 fn several_scenes_are_lines_with_a_legend() {
-    let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "h", "-o", "-"]);
+    let svg = quiet("plot figure-4-r01 figure-4-r03 --quantity h -o -");
     let found = structure(&svg);
     assert!(found.contains("text r = 0.1\ntext r = 0.3"), "{found}");
     assert_eq!(found.matches("curve: 1").count(), 2);
@@ -122,7 +120,7 @@ fn frames(svg: &str) -> Vec<[f64; 2]> {
 /// Scenes side by side have one axis of time, one scale of colours and one legend that tells them apart.
 #[test]
 fn scenes_side_by_side_are_drawn_alike() {
-    let svg = quiet(&["plot", "figure-4-r01", "figure-4-r03", "--quantity", "xt,stress,h", "-o", "-"]);
+    let svg = quiet("plot figure-4-r01 figure-4-r03 --quantity xt,stress,h -o -");
     let panels: Vec<&str> = svg.split("class=\"panel\"").skip(1).collect();
     let of = |panel: &str, class: &str| {
         let part = panel.split(&format!("class=\"{class}\"")).nth(1).unwrap().split("</g>").next().unwrap();
@@ -137,7 +135,7 @@ fn scenes_side_by_side_are_drawn_alike() {
 /// On a slide each of four pictures is a fifth of its height or more, and nothing of the command line is in it.
 #[test]
 fn a_slide_has_room_for_four_pictures() {
-    let svg = run(&["plot", "doyen-ern-piperno", "--size", "slide", "-o", "-"]).out;
+    let svg = run("plot doyen-ern-piperno --size slide -o -").out;
     let heights: Vec<f64> = frames(&svg).into_iter().map(|[_, height]| height).collect();
     assert_eq!(heights.len(), 4);
     assert!(heights.iter().all(|height| *height > 254.0 * 9.0 / 16.0 / 5.0), "{heights:?}");
@@ -147,53 +145,53 @@ fn a_slide_has_room_for_four_pictures() {
 #[test]
 fn long_histories_are_cut_and_said() {
     // The flight after the first contact is 350 round trips long.
-    let said = run(&["plot", "steel-bar", "-o", "-"]);
+    let said = run("plot steel-bar -o -");
     assert!(said.err.contains("note: steel-bar: drawn from t = 0 to 0.0008 of 0.138"), "{}", said.err);
     assert!(said.code == Some(0) && said.out.len() < 300_000);
     let title = "from t = 0 to 0.0008 of 0.138";
     assert!(said.out.contains(title) && said.out.contains("1 of 1 contacts<"), "{}", structure(&said.out));
     // Restitution is that of all contacts: no span is cut, and none is said.
-    let restitution = quiet(&["plot", "steel-bar", "--quantity", "restitution", "-o", "-"]);
+    let restitution = quiet("plot steel-bar --quantity restitution -o -");
     assert!(!restitution.contains("from t ="));
     // A notebook holds several pictures in one document: a colour of one has no name of another.
     let names = |svg: &str| -> BTreeSet<String> {
         svg.split("id=\"").skip(1).filter_map(|part| Some(part.split('"').next()?.to_string())).collect()
     };
-    let other = names(&quiet(&["plot", "doyen-ern-piperno", "--to", "5", "-o", "-"]));
+    let other = names(&quiet("plot doyen-ern-piperno --to 5 -o -"));
     assert!(other.len() > 1 && names(&said.out).is_disjoint(&other));
     // The contact of 4e-4 in 0.13 is a mark in each of four pictures, and no band.
-    let whole = quiet(&["plot", "steel-bar", "--to", "0.13", "-o", "-"]);
+    let whole = quiet("plot steel-bar --to 0.13 -o -");
     assert_eq!(structure(&whole).matches("text short contact").count(), 4);
     assert_eq!(structure(&whole).matches("contacts: 1").count(), 4);
     // Over 2000 round trips the field is a grid of 480 columns, which does not show them.
     let folder = Folder::new();
     let rod = "rod = { length = 1, wave_speed = 1, damping = 1e-4 }\nimpact.speed = 3000\ngravity.acceleration = 1\n";
-    let said = run(&["plot", &folder.write("long.toml", rod), "--quantity", "xt", "--to", "4000", "-o", "-"]);
+    let said = run(&format!("plot {} --quantity xt --to 4000 -o -", folder.write("long.toml", rod)));
     assert!(said.err.contains("note: long: xt has 0.24 columns for a round trip"), "{}", said.err);
-    let said = run(&["plot", "figure-1-r30", "--quantity", "motion", "-o", "-"]);
+    let said = run("plot figure-1-r30 --quantity motion -o -");
     assert!(said.err.contains("the history ends at t = 4: no further impact"), "{}", said.err);
 }
 
 #[test]
 fn mistakes_are_answered_with_what_was_expected() {
     let folder = Folder::new();
-    refused(&["plot", "paper-weak", "--quantity", "stres", "-o", "-"], &["invalid value 'stres'", "stress"]);
+    refused("plot paper-weak --quantity stres -o -", &["invalid value 'stres'", "stress"]);
     refused(
-        &["plot", "paper-weak", "-o", &folder.path("a.gif")],
+        &format!("plot paper-weak -o {}", folder.path("a.gif")),
         &["a.gif, expected a file that ends in .svg, .png or .pdf"],
     );
-    refused(&["plot", "paper-weak", "--from", "2", "--to", "1", "-o", "-"], &["found --to 1, expected a time after 2"]);
-    refused(&["plot", "paper-weak", "--from", "99", "-o", &folder.path("a.svg")], &["found time 99"]);
-    refused(&["plot", "paper-weak", "--quantity", "h", "--deformed", "-o", "-"], &["--deformed without xt"]);
-    refused(&["figures", "--only", "9", "-o", &folder.path("f")], &["found no figure of this name", "tenth-bounce"]);
-    refused(&["figures", "--only", "8", "-o", &folder.path("none/f")], &["no folder"]);
+    refused("plot paper-weak --from 2 --to 1 -o -", &["found --to 1, expected a time after 2"]);
+    refused(&format!("plot paper-weak --from 99 -o {}", folder.path("a.svg")), &["found time 99"]);
+    refused("plot paper-weak --quantity h --deformed -o -", &["--deformed without xt"]);
+    refused(&format!("figures --only 9 -o {}", folder.path("f")), &["found no figure of this name", "tenth-bounce"]);
+    refused(&format!("figures --only 8 -o {}", folder.path("none/f")), &["no folder"]);
     assert_eq!(folder.count(), 0, "nothing is left behind");
 }
 
 /// Enclosures leave the energy open where a ray is at an end; nothing is drawn there, and all else is.
 #[test]
 fn what_is_open_is_not_drawn() {
-    let said = run(&["plot", "steel-bar", "--certified", "--quantity", "energy,E_total", "-o", "-"]);
+    let said = run("plot steel-bar --certified --quantity energy,E_total -o -");
     assert!(said.code == Some(0) && !said.out.contains("NaN") && !said.out.contains("inf"), "{}", said.err);
     assert_eq!(structure(&said.out).matches("curve: 1").count(), 2, "{}", structure(&said.out));
 }
@@ -212,7 +210,7 @@ fn a_pdf_is_one_page_with_texts() {
     let folder = Folder::new();
     for (size, millimetres) in [("column", 85.0), ("page", 170.0), ("slide", 254.0)] {
         let (one, other) = (folder.path("one.pdf"), folder.path("other.pdf"));
-        quiet(&["plot", "paper-strong", "--size", size, "-o", &one, "-o", &other]);
+        quiet(&format!("plot paper-strong --size {size} -o {one} -o {other}"));
         let bytes = fs::read(&one).unwrap();
         assert_eq!(bytes, fs::read(&other).unwrap());
         let pdf: String = bytes.iter().map(|byte| char::from(*byte)).collect();
@@ -227,7 +225,7 @@ fn a_pdf_is_one_page_with_texts() {
         assert!(parts.len() > 8 && parts.iter().all(|part| part.contains(" 0 obj")), "{parts:?}");
         assert_eq!(numbers_after(&pdf, "/Type/Pages/Count"), [1.0]);
         let [left, low, width, height] = numbers_after(&pdf, "/MediaBox")[..] else { panic!("no MediaBox") };
-        let svg = quiet(&["plot", "paper-strong", "--size", size, "-o", "-"]);
+        let svg = quiet(&format!("plot paper-strong --size {size} -o -"));
         let high: f64 = svg.split("height=\"").nth(1).unwrap().split("mm").next().unwrap().parse().unwrap();
         assert_eq!((left, low), (0.0, 0.0));
         // 72 points are 25.4 mm.
@@ -248,16 +246,14 @@ fn letters_without_a_sign_are_said() {
     let rod = "title = \"μ of 竹\"\nrod = { length = 1, wave_speed = 1 }\nimpact = { speed = 3 }\n";
     let path = folder.write("rod.toml", rod);
     for (file, note) in [("a.png", true), ("a.pdf", true), ("a.svg", false)] {
-        let said = run(&["plot", &path, "--quantity", "h", "-o", &folder.path(file)]);
+        let said = run(&format!("plot {path} --quantity h -o {}", folder.path(file)));
         assert_eq!(said.err.contains("the font of PNG and PDF has no 竹, which stay empty"), note, "{}", said.err);
     }
 }
 
 /// The rows of a figure's CSV.
 fn texts(folder: &Folder, name: &str) -> Vec<Vec<String>> {
-    let text = folder.read(name);
-    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    rows.map(|line| line.split(',').map(String::from).collect()).collect()
+    csv(&folder.read(name)).split_off(1)
 }
 
 fn rows(folder: &Folder, name: &str) -> Vec<Vec<Option<f64>>> {
@@ -274,17 +270,8 @@ fn unit(number: &str) -> f64 {
 
 fn figures(only: &str) -> Folder {
     let folder = Folder::new();
-    quiet(&["figures", "--only", only, "-o", &folder.path("")]);
+    quiet(&format!("figures --only {only} -o {}", folder.path("")));
     folder
-}
-
-/// `I_n(x)` by its series.
-fn bessel(n: i32, x: f64) -> f64 {
-    let term = |k: i32| {
-        let steps = (1..=k).map(|j| x * x / 4.0 / f64::from(j * (j + n)));
-        (x / 2.0).powi(n) * steps.product::<f64>()
-    };
-    (0..40).map(term).sum()
 }
 
 /// Figures 5–7 against characteristic cells from data, which share nothing with the closed form that the figures are

@@ -9,7 +9,8 @@ use ndarray::Array1;
 use ndarray_npy::NpzReader;
 use serde_json::Value;
 
-use crate::command::{Folder, json, quiet, refused, refused_with, run_with};
+use crate::command::{Folder, csv, json, quiet, refused, refused_with, run_with};
+use crate::command_samples::column;
 use crate::cuts::cuts;
 
 fn scene(name: &str) -> Problem {
@@ -198,7 +199,7 @@ fn the_python_function_is_the_history() {
     }
     for name in ["doyen-ern-piperno", "getfem-dynamic-contact", "paper-strong"] {
         let folder = Folder::new();
-        quiet(&["reference", name, "--as", "python", "-o", &folder.path("golden.py")]);
+        quiet(&format!("reference {name} --as python -o {}", folder.path("golden.py")));
         let rod = scene(name);
         let end = rod.exact().unwrap().end().to_f64();
         let main = format!(
@@ -231,7 +232,7 @@ fn the_python_function_is_exact() {
     if !there_is("python3") {
         return;
     }
-    let module = quiet(&["reference", "getfem-dynamic-contact", "--as", "python", "--exact"]);
+    let module = quiet("reference getfem-dynamic-contact --as python --exact");
     let main = "\nfor k in range(200):\n    x, t = F(2 * k + 1, 400), F(9 * (3 * k + 1), 601)\n    \
                 print(*(uExact(x, t, d) for d in range(3)))\n\
                 try:\n    uExact(2, 0)\nexcept ValueError as error:\n    print(error)\n";
@@ -253,7 +254,7 @@ fn the_c_function_is_the_history() {
     }
     for name in ["doyen-ern-piperno", "getfem-dynamic-contact"] {
         let folder = Folder::new();
-        quiet(&["reference", name, "--as", "c", "-o", &folder.path("golden.h")]);
+        quiet(&format!("reference {name} --as c -o {}", folder.path("golden.h")));
         let rod = scene(name);
         let end = rod.exact().unwrap().end().to_f64();
         let pairs = asked(&rod, end);
@@ -279,24 +280,20 @@ fn the_c_function_is_the_history() {
 #[test]
 fn rows_are_the_same_in_every_format() {
     let folder = Folder::new();
-    let asked = ["reference", "doyen-ern-piperno", "--times", "0..16/3:33"];
+    let asked = "reference doyen-ern-piperno --times 0..16/3:33";
     let mut written = Vec::new();
     for file in ["a.csv", "b.csv", "a.json", "a.npz", "b.npz"] {
-        quiet(&[&asked[..], &["-o", &folder.path(file)]].concat());
+        quiet(&format!("{asked} -o {}", folder.path(file)));
         written.push(std::fs::read(folder.path(file)).unwrap());
     }
     assert!(written[0] == written[1] && written[3] == written[4], "the bytes differ from run to run");
     let json: Value = serde_json::from_slice(&written[2]).unwrap();
     let rows = json["rows"].as_array().unwrap();
-    let text = String::from_utf8(written[0].clone()).unwrap();
-    let mut lines = text.lines().skip_while(|line| line.starts_with('#'));
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let lines: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let mut lines = csv(str::from_utf8(&written[0]).unwrap());
+    let names = lines.remove(0);
     // 33 times, and a second limit at the four events among them and at each return of a ray.
     assert!(lines.len() >= 37 && lines.len() == rows.len());
-    let exact = quiet(&[&asked[..], &["--exact"]].concat());
-    let exact: Vec<Vec<&str>> =
-        exact.lines().skip_while(|line| line.starts_with('#')).skip(1).map(|line| line.split(',').collect()).collect();
+    let exact = csv(&quiet(&format!("{asked} --exact"))).split_off(1);
     assert_eq!(exact.len(), lines.len());
     let mut npz = NpzReader::new(File::open(folder.path("a.npz")).unwrap()).unwrap();
     let header: Array1<u8> = npz.by_name("header").unwrap();
@@ -305,7 +302,7 @@ fn rows_are_the_same_in_every_format() {
     assert_eq!((json["kind"].as_str(), json["proved"].as_bool()), (Some("reference"), Some(false)));
     for (j, name) in names.iter().enumerate() {
         assert_eq!(json["columns"][j]["name"], *name);
-        if *name == "side" {
+        if name == "side" {
             let sides: Array1<i8> = npz.by_name(name).unwrap();
             for (k, line) in lines.iter().enumerate() {
                 assert_eq!(line[j], ["left", "both", "right"][(sides[k] + 1) as usize]);
@@ -313,7 +310,7 @@ fn rows_are_the_same_in_every_format() {
             }
             continue;
         }
-        let values: Vec<f64> = match *name {
+        let values: Vec<f64> = match name.as_str() {
             "contact" => npz.by_name::<_, ndarray::Ix1>(name).map(|a: Array1<i8>| a.mapv(f64::from).to_vec()).unwrap(),
             _ => npz.by_name::<_, ndarray::Ix1>(name).map(|a: Array1<f64>| a.to_vec()).unwrap(),
         };
@@ -338,9 +335,8 @@ fn rows_are_the_same_in_every_format() {
 /// By hand: drop from 5 at g = 10, c = 30: forces in newtons, contacts of 2/3, energy 500 J.
 #[test]
 fn without_times_the_rows_are_the_events() {
-    let asked =
-        ["reference", "doyen-ern-piperno", "--exact", "--columns", "t,side,v_end,force,E_total,contact,impulse"];
-    let text = quiet(&asked);
+    let asked = "reference doyen-ern-piperno --exact --columns t,side,v_end,force,E_total,contact,impulse";
+    let text = quiet(asked);
     let rows: Vec<&str> = text.lines().skip_while(|line| line.starts_with('#')).collect();
     assert_eq!(
         rows[..7],
@@ -359,16 +355,14 @@ fn without_times_the_rows_are_the_events() {
     assert!(
         text.contains("# numbers: exact: fractions without any error\n") && text.contains("# scene: length = 10\n")
     );
-    let right = quiet(&[&asked[..], &["--side", "right"]].concat());
-    assert_eq!(right.lines().filter(|line| !line.starts_with('#')).count(), 14);
+    assert_eq!(csv(&quiet(&format!("{asked} --side right"))).len(), 14);
 }
 
 /// Steps of a decimal are the doubles that a program writes for them.
 #[test]
 fn steps_are_decimals() {
-    let text =
-        quiet(&["reference", "doyen-ern-piperno", "--columns", "t", "--dt", "0.1", "--to", "0.7", "--side", "right"]);
-    let times: Vec<&str> = text.lines().skip_while(|line| line.starts_with('#')).skip(1).collect();
+    let text = quiet("reference doyen-ern-piperno --columns t --dt 0.1 --to 0.7 --side right");
+    let times = csv(&text).split_off(1).concat();
     assert_eq!(times, ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"]);
 }
 
@@ -376,14 +370,11 @@ fn steps_are_decimals() {
 fn times_come_from_files() {
     // 120,001 times, as a code that writes every step has them.
     let times: String = (0..=120_000).map(|k| format!("{}\n", f64::from(k) * 4e-5)).collect();
-    let found = run_with(
-        &["reference", "doyen-ern-piperno", "--times-from", "-", "--columns", "t,u_end", "--side", "right"],
-        &times,
-    );
-    let rows: Vec<&str> = found.out.lines().skip_while(|line| line.starts_with('#')).skip(1).collect();
+    let found = run_with("reference doyen-ern-piperno --times-from - --columns t,u_end --side right", &times);
+    let rows = csv(&found.out).split_off(1);
     assert_eq!((found.code, rows.len()), (Some(0), 120_001), "{}", found.err);
     // In the first flight v(0,t) = (10/3)(t − 2/3) + … until the wave is back at 4/3.
-    let value: Vec<f64> = rows[25_000].split(',').map(|value| value.parse().unwrap()).collect();
+    let value: Vec<f64> = rows[25_000].iter().map(|value| value.parse().unwrap()).collect();
     let tau: f64 = 1.0 - 2.0 / 3.0;
     assert!(
         (value[0] - 1.0).abs() < 1e-12 && (value[1] - (10.0 / 3.0 * tau + 5.0 * tau * tau)).abs() < 1e-11,
@@ -392,16 +383,13 @@ fn times_come_from_files() {
 
     // Comments, empty lines, any order, fractions.
     let found = run_with(
-        &["reference", "getfem-dynamic-contact", "--times-from", "-", "--columns", "t,u_end", "--exact"],
+        "reference getfem-dynamic-contact --times-from - --columns t,u_end --exact",
         "\u{feff}# times\n1/2 # half\n\n0.25\r\n",
     );
-    assert_eq!(
-        found.out.lines().skip_while(|line| line.starts_with('#')).collect::<Vec<_>>(),
-        ["t,u_end", "1/2,1/4", "1/4,3/8"]
-    );
+    assert_eq!(csv(&found.out), [["t", "u_end"], ["1/2", "1/4"], ["1/4", "3/8"]]);
 
     let bad = |input: &str, said: &[&str]| {
-        refused_with(&["reference", "doyen-ern-piperno", "--times-from", "-"], input, said);
+        refused_with("reference doyen-ern-piperno --times-from -", input, said);
     };
     bad("0\n1 2\n", &["standard input, row 2: found 2 values, expected one time a line"]);
     bad("0\n1,\n3,4", &["row 2: found `1,`"]);
@@ -409,16 +397,16 @@ fn times_come_from_files() {
     bad("0\n-1\n", &["row 2: found time -1, expected times from 0 on"]);
     bad("# nothing\n", &["standard input: found no times, expected one a line"]);
     bad(&"9".repeat(4000), &["row 1: found `9999999999999999999999999999999999999999…`"]);
-    refused(&["reference", "doyen-ern-piperno", "--times-from", "no/such/file"], &["cannot read no/such/file"]);
+    refused("reference doyen-ern-piperno --times-from no/such/file", &["cannot read no/such/file"]);
 }
 
 /// A CSV without comments and without bounds has no digit beyond its bound: each number is within one unit of its last
 /// digit.
 #[test]
 fn digits_of_a_bare_csv_are_right() {
-    let asked = ["reference", "figure-4-r02", "--times", "0..9:37", "--columns", "u_end,strain,h,E_total"];
-    let bare = quiet(&[&asked[..], &["--bare", "--side", "right"]].concat());
-    let truth = quiet(&[&asked[..], &["--bare", "--side", "right", "--digits", "30"]].concat());
+    let asked = "reference figure-4-r02 --times 0..9:37 --columns u_end,strain,h,E_total";
+    let bare = quiet(&format!("{asked} --bare --side right"));
+    let truth = quiet(&format!("{asked} --bare --side right --digits 30"));
     let (mut compared, mut shorter) = (0, 0);
     for (found, truth) in
         bare.lines().skip(1).flat_map(|row| row.split(',')).zip(truth.lines().skip(1).flat_map(|row| row.split(',')))
@@ -433,19 +421,17 @@ fn digits_of_a_bare_csv_are_right() {
     }
     assert!(compared > 100 && shorter > 50, "{compared} {shorter}\n{bare}");
     // Times and places tell rows apart: they are the same doubles as with a header.
-    let beside =
-        ["reference", "figure-4-r02", "--times", "0.1,1.9999999999999998,2", "--points", "0.3,0.30000000000000004"];
-    let keys = |args: &[&str]| -> Vec<String> {
-        let text = quiet(&[&beside[..], args].concat());
-        let rows = text.lines().filter(|row| !row.starts_with('#')).skip(1);
-        rows.map(|row| row.split(',').take(3).collect::<Vec<_>>().join(",")).collect()
+    let beside = "reference figure-4-r02 --times 0.1,1.9999999999999998,2 --points 0.3,0.30000000000000004";
+    let keys = |args: &str| -> Vec<String> {
+        let rows = csv(&quiet(&format!("{beside} {args}")));
+        rows[1..].iter().map(|row| row[..3].join(",")).collect()
     };
-    let found = keys(&["--bare"]);
-    assert_eq!(found, keys(&[]));
+    let found = keys("--bare");
+    assert_eq!(found, keys(""));
     assert!(found.iter().any(|row| row.starts_with("1.9999999999999998,")), "{found:?}");
     assert!(found.iter().any(|row| row.ends_with(",0.30000000000000004")), "{found:?}");
     // With their bounds beside them, all digits of the doubles are there.
-    let bounded = quiet(&[&asked[..], &["--bare", "--side", "right", "--uncertainty"]].concat());
+    let bounded = quiet(&format!("{asked} --bare --side right --uncertainty"));
     assert!(bounded.len() > bare.len() + 1000, "{bounded}");
 }
 
@@ -453,13 +439,12 @@ fn digits_of_a_bare_csv_are_right() {
 /// whatever the scene says.
 #[test]
 fn the_comments_of_a_csv() {
-    let asked = ["reference", "doyen-ern-piperno", "--times", "0,100", "--columns", "t,side,u_end"];
-    let (whole, bare) = (quiet(&asked), quiet(&[&asked[..], &["--bare"]].concat()));
+    let asked = "reference doyen-ern-piperno --times 0,100 --columns t,side,u_end";
+    let (whole, bare) = (quiet(asked), quiet(&format!("{asked} --bare")));
     assert!(bare.starts_with("t,side,u_end\n0.0,left,"), "{bare}");
-    let rows = |text: &str| text.lines().filter(|line| !line.starts_with('#')).count();
-    assert!(whole.starts_with('#') && rows(&whole) == rows(&bare) && !bare.contains('#'));
+    assert!(whole.starts_with('#') && csv(&whole).len() == csv(&bare).len() && !bare.contains('#'));
     assert!(whole.contains("# until: the history is followed to t = 100\n"), "{whole}");
-    refused(&[&asked[..], &["--bare", "--format", "json"]].concat(), &["found --bare, expected it with CSV only"]);
+    refused(&format!("{asked} --bare --format json"), &["found --bare, expected it with CSV only"]);
     let numpy = Command::new("python3").args(["-c", "import numpy"]).output();
     if numpy.is_ok_and(|output| output.status.success()) {
         let folder = Folder::new();
@@ -476,36 +461,32 @@ fn the_comments_of_a_csv() {
 
 #[test]
 fn what_cannot_be_is_refused() {
-    let asked = |more: &[&str], said: &[&str]| refused(&[&["reference", "doyen-ern-piperno"], more].concat(), said);
-    asked(&["--columns", "t,x"], &["found the quantity x without points"]);
-    asked(&["--columns", "t,w"], &["[possible values: end, top, centre, energy, t, side, u_end"]);
-    asked(&["--columns", "t,u_end,t", "--times", "1"], &["found --quantity t twice, expected each once"]);
-    asked(&["--dt", "0.1"], &["--to <T>"]);
-    asked(&["--dt", "0", "--to", "1"], &["expected a step above 0"]);
-    asked(&["--dt", "1e-9", "--to", "5"], &["found 5000000000 steps"]);
-    asked(&["--dt", "0.1", "--to", "1", "--times", "1"], &["cannot be used with"]);
-    asked(&["-o", "golden.xls"], &["golden.xls, expected a file that ends in .csv, .json, .npz or .txt"]);
-    asked(&["--field", "p1"], &["--points <LIST>"]);
-    asked(&["--times", "1", "--points", "1,0", "--field", "p1"], &["found the point 0", "that increase"]);
-    asked(&["--times", "1", "--points", "1", "--field", "averages"], &["found fewer than two points"]);
-    asked(&["--times", "1", "--points", "0,11", "--field", "averages"], &["found point 11", "between 0 and 10"]);
-    asked(&["--times", "1", "--points", "0,11"], &["found point 11"]);
-    asked(&["--as", "python", "--times", "1"], &["cannot be used with"]);
+    let asked = |more: &str, said: &[&str]| refused(&format!("reference doyen-ern-piperno {more}"), said);
+    asked("--columns t,x", &["found the quantity x without points"]);
+    asked("--columns t,w", &["[possible values: end, top, centre, energy, t, side, u_end"]);
+    asked("--columns t,u_end,t --times 1", &["found --quantity t twice, expected each once"]);
+    asked("--dt 0.1", &["--to <T>"]);
+    asked("--dt 0 --to 1", &["expected a step above 0"]);
+    asked("--dt 1e-9 --to 5", &["found 5000000000 steps"]);
+    asked("--dt 0.1 --to 1 --times 1", &["cannot be used with"]);
+    asked("-o golden.xls", &["golden.xls, expected a file that ends in .csv, .json, .npz or .txt"]);
+    asked("--field p1", &["--points <LIST>"]);
+    asked("--times 1 --points 1,0 --field p1", &["found the point 0", "that increase"]);
+    asked("--times 1 --points 1 --field averages", &["found fewer than two points"]);
+    asked("--times 1 --points 0,11 --field averages", &["found point 11", "between 0 and 10"]);
+    asked("--times 1 --points 0,11", &["found point 11"]);
+    asked("--as python --times 1", &["cannot be used with"]);
     refused(
-        &["reference", "paper-weak", "--exact", "--times", "5"],
+        "reference paper-weak --exact --times 5",
         &["found time 5, expected an earlier one", "exactness ends before"],
     );
-    refused(
-        &["reference", "figure-4-r02", "--as", "c"],
-        &["found a damped rod or a body of a chain, expected an undamped rod"],
-    );
+    refused("reference figure-4-r02 --as c", &["found a damped rod or a body of a chain, expected an undamped rod"]);
 }
 
 /// A cell that is five roundings of a double wide: above the ray of the impact nothing is strained.
 #[test]
 fn narrow_cells_are_those_of_the_doubles() {
-    let asked = ["reference", "figure-4-r02", "--times", "0.25", "--points", "0,0.3,0.3000000000000003,1"];
-    let text = quiet(&[&asked[..], &["--field", "averages", "--bare"]].concat());
+    let text = quiet("reference figure-4-r02 --times 0.25 --points 0,0.3,0.3000000000000003,1 --field averages --bare");
     let rows: Vec<&str> = text.lines().collect();
     assert!(
         rows.len() == 4 && rows[2].starts_with("0.25,both,0.3000000000000001") && rows[2].ends_with(",0"),
@@ -516,7 +497,7 @@ fn narrow_cells_are_those_of_the_doubles() {
 #[test]
 fn steps_end_where_they_are_told() {
     let last = |dt: &str, to: &str| {
-        let found = json(&["reference", "figure-4-r02", "--dt", dt, "--to", to, "--columns", "t", "--format", "json"]);
+        let found = json(&format!("reference figure-4-r02 --dt {dt} --to {to} --columns t"));
         let rows = found["rows"].as_array().unwrap();
         (rows.len(), rows.last().unwrap()[0].as_f64().unwrap())
     };
@@ -531,20 +512,17 @@ fn steps_end_where_they_are_told() {
 fn a_damped_rod_has_rows() {
     let rod = scene("figure-4-r02").with_run(Run::Time(4.into())).unwrap();
     let history = rod.doubles().unwrap();
-    let found = json(&["reference", "figure-4-r02", "--times", "1,3", "--format", "json", "--side", "left"]);
-    let names: Vec<&str> = found["columns"].as_array().unwrap().iter().map(|c| c["name"].as_str().unwrap()).collect();
-    for (row, t) in found["rows"].as_array().unwrap().iter().zip([1.0, 3.0]) {
-        let value = |name: &str| row[names.iter().position(|found| *found == name).unwrap()].as_f64().unwrap();
+    let found = json("reference figure-4-r02 --times 1,3 --side left");
+    for (row, t) in [1.0, 3.0].into_iter().enumerate() {
+        let value = |name: &str| column(&found, name)[row].as_f64().unwrap();
         assert!((value("u_top") - history.top_end(t, Side::Left).unwrap().0).abs() < 1e-9);
         assert!((value("h") - history.centre(t).unwrap().0).abs() < 1e-9);
         assert!((value("E_z") - history.energy(t).unwrap().vibrational).abs() < 1e-9);
     }
     // A mean of v_x is a difference of v, in doubles and proved.
-    for (numbers, times) in [("--digits", ["1", "3"]), ("--certified", ["1", "1.7"])] {
-        let numbers = if numbers == "--digits" { vec!["--digits", "12"] } else { vec![numbers] };
-        let times = times.join(",");
-        let asked = ["reference", "figure-4-r02", "--times", &times, "--points", "0,1/4,1", "--format", "json"];
-        let rows = |field: &str| json(&[&asked[..], &["--side", "left", "--field", field], &numbers].concat());
+    for asked in ["--digits 12 --times 1,3", "--certified --times 1,1.7"] {
+        let asked = format!("reference figure-4-r02 {asked} --points 0,1/4,1 --side left");
+        let rows = |field: &str| json(&format!("{asked} --field {field}"));
         let (points, means, nodal) = (rows("points"), rows("averages"), rows("p1"));
         let value = |table: &Value, row: usize, column: usize| {
             let value = &table["rows"][row][column];
@@ -562,7 +540,7 @@ fn a_damped_rod_has_rows() {
             assert!((integral - (u[2] - u[0])).abs() < 1e-10, "{p:?} {u:?}");
         }
     }
-    let flight = quiet(&["reference", "figure-4-r02", "--times", "3", "--columns", "force"]);
+    let flight = quiet("reference figure-4-r02 --times 3 --columns force");
     assert!(flight.ends_with("force\n0.0\n"), "{flight}");
 }
 
@@ -570,8 +548,7 @@ fn a_damped_rod_has_rows() {
 /// from both files are as near to each other as that and the doubles allow.
 #[test]
 fn columns_in_digits_have_their_bounds() {
-    let of =
-        |digits: &str| crate::command::json(&["reference", "figure-4-r02", "--digits", digits, "--format", "json"]);
+    let of = |digits: &str| json(&format!("reference figure-4-r02 --digits {digits}"));
     let (few, many) = (of("8"), of("30"));
     let mut held = 0;
     for (k, column) in few["columns"].as_array().unwrap().iter().enumerate() {

@@ -3,6 +3,8 @@
 use dalembert::problem::ProblemErrorKind as Kind;
 use dalembert::{Scene, Start};
 
+use crate::command::{run_with, with_snapshots};
+
 /// A scene with a rod that says no more than it must, and this after it.
 macro_rules! rod {
     ($rest:literal) => {
@@ -173,11 +175,7 @@ fn every_mistake_is_answered_with_its_place() {
         assert_eq!(error.offending(), offending, "{name}: {error}");
         messages.push_str(&format!("{name}\n    {error}\n"));
     }
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(concat!(env!("CARGO_MANIFEST_DIR"), "/../../snapshots"));
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings.bind(|| insta::assert_snapshot!("scene_error_messages", messages));
+    with_snapshots(|| insta::assert_snapshot!("scene_error_messages", messages));
 }
 
 #[test]
@@ -250,16 +248,16 @@ fn errors_of_springs_are_at_their_numbers() {
         (format!("{bars}joint = {{ penalty = 1e60 }}\n"), "10:21"),
         (format!("{bars}[ends]\nbottom = {{ stiffness = 1e60 }}\n"), "11:24"),
     ] {
-        let report = crate::command::run_with(&["solve", "-"], &scene).err;
+        let report = run_with("solve -", &scene).err;
         assert!(report.contains(&format!("standard input:{wrong}\n")), "{wrong}: {report}");
     }
-    let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = 1\nwave_speed = 1\nimpedance = 1\n").err;
+    let report = run_with("solve -", "[rod]\nlength = 1\nwave_speed = 1\nimpedance = 1\n").err;
     assert!(report.contains("expected modulus, density and area; a rod with a bottom"), "{report}");
 }
 
 #[test]
 fn a_report_shows_the_line() {
-    let report = crate::command::run_with(&["solve", "-"], "[rod]\nlength = -1 # L\nwave_speed = 1\n").err;
+    let report = run_with("solve -", "[rod]\nlength = -1 # L\nwave_speed = 1\n").err;
     let place = "standard input:2:10";
     for text in [place, "length = -1 # L", "expected a length above zero", "found length = -1", "^^"] {
         assert_eq!(report.matches(text).count(), 1, "{text} in {report}");
