@@ -49,7 +49,6 @@ fn column(array: Bound<'_, PyUntypedArray>) -> Result<Vec<f64>, DataErrorKind> {
 pub(crate) struct Comparison {
     compared: Compared,
     title: Option<String>,
-    units: Units,
 }
 
 fn options(given: &Bound<'_, PyDict>) -> PyResult<Options> {
@@ -104,19 +103,19 @@ impl Comparison {
         let sources = data.into_iter().map(source).collect::<PyResult<Vec<_>>>()?;
         let (rod, accuracy) = (problem.problem.clone(), problem.accuracy);
         let units = Units::new(&rod, problem.units);
-        let (stop, in_run) = (Arc::default(), units.clone());
+        let stop = Arc::default();
         let observe = observer(&stop);
         let compared =
-            run(py, &stop, move || Prepared::new(&rod, &in_run, accuracy, sources, &options)?.compare(observe))?;
-        Ok(Comparison { compared, title: problem.title.clone(), units })
+            run(py, &stop, move || Prepared::new(&rod, &units, accuracy, sources, &options)?.compare(observe))?;
+        Ok(Comparison { compared, title: problem.title.clone() })
     }
 
     fn report<'py>(&self, py: Python<'py>) -> Report<'py> {
         let (compared, title) = (&self.compared, self.title.as_deref());
         let array = |(name, values)| (name, PyArray1::from_slice(py, values));
         Report {
-            json: compared.json(title, &self.units).to_string(),
-            table: compared.table(title, &self.units),
+            json: compared.json(title).to_string(),
+            table: compared.table(title),
             warnings: compared.warnings.iter().map(ToString::to_string).collect(),
             samples: compared.files.iter().map(|file| file.columns().map(array).collect()).collect(),
         }

@@ -8,23 +8,22 @@ use super::contacts::{ContactPair, ContactRecord, find_contacts, match_contacts}
 use super::norms::{ComparedColumn, Grid, Norms};
 use super::options::Options;
 use super::reference::{NearRays, Reference};
+use super::report::WEIGHTS;
 use super::samples::Samples;
 use dalembert::Error;
 use dalembert::chain::End;
 use dalembert::number::Number;
 use dalembert::problem::Top;
-use dalembert::quantity::Quantity;
+use dalembert::quantity::{Quantity, Units};
 
 /// The samples of a source beside the exact values, and what differs.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, JsonSchema, Serialize)]
 pub struct Agreement {
     /// The times of the samples, and their points for a field.
+    #[serde(skip)]
     pub grid: Grid,
-    /// The columns of the data that were compared.
-    pub quantities: Vec<ComparedColumn>,
-    pub(crate) contacts: Vec<ContactPair>,
-    pub(crate) audit: Audit,
-    pub(crate) coverage: Coverage,
+    /// The definition of the norms.
+    pub(crate) weights: &'static str,
     /// The median step of the samples.
     pub(crate) step: f64,
     /// The distance from a jump, in time, from which on a sample counts as away from it.
@@ -33,6 +32,11 @@ pub struct Agreement {
     pub(crate) outside: usize,
     /// Remarks on how the file was read.
     pub(crate) notes: Vec<String>,
+    pub(crate) coverage: Coverage,
+    /// The columns of the data that were compared.
+    pub quantities: Vec<ComparedColumn>,
+    pub(crate) contacts: Vec<ContactPair>,
+    pub(crate) audit: Audit,
 }
 
 /// The part of the run that the data cover.
@@ -58,7 +62,7 @@ const WINDOW: f64 = 0.02;
 const LEAST_FORCE: f64 = 1e-6;
 
 impl Agreement {
-    /// Compares `samples` with `reference`; they should go up to `until`.
+    /// Compares `samples` with `reference`, in `units`; they should go up to `until`.
     ///
     /// **Source**: a sample on a jump is compared with the limit that its row is said to hold, otherwise with the
     /// nearer of the two limits; its time is that of the jump within the rounding of the times.
@@ -66,6 +70,7 @@ impl Agreement {
     /// **Accuracy**: that of the history, in doubles.
     pub(super) fn new(
         reference: &Reference<'_>,
+        units: &Units,
         samples: Samples,
         options: &Options,
         until: Option<f64>,
@@ -84,10 +89,10 @@ impl Agreement {
             let on_jumps = reference.choose_limits(what, &grid, near, &theirs, &mut ours)?;
             let away = |k: usize| times.get(k).is_none_or(|jump| (jump - grid.times[k]).abs() > window);
             let norms = Norms::new(&grid, &ours, &theirs, reference.scale(what), on_jumps, away);
-            compared.push(ComparedColumn { what, ours, theirs, norms });
+            compared.push(ComparedColumn { what, unit: what.unit(units), ours, theirs, norms });
         }
-        let mut agreement =
-            Agreement { grid, quantities: compared, step, window, outside, notes, ..Agreement::default() };
+        let mut agreement = Agreement { grid, weights: WEIGHTS, step, window, outside, notes, ..Agreement::default() };
+        agreement.quantities = compared;
         agreement.coverage = agreement.coverage_of(reference, until);
         if agreement.grid.points.is_none() {
             let start = agreement.grid.times.iter().take_while(|time| **time <= rounding.at(**time)).count();

@@ -1,12 +1,17 @@
 //! The comparison of data with an exact history: options are checked, the run is planned and solved, files are
 //! compared.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::agreement::Agreement;
+use super::contacts::{ContactPair, ContactRecord};
 use super::data::{DataError, Source};
 use super::diagnosis::Diagnosis;
 use super::fit::{Fit, FitError};
 use super::limit::{Limit, LimitError, Order, Outcome, orders, outcomes};
 use super::map::{ColumnMap, Conversions, MapError};
+use super::norms::{ComparedColumn, Norm};
 use super::options::Options;
 use super::reference::Reference;
 use super::samples::Samples;
@@ -125,6 +130,7 @@ impl Options {
 #[derive(Debug)]
 pub struct Prepared {
     problem: Problem,
+    units: Units,
     /// The plan of the run.
     pub plan: Plan,
     /// The same problem with rigid contact, where the contact yields.
@@ -148,28 +154,62 @@ pub struct Comparison {
     /// One for each source, in their order.
     pub files: Vec<ComparedFile>,
     pub(crate) orders: Vec<Order>,
+    /// The units of all values.
+    pub units: Units,
     /// The warnings of the exact run.
     pub warnings: Vec<Warning>,
 }
 
 /// A source beside the exact history.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema, Serialize)]
+#[schemars(rename = "compared")]
 pub struct ComparedFile {
     /// The name of the source.
     pub file: String,
     /// The samples beside the exact values.
+    #[serde(flatten)]
     pub agreement: Agreement,
+    #[serde(flatten)]
+    pub(crate) diagnosis: Diagnosis,
+    /// The values of the scene that explain the data best, where some are asked for.
+    pub(crate) fit: Option<FittedFile>,
     /// The parts of the difference from rigid contact; empty where the exact contact is rigid.
     pub(crate) softness: Vec<SoftColumn>,
-    pub(crate) diagnosis: Diagnosis,
-    pub(crate) fit: Option<FittedFile>,
 }
 
 /// A fit, and the samples beside the history with the fitted values.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct FittedFile {
+    #[serde(flatten)]
     pub(crate) fit: Fit,
+    #[serde(skip)]
     pub(crate) agreement: Agreement,
+    quantities: Vec<FittedQuantity>,
+    contacts: Vec<FittedContact>,
+}
+
+/// The norm of a column with the fitted values.
+#[derive(Debug, JsonSchema, Serialize)]
+struct FittedQuantity {
+    name: &'static str,
+    l2: Norm,
+}
+
+/// A contact with the fitted values, and the one of the data.
+#[derive(Debug, JsonSchema, Serialize)]
+struct FittedContact {
+    fitted: Option<ContactRecord>,
+    theirs: Option<ContactRecord>,
+}
+
+impl FittedFile {
+    fn new(fit: Fit, agreement: Agreement) -> Self {
+        let quantity = |column: &ComparedColumn| FittedQuantity { name: column.what.name(), l2: column.norms.l2 };
+        let contact = |ContactPair { ours, theirs }: ContactPair| FittedContact { fitted: ours, theirs };
+        let quantities = agreement.quantities.iter().map(quantity).collect();
+        let contacts = agreement.contacts.iter().cloned().map(contact).collect();
+        FittedFile { fit, agreement, quantities, contacts }
+    }
 }
 
 /// The map of a file without names that begins with the number of its columns, as those of Siconos do.
@@ -263,14 +303,14 @@ impl Prepared {
         let plan = Plan::of(&problem, &Question::run(numbers))?;
         let rigid =
             rigid.map(|rigid| Ok::<_, Error>((Plan::of(&rigid, &Question::run(numbers))?, rigid))).transpose()?;
-        Ok(Prepared { problem, plan, rigid, data, until, options: options.clone() })
+        Ok(Prepared { problem, units: units.clone(), plan, rigid, data, until, options: options.clone() })
     }
 
     /// Solves the run and compares.
     ///
     /// **Errors**: those of the history, and of a fit.
     pub fn compare(self, observer: Observer) -> Result<Comparison, CompareError> {
-        let Prepared { problem, plan, rigid, data, until, options } = self;
+        let Prepared { problem, units, plan, rigid, data, until, options } = self;
         let history = TypedHistory::<f64>::solve(&problem, &plan, observer.clone())?;
         let solve = |(plan, problem): (Plan, Problem)| TypedHistory::<f64>::solve(&problem, &plan, observer);
         let rigid = rigid.map(solve).transpose()?;
@@ -279,11 +319,11 @@ impl Prepared {
             let reference = Reference::new(&history)?;
             let again = (!options.fit.is_empty()).then(|| samples.clone());
             let beside_rigid = rigid.as_ref().map(|rigid| (rigid, samples.clone()));
-            let agreement = Agreement::new(&reference, samples, &options, until)?;
+            let agreement = Agreement::new(&reference, &units, samples, &options, until)?;
             let softness = match beside_rigid {
                 None => Vec::new(),
                 Some((rigid, samples)) => {
-                    let rigid = Agreement::new(&Reference::new(rigid)?, samples, &options, until)?;
+                    let rigid = Agreement::new(&Reference::new(rigid)?, &units, samples, &options, until)?;
                     softness::parts(&agreement, &rigid)
                 }
             };
@@ -292,10 +332,11 @@ impl Prepared {
             if let Some(samples) = again {
                 let found = Fit::new(&reference, &agreement, &options.fit)?;
                 let found = found.map_err(|error| CompareError::Fit { file: file.clone(), error })?;
-                let agreement = Agreement::new(&Reference::new(&found.history)?, samples, &options, until)?;
-                fit = Some(FittedFile { fit: found, agreement });
+                let reference = Reference::new(&found.history)?;
+                let agreement = Agreement::new(&reference, &units, samples, &options, until)?;
+                fit = Some(FittedFile::new(found, agreement));
             }
-            files.push(ComparedFile { file, agreement, softness, diagnosis, fit });
+            files.push(ComparedFile { file, agreement, diagnosis, fit, softness });
         }
         let compared: Vec<&Agreement> = files.iter().map(|file| &file.agreement).collect();
         let widths: Vec<f64> = match options.widths.as_slice() {
@@ -303,7 +344,7 @@ impl Prepared {
             widths => widths.iter().map(Number::to_f64).collect(),
         };
         let orders = orders(&compared, &widths);
-        Ok(Comparison { orders, warnings: history.warnings(), files })
+        Ok(Comparison { orders, units, warnings: history.warnings(), files })
     }
 }
 

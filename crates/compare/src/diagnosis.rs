@@ -1,5 +1,8 @@
 //! The diagnosis of data: the causes that fit, and symptoms that need no fit.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::agreement::Agreement;
 use super::audit::Audit;
 use super::cause::{Cause, GENERAL};
@@ -22,12 +25,14 @@ const SAMPLES: usize = 150;
 const DAMPED_TRIPS: f64 = 200.0;
 
 /// The result of a diagnosis.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, JsonSchema, Serialize)]
 pub(crate) struct Diagnosis {
     pub(crate) hints: Vec<Hint>,
-    /// The least sizes that would be named, where nothing is.
+    /// The values from which on a wrong number would be named; empty where one is, or where that is not known.
+    #[serde(rename = "told_from")]
     pub(crate) detectable: Vec<Detectable>,
-    /// The time over which the fronts are spread.
+    /// The time over which the fronts of the data are spread; null where that is not known, within a step, or more than
+    /// a quarter of a round trip.
     pub(crate) spread: Option<f64>,
 }
 

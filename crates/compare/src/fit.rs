@@ -24,14 +24,16 @@ pub(crate) struct FittedValue {
 }
 
 /// The result of a fit.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Fit {
     pub(crate) values: Vec<FittedValue>,
     pub(crate) steps: usize,
     pub(crate) settled: bool,
-    /// The correlation of the residuals of neighbouring samples; `None` where all are zero.
+    /// The correlation of the residuals of neighbouring samples: near zero for noise, near one for the error of a
+    /// scheme, whose shift of the values is not in their standard errors. Null where all residuals are zero.
     pub(crate) correlation: Option<f64>,
     /// The history with the fitted values.
+    #[serde(skip)]
     pub(crate) history: TypedHistory<f64>,
 }
 

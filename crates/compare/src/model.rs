@@ -135,7 +135,7 @@ impl<'a> Model<'a> {
         let count = times.partition_point(|time| *time <= until);
         let kept: Vec<usize> = (0..count).step_by(count.div_ceil(most).max(1)).collect();
         let mut signals = Vec::new();
-        for ComparedColumn { what, ours, theirs, norms } in &agreement.quantities {
+        for ComparedColumn { what, ours, theirs, norms, .. } in &agreement.quantities {
             let rate = match what.measure() {
                 _ if *what == Quantity::CentreVelocity => speed / trip,
                 // The model fits integrals of forces, and no quantity is that of the force at the top.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use dalembert::quantity::Quantity;
 
@@ -22,15 +22,26 @@ pub(crate) struct Norm {
 }
 
 /// A column of the data with the exact values at its samples.
-#[derive(Debug)]
+#[derive(Debug, JsonSchema, Serialize)]
 pub struct ComparedColumn {
     /// The quantity.
+    #[serde(rename = "name", serialize_with = "name")]
+    #[schemars(with = "String")]
     pub what: Quantity,
+    pub(crate) unit: &'static str,
     /// The exact values.
+    #[serde(skip)]
     pub ours: Vec<f64>,
     /// The values of the data, in the conventions and units of the library.
+    #[serde(skip)]
     pub theirs: Vec<f64>,
+    #[serde(flatten)]
     pub(crate) norms: Norms,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn name<S: Serializer>(quantity: &Quantity, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(quantity.name())
 }
 
 /// The norms of the difference of a column.

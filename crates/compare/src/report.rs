@@ -7,20 +7,21 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::agreement::{Agreement, Coverage};
-use super::audit::{Audit, Extreme};
+use super::audit::Extreme;
 use super::comparison::{ComparedFile, Comparison, FittedFile};
-use super::contacts::{ContactPair, ContactRecord};
+use super::contacts::ContactPair;
 use super::diagnosis::Diagnosis;
 use super::fit::FittedValue;
 use super::hint::{Detectable, Hint};
 use super::limit::Order;
-use super::norms::{ComparedColumn, NORMS, Norm, Norms};
+use super::norms::{ComparedColumn, NORMS, Norm};
 use super::softness::SoftColumn;
 use crate::aligned::table;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Quantity, Units};
 
-const WEIGHTS: &str = "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
+pub(super) const WEIGHTS: &str =
+    "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
 /// The units of norms over time.
 const NORM_UNITS: &str = "the unit is that of L∞; L1 is in this unit times time, L2 in this unit times √time\n";
@@ -186,7 +187,7 @@ const SHIFTED: &str = "\nneighbouring residuals are alike, as those of a scheme:
     standard errors, from the scatter of the residuals, do not contain that; a finer mesh shows it";
 
 /// Returns the tables of a fit: the values, the misfit of each column, and the contacts.
-fn fit_table(FittedFile { fit, agreement: then }: &FittedFile, now: &Agreement) -> String {
+fn fit_table(FittedFile { fit, agreement: then, .. }: &FittedFile, now: &Agreement) -> String {
     let row = |value: &FittedValue| {
         vec![value.name.clone(), value.scene.decimal(10), value.value.decimal(10), format!("{:.1e}", value.error)]
     };
@@ -364,7 +365,7 @@ pub struct FileReport<'a> {
     schema: SchemaVersion,
     title: Option<&'a str>,
     #[serde(flatten)]
-    file: ComparedReport<'a>,
+    file: &'a ComparedFile,
 }
 
 /// The report of a comparison with data of several bodies of a chain.
@@ -389,7 +390,7 @@ impl<'a> BodiesReport<'a> {
 pub struct BodyReport<'a> {
     body: usize,
     name: Option<&'a str>,
-    files: Vec<ComparedReport<'a>>,
+    files: &'a [ComparedFile],
     /// The observed order of convergence between each file and the next.
     orders: &'a [Order],
 }
@@ -400,145 +401,31 @@ pub struct BodyReport<'a> {
 pub struct SeriesReport<'a> {
     schema: SchemaVersion,
     title: Option<&'a str>,
-    files: Vec<ComparedReport<'a>>,
+    files: &'a [ComparedFile],
     /// The observed order of convergence between each file and the next.
     orders: &'a [Order],
 }
 
-/// One source of data beside the exact history.
-#[derive(Serialize, JsonSchema)]
-#[schemars(rename = "compared")]
-struct ComparedReport<'a> {
-    file: &'a str,
-    /// The definition of the norms.
-    weights: &'static str,
-    /// The median step of the samples.
-    step: f64,
-    /// The distance from a jump from which on a sample counts as away from it.
-    window: f64,
-    /// The number of rows before t = 0, which are not compared.
-    outside: usize,
-    /// Remarks on how the file was read.
-    notes: &'a [String],
-    coverage: &'a Coverage,
-    quantities: Vec<QuantityReport<'a>>,
-    contacts: &'a [ContactPair],
-    audit: &'a Audit,
-    hints: &'a [Hint],
-    /// The values from which on a wrong number would be named; empty where one is, or where that is not known.
-    told_from: &'a [Detectable],
-    /// The time over which the fronts of the data are spread; null where that is not known, within a step, or more than
-    /// a quarter of a round trip.
-    spread: Option<f64>,
-    /// The values of the scene that explain the data best, where some are asked for.
-    fit: Option<FitReport<'a>>,
-    /// The parts of the difference from rigid contact; empty where the exact contact is rigid.
-    softness: &'a [SoftColumn],
-}
-
-#[derive(Serialize, JsonSchema)]
-struct QuantityReport<'a> {
-    name: &'static str,
-    unit: &'static str,
-    #[serde(flatten)]
-    norms: &'a Norms,
-}
-
-#[derive(Serialize, JsonSchema)]
-struct FitReport<'a> {
-    values: &'a [FittedValue],
-    steps: usize,
-    settled: bool,
-    /// The correlation of the residuals of neighbouring samples: near zero for noise, near one for the error of a
-    /// scheme, whose shift of the values is not in their standard errors. Null where all residuals are zero.
-    correlation: Option<f64>,
-    quantities: Vec<FittedQuantity>,
-    contacts: Vec<FittedContact<'a>>,
-}
-
-/// The norm of a column with the fitted values.
-#[derive(Serialize, JsonSchema)]
-struct FittedQuantity {
-    name: &'static str,
-    l2: Norm,
-}
-
-/// A contact with the fitted values, and the one of the data.
-#[derive(Serialize, JsonSchema)]
-struct FittedContact<'a> {
-    fitted: &'a Option<ContactRecord>,
-    theirs: &'a Option<ContactRecord>,
-}
-
-impl<'a> FitReport<'a> {
-    fn new(FittedFile { fit, agreement: then }: &'a FittedFile) -> Self {
-        let quantity = |compared: &ComparedColumn| FittedQuantity { name: compared.what.name(), l2: compared.norms.l2 };
-        FitReport {
-            values: &fit.values,
-            steps: fit.steps,
-            settled: fit.settled,
-            correlation: fit.correlation,
-            quantities: then.quantities.iter().map(quantity).collect(),
-            contacts: then
-                .contacts
-                .iter()
-                .map(|pair| FittedContact { fitted: &pair.ours, theirs: &pair.theirs })
-                .collect(),
-        }
-    }
-}
-
-impl<'a> ComparedReport<'a> {
-    fn new(ComparedFile { file, agreement, softness, diagnosis, fit }: &'a ComparedFile, units: &Units) -> Self {
-        let quantity = |ComparedColumn { what, norms, .. }: &'a ComparedColumn| QuantityReport {
-            name: what.name(),
-            unit: what.unit(units),
-            norms,
-        };
-        ComparedReport {
-            file,
-            weights: WEIGHTS,
-            step: agreement.step,
-            window: agreement.window,
-            outside: agreement.outside,
-            notes: &agreement.notes,
-            coverage: &agreement.coverage,
-            quantities: agreement.quantities.iter().map(quantity).collect(),
-            contacts: &agreement.contacts,
-            audit: &agreement.audit,
-            hints: &diagnosis.hints,
-            told_from: &diagnosis.detectable,
-            spread: diagnosis.spread,
-            fit: fit.as_ref().map(FitReport::new),
-            softness,
-        }
-    }
-}
-
 impl Comparison {
-    /// Returns the report as text, values in these `units`.
-    pub fn table(&self, title: Option<&str>, units: &Units) -> String {
-        let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, units)).collect();
+    /// Returns the report as text.
+    pub fn table(&self, title: Option<&str>) -> String {
+        let mut tables: Vec<String> = self.files.iter().map(|file| file_table(file, title, &self.units)).collect();
         tables.extend((self.files.len() > 1).then(|| orders_table(&self.orders)));
         tables.join("\n")
     }
 
     /// Returns the report for the body of a chain with this number, from 1, and name.
-    pub fn of_body<'a>(&'a self, body: usize, name: Option<&'a str>, units: &Units) -> BodyReport<'a> {
-        BodyReport { body, name, files: self.reports(units), orders: &self.orders }
-    }
-
-    fn reports(&self, units: &Units) -> Vec<ComparedReport<'_>> {
-        self.files.iter().map(|file| ComparedReport::new(file, units)).collect()
+    pub fn of_body<'a>(&'a self, body: usize, name: Option<&'a str>) -> BodyReport<'a> {
+        BodyReport { body, name, files: &self.files, orders: &self.orders }
     }
 
     /// Returns the report as JSON, schema 1: the members of a single file stand at the top, those of several under
     /// `files`, with their `orders`.
-    pub fn json(&self, title: Option<&str>, units: &Units) -> Value {
+    pub fn json(&self, title: Option<&str>) -> Value {
         let schema = SchemaVersion;
         match self.files.as_slice() {
-            [one] => json!(FileReport { schema, title, file: ComparedReport::new(one, units) }),
-            _ => json!(SeriesReport { schema, title, files: self.reports(units), orders: &self.orders }),
+            [one] => json!(FileReport { schema, title, file: one }),
+            _ => json!(SeriesReport { schema, title, files: &self.files, orders: &self.orders }),
         }
     }
 }

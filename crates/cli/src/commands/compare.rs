@@ -99,7 +99,6 @@ struct Compared<'a> {
     /// The title of the scene of all bars.
     title: Option<String>,
     scene: Scene,
-    units: Units,
     comparison: Comparison,
     /// The bounds by the names of a rod; `None` where one is of another bar.
     limits: Vec<Option<Limit>>,
@@ -108,7 +107,7 @@ struct Compared<'a> {
 impl Compared<'_> {
     /// Returns the report of one of several bars.
     fn report(&self) -> Option<BodyReport<'_>> {
-        self.bar.map(|Bar { chain, body }| self.comparison.of_body(body + 1, chain.bodies()[body].name(), &self.units))
+        self.bar.map(|Bar { chain, body }| self.comparison.of_body(body + 1, chain.bodies()[body].name()))
     }
 }
 
@@ -116,7 +115,7 @@ impl Compared<'_> {
 fn json(compared: &[Compared<'_>]) -> Value {
     let title = compared[0].title.as_deref();
     match compared {
-        [Compared { bar: None, units, comparison, .. }] => comparison.json(title, units),
+        [Compared { bar: None, comparison, .. }] => comparison.json(title),
         several => json!(BodiesReport::new(title, several.iter().filter_map(Compared::report).collect())),
     }
 }
@@ -185,12 +184,12 @@ impl Compare {
                 rows_bytes(&compare_data(&files.collect::<Vec<_>>()), format)
             }
             Format::Table => {
-                let table = |one: &Compared<'_>| one.comparison.table(one.scene.title.as_deref(), &one.units);
+                let table = |one: &Compared<'_>| one.comparison.table(one.scene.title.as_deref());
                 Ok(compared.iter().map(table).collect::<Vec<_>>().join("\n").into_bytes())
             }
             picture => {
-                let Compared { comparison, scene, units, .. } = &compared[0];
-                file::picture(picture, compare_svg(&comparison.files[0], scene.title.as_deref(), units), Size::Page)
+                let Compared { comparison: Comparison { files, units, .. }, scene, .. } = &compared[0];
+                file::picture(picture, compare_svg(&files[0], scene.title.as_deref(), units), Size::Page)
             }
         };
         // Before anything is written.
@@ -278,7 +277,7 @@ impl Compare {
         comparison.warnings.iter().for_each(terminal::warn);
         let own = |limit: &Limit| bar.map_or_else(|| Some(limit.clone()), |bar| bar.limit(limit));
         let limits = limits.iter().map(own).collect();
-        Ok(Compared { bar: None, title, scene, units, comparison, limits })
+        Ok(Compared { bar: None, title, scene, comparison, limits })
     }
 
     /// Returns the bounds of the command line and of the file.

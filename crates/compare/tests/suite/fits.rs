@@ -38,7 +38,7 @@ fn fitted(start: &Problem, names: &[&str], times: &[f64], columns: &[Quantity], 
     let options = Options { fit, ..Options::default() };
     let prepared = Prepared::new(start, &units, None, vec![source], &options).unwrap();
     let compared = prepared.compare(std::sync::Arc::new(|_, _| std::ops::ControlFlow::Continue(()))).unwrap();
-    compared.json(None, &units)["fit"].clone()
+    compared.json(None)["fit"].clone()
 }
 
 /// Six values, each off by up to 5 %: found again to 1e-9 from exact data in at most 20 steps.

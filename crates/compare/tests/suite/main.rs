@@ -26,7 +26,7 @@ fn compare_columns(scene: &Scene, columns: &[(&str, Vec<f64>)], options: &Option
     let (names, values) = columns.iter().map(|(name, values)| (name.to_string(), Ok(values.clone()))).unzip();
     let source = Source::from_columns("data", names, values);
     let prepared = Prepared::new(&scene.problem, &units, scene.accuracy, vec![source], options).unwrap();
-    prepared.compare(Arc::new(engine::unobserved)).unwrap().json(None, &units)
+    prepared.compare(Arc::new(engine::unobserved)).unwrap().json(None)
 }
 
 /// The report on the rows of a contact code as JSON.
