@@ -103,10 +103,6 @@ impl Destination {
         self.path.is_none() && self.format == Format::Table
     }
 
-    fn name(&self) -> String {
-        self.path.as_ref().map_or_else(|| "standard output".into(), |path| path.display().to_string())
-    }
-
     /// Writes what `fill` writes: to the file when it is complete, or to standard output.
     pub(crate) fn write_with(&self, fill: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Failure> {
         let write = || match &self.path {
@@ -118,7 +114,8 @@ impl Destination {
                 to_stdout(|out| io::copy(&mut file, out).map(drop))
             }
         };
-        write().map_err(failure::cannot(&format!("write {}", self.name())))
+        let name = self.path.as_ref().map_or_else(|| "standard output".into(), |path| path.display().to_string());
+        write().map_err(failure::cannot(&format!("write {name}")))
     }
 }
 
@@ -128,22 +125,20 @@ pub(crate) fn write_all(
     bytes: impl Fn(Format) -> Result<Vec<u8>, Failure>,
 ) -> Result<(), Failure> {
     let contents = destinations.iter().map(|destination| bytes(destination.format)).collect::<Result<Vec<_>, _>>()?;
-    let cannot_write = |destination: &Destination| failure::cannot(&format!("write {}", destination.name()));
-    let mut staged = Vec::new();
-    for (destination, bytes) in destinations.iter().zip(&contents) {
-        if let Some(path) = &destination.path {
-            let file = stage(path, |file| file.write_all(bytes)).map_err(cannot_write(destination))?;
-            staged.push((destination, path, file));
-        }
-    }
-    for (destination, path, file) in staged {
-        put(file, path).map_err(cannot_write(destination))?;
-    }
-    for (destination, bytes) in destinations.iter().zip(&contents).filter(|(destination, _)| destination.path.is_none())
-    {
-        to_stdout(|out| out.write_all(bytes)).map_err(cannot_write(destination))?;
-    }
-    Ok(())
+    let contents = || destinations.iter().map(|destination| &destination.path).zip(&contents);
+    put_all(contents().filter_map(|(path, bytes)| Some((path.clone()?, bytes.as_slice()))))?;
+    contents().filter(|(path, _)| path.is_none()).try_for_each(|(_, bytes)| print(bytes))
+}
+
+/// Writes files with their bytes: all of them appear, each complete, or none.
+fn put_all<'a>(files: impl Iterator<Item = (PathBuf, &'a [u8])>) -> Result<(), Failure> {
+    let cannot_write = |path: &Path| failure::cannot(&format!("write {}", path.display()));
+    let stage = |(path, bytes): (PathBuf, &[u8])| {
+        let file = stage(&path, |file| file.write_all(bytes)).map_err(cannot_write(&path))?;
+        Ok((file, path))
+    };
+    let staged = files.map(stage).collect::<Result<Vec<_>, Failure>>()?;
+    staged.into_iter().try_for_each(|(file, path)| put(file, &path).map_err(cannot_write(&path)))
 }
 
 /// Writes each destination, all files or none; prints the rows in `format` too, if no destination holds any.
@@ -225,16 +220,7 @@ pub(crate) fn write_folder(folder: &Path, files: &[(String, Vec<u8>)]) -> Result
         let made = std::fs::create_dir(folder).map_err(|error| without_file_name(&error, parent));
         made.map_err(failure::cannot(&format!("write {}", folder.display())))?;
     }
-    let mut staged = Vec::new();
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        let file = stage(&path, |file| file.write_all(bytes));
-        staged.push((file.map_err(failure::cannot(&format!("write {}", folder.display())))?, path));
-    }
-    for (file, path) in staged {
-        put(file, &path).map_err(failure::cannot(&format!("write {}", path.display())))?;
-    }
-    Ok(())
+    put_all(files.iter().map(|(name, bytes)| (folder.join(name), bytes.as_slice())))
 }
 
 /// Returns a picture as the bytes of its file.
