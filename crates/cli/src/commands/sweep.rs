@@ -15,7 +15,7 @@ use crate::file::{Format, write_all};
 use crate::output::{rows_bytes, sweep_data};
 use crate::quantities::{NameParser, Scope, has_material, is_of_chain};
 use crate::source::AnyScene;
-use crate::sweep::{self, Axis, ChainRequest, Grid, Journal, Point, Request, Subject, journal_path};
+use crate::sweep::{self, Axis, Grid, Journal, Point, Request, Subject, journal_path};
 use crate::terminal;
 use dalembert::chain::ChainQuery;
 use dalembert::number::Number;
@@ -87,15 +87,17 @@ impl Sweep {
             AnyScene::Chain(scene) if whole => AnyScene::Chain(scene),
             scene => AnyScene::Rod(Box::new(scene.into_rod(&self.scene.scene, None)?)),
         };
-        let (title, source) = match &scene {
-            AnyScene::Rod(scene) => (scene.title.clone(), scene.source().to_string()),
-            AnyScene::Chain(scene) => (scene.title.clone(), scene.source().to_string()),
+        let (title, source, accuracy) = match &scene {
+            AnyScene::Rod(scene) => (scene.title.clone(), scene.source().to_string(), scene.accuracy),
+            AnyScene::Chain(scene) => (scene.title.clone(), scene.source().to_string(), scene.accuracy),
         };
         let subject = match scene {
             AnyScene::Rod(scene) => self.of_rod(&scene, &axes)?,
             AnyScene::Chain(scene) => self.of_chain(scene, &axes)?,
         };
-        let sweep = sweep::Sweep { grid: Grid::new(axes)?, subject };
+        let numbers = self.scene.numbers.numbers_to(accuracy);
+        let request = Request { time: self.time.clone(), numbers };
+        let sweep = sweep::Sweep { grid: Grid::new(axes)?, subject, request };
         let [part, parts] = self.shard.unwrap_or([1, 1]);
         let start = |part: usize| (sweep.grid.len() as u128 * part as u128 / parts as u128) as usize;
         let points = start(part - 1)..start(part);
@@ -107,7 +109,7 @@ impl Sweep {
             "vary": sweep.grid.axes.iter().map(vary).collect::<Vec<_>>(),
             "quantity": sweep.units().into_iter().map(|(name, _)| name).collect::<Vec<_>>(),
             "time": self.time,
-            "number": sweep.numbers_and_time().0.to_string(),
+            "number": numbers.to_string(),
             "points": [points.start, points.end],
         });
         let path = destinations.iter().find_map(|destination| destination.path.as_deref());
@@ -134,10 +136,8 @@ impl Sweep {
             scene.problem.to_builder().set(axis.parameter, value).build()?;
         }
         let quantities = Scope::SingleNumber.resolve(&self.quantity, has_material(scene))?;
-        sweep::check_time(&quantities, self.time.as_ref()).map_err(|error| failure!("{error}"))?;
-        let numbers = self.scene.numbers.numbers(scene);
-        let request = Request { quantities, time: self.time.clone(), numbers, units: scene.units };
-        Ok(Subject::Rod(Box::new(scene.problem.clone()), request))
+        sweep::check_time(&quantities, self.time.as_ref())?;
+        Ok(Subject::Rod { start: Box::new(scene.problem.clone()), units: scene.units, quantities })
     }
 
     /// Returns the numbers that are asked for at each point of a whole chain.
@@ -150,9 +150,8 @@ impl Sweep {
             query.ok_or_else(|| unknown_quantity(name, &ChainQuery::names(chain)))
         };
         let quantities = self.quantity.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        sweep::check_time(&[], self.time.as_ref()).map_err(|error| failure!("{error}"))?;
-        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
-        Ok(Subject::Chain(scene, ChainRequest { quantities, time: self.time.clone(), numbers }))
+        sweep::check_time(&[], self.time.as_ref())?;
+        Ok(Subject::Chain { scene, quantities })
     }
 
     fn solve(

@@ -128,12 +128,11 @@ pub(crate) fn sweep_data(sweep: &Sweep, points: &[Point], title: Option<&str>) -
         .enumerate()
         .map(|(k, note)| wrapped(&format!("[{}] {note}", k + 1), terminal::width(), "    ") + "\n");
     let below: String = below.collect();
-    let (numbers, time) = sweep.numbers_and_time();
     let header = SweepHeader {
         schema: SchemaVersion,
         title,
-        number: numbers.to_string(),
-        time: time.map(Number::to_string),
+        number: sweep.request.numbers.to_string(),
+        time: sweep.request.time.as_ref().map(Number::to_string),
         units: sweep.units().into_iter().map(|(name, unit)| (name, unit.into())).collect(),
         vary: sweep.grid.axes.iter().map(AxisJson::from).collect(),
     };

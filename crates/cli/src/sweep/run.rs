@@ -14,14 +14,12 @@ use dalembert::quantity::{Missing, Needs, Quantity, UnitSystem, Units, ValueQuer
 use dalembert::solve::{History, Numbers, Question, unobserved};
 use dalembert::{ChainScene, Error, Side, Value};
 
-/// A request for the numbers of every point.
+/// The numbers that are asked for at every point, and the time of the quantities over time.
 #[derive(Clone, Debug)]
 pub(crate) struct Request {
-    pub(crate) quantities: Vec<Quantity>,
-    /// Time of the quantities over time; `None` for the first bounce.
+    /// `None` for the first bounce of a rod, and for the end of the run of a chain.
     pub(crate) time: Option<Number>,
     pub(crate) numbers: Numbers,
-    pub(crate) units: UnitSystem,
 }
 
 /// A point with its numbers, in the order of the quantities.
@@ -109,19 +107,24 @@ impl PointNumber {
 impl Request {
     /// Returns the numbers of a problem, or the reasons why they do not exist. Quantities that the same run answers
     /// share it.
-    fn numbers_of(&self, problem: Result<Problem, ProblemError>) -> Vec<PointNumber> {
+    fn of_rod(
+        &self,
+        problem: Result<Problem, ProblemError>,
+        quantities: &[Quantity],
+        units: UnitSystem,
+    ) -> Vec<PointNumber> {
         let problem = match &problem {
             Ok(problem) => problem,
-            Err(error) => return vec![PointNumber::missing(error); self.quantities.len()],
+            Err(error) => return vec![PointNumber::missing(error); quantities.len()],
         };
         let mut runs: Vec<(Question, Result<History, Error>)> = Vec::new();
-        let mut numbers = Vec::with_capacity(self.quantities.len());
-        for quantity in &self.quantities {
+        let mut numbers = Vec::with_capacity(quantities.len());
+        for quantity in quantities {
             let time = self.time.clone().filter(|_| quantity.needs() == Needs::Time);
             let question = Question::of(*quantity, time.as_ref(), self.numbers);
             let known = runs.iter().position(|(other, _)| *other == question);
             let known = known.unwrap_or_else(|| {
-                let history = problem.ask(&question, unobserved()).map(|history| history.in_units(self.units));
+                let history = problem.ask(&question, unobserved()).map(|history| history.in_units(units));
                 runs.push((question, history));
                 runs.len() - 1
             });
@@ -131,6 +134,24 @@ impl Request {
             });
         }
         numbers
+    }
+
+    /// Returns the numbers of a chain, or the reasons why they do not exist.
+    fn of_chain(&self, chain: Result<Chain, ProblemError>, quantities: &[(String, ChainQuery)]) -> Vec<PointNumber> {
+        // The run goes to the time, or to its own end if that is later and a contact is asked about.
+        let is_over_time = |(_, query): &(_, ChainQuery)| matches!(query, ChainQuery::Column(_));
+        let are_over_time = quantities.iter().all(is_over_time);
+        let run_to = |chain: Chain| match &self.time {
+            Some(time) if are_over_time || time.compare(chain.until()).is_gt() => chain.reaching(time),
+            _ => Ok(chain),
+        };
+        match chain.and_then(run_to).map_err(Error::from).and_then(|chain| chain.solve(self.numbers)) {
+            Ok(history) => {
+                let number = |(_, query): &(_, ChainQuery)| PointNumber::of_chain(&history, *query, self.time.as_ref());
+                quantities.iter().map(number).collect()
+            }
+            Err(error) => vec![PointNumber::missing(error); quantities.len()],
+        }
     }
 }
 
@@ -161,12 +182,11 @@ pub fn sweep(
     numbers: Numbers,
     go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
 ) -> Result<Vec<Vec<PointNumber>>, Error> {
-    let (quantities, units) = (quantities.to_vec(), UnitSystem::default());
-    let request = Request { quantities, time: time.cloned(), numbers, units };
+    let request = Request { time: time.cloned(), numbers };
     (0..count)
         .into_par_iter()
         .map(|k| match go_on() {
-            ControlFlow::Continue(()) => Ok(request.numbers_of(problem(k))),
+            ControlFlow::Continue(()) => Ok(request.of_rod(problem(k), quantities, UnitSystem::default())),
             ControlFlow::Break(()) => Err(Error::Interrupted),
         })
         .collect::<Result<Vec<_>, _>>()
@@ -210,43 +230,13 @@ pub fn check_time(quantities: &[Quantity], time: Option<&Number>) -> Result<(), 
     }
 }
 
-/// The subject of a sweep: what each point is asked for.
+/// The subject of a sweep, with the quantities that each point is asked for.
 #[derive(Debug)]
 pub(crate) enum Subject {
     /// A rod by itself, or a body of a chain.
-    Rod(Box<Problem>, Request),
-    /// A whole chain.
-    Chain(Box<ChainScene>, ChainRequest),
-}
-
-/// A request for the numbers of the chain of every point.
-#[derive(Debug)]
-pub(crate) struct ChainRequest {
-    /// The quantities with their names.
-    pub(crate) quantities: Vec<(String, ChainQuery)>,
-    /// Time of the quantities over time; `None` for the end of the run.
-    pub(crate) time: Option<Number>,
-    pub(crate) numbers: Numbers,
-}
-
-impl ChainRequest {
-    /// Returns the numbers of a chain, or the reasons why they do not exist.
-    fn numbers_of(&self, chain: Result<Chain, ProblemError>) -> Vec<PointNumber> {
-        // The run goes to the time, or to its own end if that is later and a contact is asked about.
-        let is_over_time = |(_, query): &(_, ChainQuery)| matches!(query, ChainQuery::Column(_));
-        let are_over_time = self.quantities.iter().all(is_over_time);
-        let run_to = |chain: Chain| match &self.time {
-            Some(time) if are_over_time || time.compare(chain.until()).is_gt() => chain.reaching(time),
-            _ => Ok(chain),
-        };
-        let history = match chain.and_then(run_to).map(|chain| chain.solve(self.numbers)) {
-            Ok(Ok(history)) => history,
-            Ok(Err(error)) => return vec![PointNumber::missing(error); self.quantities.len()],
-            Err(error) => return vec![PointNumber::missing(error); self.quantities.len()],
-        };
-        let number = |(_, query): &(_, ChainQuery)| PointNumber::of_chain(&history, *query, self.time.as_ref());
-        self.quantities.iter().map(number).collect()
-    }
+    Rod { start: Box<Problem>, units: UnitSystem, quantities: Vec<Quantity> },
+    /// A whole chain, with the names of its quantities.
+    Chain { scene: Box<ChainScene>, quantities: Vec<(String, ChainQuery)> },
 }
 
 /// A grid of values, and the numbers that are asked for at each of its points.
@@ -254,39 +244,34 @@ impl ChainRequest {
 pub(crate) struct Sweep {
     pub(crate) grid: Grid,
     pub(crate) subject: Subject,
+    pub(crate) request: Request,
 }
 
 impl Sweep {
     /// Returns the names of the quantities with their units, which are the same at every point.
     pub(crate) fn units(&self) -> Vec<(String, &'static str)> {
         match &self.subject {
-            Subject::Rod(start, request) => {
+            Subject::Rod { start, units, quantities } => {
                 let problem = (0..self.grid.len()).find_map(|index| self.grid.problem(start, index).ok());
-                let units = problem.map_or_else(Units::default, |problem| Units::new(&problem, request.units));
+                let units = problem.map_or_else(Units::default, |problem| Units::new(&problem, *units));
                 let unit = |quantity: &Quantity| (quantity.name().to_string(), quantity.unit(&units));
-                request.quantities.iter().map(unit).collect()
+                quantities.iter().map(unit).collect()
             }
-            Subject::Chain(scene, request) => {
+            Subject::Chain { scene, quantities } => {
                 let unit = |(name, query): &(String, ChainQuery)| (name.clone(), scene.unit(query.measure()));
-                request.quantities.iter().map(unit).collect()
+                quantities.iter().map(unit).collect()
             }
-        }
-    }
-
-    /// Returns the numbers of the answers, and the time of the quantities over time.
-    pub(crate) fn numbers_and_time(&self) -> (Numbers, Option<&Number>) {
-        match &self.subject {
-            Subject::Rod(_, request) => (request.numbers, request.time.as_ref()),
-            Subject::Chain(_, request) => (request.numbers, request.time.as_ref()),
         }
     }
 
     fn numbers_of(&self, index: usize) -> Vec<PointNumber> {
         match &self.subject {
-            Subject::Rod(start, request) => request.numbers_of(self.grid.problem(start, index)),
-            Subject::Chain(scene, request) => {
+            Subject::Rod { start, units, quantities } => {
+                self.request.of_rod(self.grid.problem(start, index), quantities, *units)
+            }
+            Subject::Chain { scene, quantities } => {
                 let values = self.grid.values(index).into_iter().map(|(parameter, value)| (parameter, value.clone()));
-                request.numbers_of(scene.chain.with_values(values))
+                self.request.of_chain(scene.chain.with_values(values), quantities)
             }
         }
     }
