@@ -36,6 +36,11 @@ pub(crate) fn list(text: &str) -> Result<List, String> {
         .map_err(|error| format!("{error}\n\na list is V1,V2,… such as 0.3,1/3, or A..B:N for N numbers from A to B"))
 }
 
+/// Returns a parser that says what was `expected`.
+pub(crate) fn expecting<T: std::str::FromStr>(expected: &'static str) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| text.parse().map_err(|_| format!("expected {expected}"))
+}
+
 /// Runs `work` on `threads` threads, or on one for each core.
 pub(crate) fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build()?;
@@ -46,7 +51,7 @@ pub(crate) fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() ->
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct NumberArgs {
     /// Decimal digits, rounded from values known to eight more of their scale; with --exact, from where exactness ends
-    #[arg(long, value_name = "N", value_parser = digits)]
+    #[arg(long, value_name = "N", value_parser = expecting::<u32>("a whole number of digits, such as 50"))]
     digits: Option<u32>,
     /// Exact fractions, as far as they reach
     #[arg(long)]
@@ -56,27 +61,14 @@ pub(crate) struct NumberArgs {
     certified: bool,
     /// Accuracy relative to the greatest number of an answer, such as 1e-10; more bits are taken where doubles do not
     /// reach it
-    #[arg(long, value_name = "E", value_parser = accuracy, conflicts_with_all = ["digits", "exact"])]
-    #[arg(allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", value_parser = expecting::<f64>("a number such as 1e-10"))]
+    #[arg(allow_negative_numbers = true, conflicts_with_all = ["digits", "exact"])]
     accuracy: Option<f64>,
-}
-
-fn digits(text: &str) -> Result<u32, String> {
-    text.parse().map_err(|_| "expected a whole number of digits, such as 50".into())
-}
-
-fn accuracy(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| "expected a number such as 1e-10".into())
 }
 
 impl NumberArgs {
     pub(crate) fn is_double(self) -> bool {
         self.digits.is_none() && !self.certified && !self.exact
-    }
-
-    /// Returns the requested numbers; without an option, doubles to the accuracy of the scene.
-    pub(crate) fn numbers(self, scene: &Scene) -> Numbers {
-        self.numbers_to(scene.accuracy)
     }
 
     /// Returns the requested numbers; without an option, doubles to `default`.
@@ -136,7 +128,7 @@ impl SceneArgs {
     /// Reads the scene, and returns it with the requested numbers.
     pub(crate) fn read(&self) -> Result<(Scene, Numbers), Failure> {
         let scene = self.body.read(&self.scene)?;
-        let numbers = self.numbers.numbers(&scene);
+        let numbers = self.numbers.numbers_to(scene.accuracy);
         Ok((scene, numbers))
     }
 }

@@ -52,7 +52,7 @@ impl Cite {
         let scene = source::read(&self.scene)?;
         let (method, is_paper, numbers, publication, targets) = match &scene {
             AnyScene::Rod(scene) => {
-                let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers(scene)))?;
+                let plan = Plan::of(&scene.problem, &Question::run(self.numbers.numbers_to(scene.accuracy)))?;
                 let method = format!("engine: {}", plan.engine);
                 let targets: Vec<&Published> = scene.targets.iter().map(|target| &target.published).collect();
                 (method, plan.engine != Engine::Chain, plan.numbers, &scene.publication, targets)

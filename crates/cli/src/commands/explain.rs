@@ -35,7 +35,7 @@ impl Explain {
                 return chain::explain(&scene, numbers, &self.scene.output.destinations(FORMATS)?);
             }
         };
-        let plan = Plan::of(&scene.problem, &Question::run(self.scene.numbers.numbers(&scene)))?;
+        let plan = Plan::of(&scene.problem, &Question::run(self.scene.numbers.numbers_to(scene.accuracy)))?;
         let effects = effects(&scene, &plan);
         write_all(&self.scene.output.destinations(FORMATS)?, |format| {
             if format == Format::Table {

@@ -66,7 +66,7 @@ impl Orbits {
         let AnyScene::Rod(scene) = source::read(&self.scene)? else {
             return Err(failure!("found a chain in `{}`, expected the scene of a single rod", self.scene));
         };
-        let numbers = self.numbers.numbers(&scene);
+        let numbers = self.numbers.numbers_to(scene.accuracy);
         let units = Units::new(&scene.problem, scene.units);
         let mut rows = Vec::new();
         for orbit in self.orbits(&scene)? {

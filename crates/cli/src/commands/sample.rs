@@ -146,7 +146,7 @@ impl SampleArgs {
             AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.are_of_rod(is_golden) => scene.body(0)?,
             AnyScene::Chain(scene) => return self.chain(&scene, is_golden),
         };
-        let numbers = self.scene.numbers.numbers(&scene);
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
         let destinations = self.destinations(is_golden)?;
         let times = self.times()?;
         let mut points = self.points.clone();

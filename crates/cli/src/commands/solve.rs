@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::chain;
 use crate::answer::{Answer, note_end, solve};
-use crate::args::{SceneArgs, known_formats};
+use crate::args::{SceneArgs, expecting, known_formats};
 use crate::failure::Failure;
 use crate::file::{Destination, Format, ROWS, write_all};
 use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
@@ -32,7 +32,7 @@ pub(crate) struct Solve {
     #[arg(long, value_name = "T", conflicts_with = "impacts", allow_hyphen_values = true)]
     to: Option<Number>,
     /// Number of contacts, each with the flight after it, in place of the scene's own run
-    #[arg(long, value_name = "N", value_parser = contacts)]
+    #[arg(long, value_name = "N", value_parser = expecting::<u32>("a whole number of contacts, such as 10"))]
     impacts: Option<u32>,
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
@@ -53,10 +53,6 @@ pub(crate) struct Solve {
     /// peak
     #[arg(long)]
     coefficients: bool,
-}
-
-fn contacts(text: &str) -> Result<u32, String> {
-    text.parse().map_err(|_| "expected a whole number of contacts, such as 10".into())
 }
 
 impl Solve {
@@ -82,7 +78,7 @@ impl Solve {
         if self.part == Some(HistoryPart::Forces) {
             return Err(failure!("found --part forces with a rod, expected events, contacts or stress"));
         }
-        let numbers = self.scene.numbers.numbers(&scene);
+        let numbers = self.scene.numbers.numbers_to(scene.accuracy);
         if let Some(run) = self.to.clone().map(Run::Time).or(self.impacts.map(Run::Impacts)) {
             scene.problem = scene.problem.with_run(run)?;
         }
