@@ -31,7 +31,7 @@ const FORMULA: &[&str] = &[
 const NEAR: &str = "1 + 2e-15";
 
 /// Returns the function `uExact(x, t, d)` of a history of an undamped rod.
-pub(crate) fn code(history: &History, language: Language, header: &Header<'_>) -> Result<String, Error> {
+pub(crate) fn code(history: &History, language: Language, header: &Header) -> Result<String, Error> {
     let (waves, end) = (history.waves()?, history.end());
     // Fractions stay fractions where the language has them.
     let exact = language == Language::Python && end.as_rational().is_some();
@@ -68,7 +68,7 @@ type Numbers = ([(&'static str, String); 7], Vec<[String; 4]>, f64);
 fn written(
     (constants, rows, error): Numbers,
     (language, exact, sign): (Language, bool, &str),
-    header: &Header<'_>,
+    header: &Header,
 ) -> String {
     let worth = match exact {
         true => "The coefficients are exact.".to_string(),

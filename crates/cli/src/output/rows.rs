@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::column::{Column, Kind};
 use super::dataset::{Cell, greatest};
-use super::header::{Header, HeaderJson};
+use super::header::Header;
 use super::npz::Npz;
 use super::schema_types::NumberSchema;
 use super::table::{TextTable, table_digits};
@@ -116,7 +116,7 @@ impl RowWriter {
     }
 
     /// Writes all rows to `destination`.
-    pub(crate) fn finish(self, header: &Header<'_>, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
+    pub(crate) fn finish(self, header: &Header, destination: &Destination, layout: &Layout) -> Result<(), Failure> {
         let RowWriter { format, bare, columns, kept, table, bounds, count, .. } = self;
         let columns: Vec<Column> = columns.into_iter().map(|(column, _)| column).collect();
         let names = || columns.iter().map(|column| column.csv_name()).collect::<Vec<&str>>();
@@ -133,7 +133,7 @@ impl RowWriter {
                 write!(file, "{}{}", table.format(), layout.below)
             }
             Format::Json => {
-                let document = Document { header: header.to_json(&columns, &bounds, false), rows: [] };
+                let document = Document { header: header.with_columns(&columns, &bounds, false), rows: [] };
                 let text = serde_json::to_string_pretty(&document)?;
                 // The rows are as they are read: to parse each again would take as long as to write them all.
                 let before = text.strip_suffix(JSON_END).unwrap_or(&text);
@@ -143,7 +143,7 @@ impl RowWriter {
             }
             Format::Npz => {
                 let mut npz = Npz::new(file, false);
-                let header = serde_json::to_vec_pretty(&header.to_json(&columns, &bounds, true))?;
+                let header = serde_json::to_vec_pretty(&header.with_columns(&columns, &bounds, true))?;
                 npz.add("header", &[header.len()], header)?;
                 for (column, values) in columns.iter().zip(kept) {
                     let mut values = BufReader::new(values);
@@ -293,9 +293,9 @@ fn written_double(value: &Value) -> f64 {
 /// Rows of named columns, without the rows: they follow as they are kept.
 #[derive(JsonSchema, Serialize)]
 #[schemars(rename = "reference")]
-pub(super) struct Document<'a> {
+pub(super) struct Document {
     #[serde(flatten)]
-    header: HeaderJson<'a>,
+    header: Header,
     /// A value for each column: left, right or both for a side, 0 or 1 for contact. A derivative that does not exist is
     /// null, or the reason on its side.
     #[schemars(with = "Vec<Vec<Option<NumberSchema>>>")]

@@ -110,7 +110,7 @@ impl RunInfo {
 }
 
 /// The end of fractions: the event, its time as a surd and the nearest double; or the reason in words.
-#[derive(Debug, Default, JsonSchema, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, Serialize)]
 #[serde(rename = "exact_until")]
 pub(super) struct ExactUntil {
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -20,7 +20,7 @@ use dalembert_compare::{BodiesReport, FileReport, SeriesReport};
 #[expect(dead_code, reason = "lists the outputs")]
 enum Output<'a> {
     History(HistoryJson<'a>),
-    Reference(Document<'a>),
+    Reference(Document),
     Comparison(FileReport<'a>),
     Comparisons(SeriesReport<'a>),
     ComparisonsOfBodies(BodiesReport<'a>),

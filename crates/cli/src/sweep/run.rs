@@ -14,10 +14,10 @@ use dalembert::quantity::{Missing, Needs, Quantity, UnitSystem, Units, ValueQuer
 use dalembert::solve::{History, Numbers, Question, unobserved};
 use dalembert::{ChainScene, Error, Side, Value};
 
-/// The numbers that are asked for at every point, and the time of the quantities over time.
+/// The numbers and the time that every point is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Request {
-    /// `None` for the first bounce of a rod, and for the end of the run of a chain.
+    /// Time of the quantities over time; `None` for the first bounce of a rod, and the end of the run of a chain.
     pub(crate) time: Option<Number>,
     pub(crate) numbers: Numbers,
 }
