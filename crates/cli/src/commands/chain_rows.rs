@@ -1,6 +1,7 @@
 //! Rows of the columns of a chain over time, or at points of its bodies.
 
 use super::chain::{digits, note, unit_line, unknown_quantity, warnings};
+use super::sample::SampleArgs;
 use crate::failure::{Failure, cannot};
 use crate::file::Destination;
 use crate::output::{Cell, Column, Header, Layout, RowWriter};
@@ -15,21 +16,14 @@ use dalembert::{ChainScene, Error, Estimate, Number, Side};
 const CHUNK: usize = 1 << 12;
 
 /// Columns of a chain, to be written.
-pub(crate) struct ChainRows<'a> {
-    pub(crate) scene: &'a ChainScene,
-    pub(crate) numbers: Numbers,
-    /// Names of columns; none for all.
-    pub(crate) names: &'a [String],
+pub(super) struct ChainRows<'a> {
+    pub(super) args: &'a SampleArgs,
+    pub(super) scene: &'a ChainScene,
+    pub(super) numbers: Numbers,
     /// Times; `None` stands for the start, the events and the end.
-    pub(crate) times: Option<List>,
-    /// Points of the bodies, from their lower ends, for the rows of a field.
-    pub(crate) points: Option<List>,
+    pub(super) times: Option<List>,
     /// Limit at a jump; `None` stands for both.
-    pub(crate) side: Option<Side>,
-    pub(crate) uncertainty: bool,
-    /// Whether a CSV has no comments.
-    pub(crate) bare: bool,
-    pub(crate) wide: bool,
+    pub(super) side: Option<Side>,
 }
 
 /// A column of the rows.
@@ -119,14 +113,14 @@ fn bars(chain: &Chain) -> impl Iterator<Item = usize> {
 
 impl ChainRows<'_> {
     fn is_field(&self) -> bool {
-        self.points.is_some()
+        self.args.points.is_some()
     }
 
     /// Returns the columns, with their keys before them unless the time is among them.
     fn columns(&self) -> Result<Vec<RowColumn>, Failure> {
         let chain = &self.scene.chain;
         let mut columns: Vec<RowColumn> = Vec::new();
-        for name in self.names {
+        for name in &self.args.quantity {
             let found = RowColumn::read(name, chain, self.is_field());
             if found.is_empty() {
                 if !self.is_field() && !RowColumn::read(name, chain, true).is_empty() {
@@ -172,7 +166,7 @@ impl ChainRows<'_> {
 
     /// Returns the points; an error for one beyond a body that is asked about.
     fn listed_points(&self, columns: &[RowColumn]) -> Result<Vec<Number>, Failure> {
-        let Some(points) = &self.points else { return Ok(Vec::new()) };
+        let Some(points) = &self.args.points else { return Ok(Vec::new()) };
         let points = points.numbers().ok_or_else(|| too_long("points"))?;
         for column in columns {
             let RowColumn::Point { body, .. } = column else { continue };
@@ -267,7 +261,7 @@ impl ChainRows<'_> {
     }
 
     /// Solves the chain, and writes the rows.
-    pub(crate) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
+    pub(super) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
         let ChainRows { scene, numbers, .. } = self;
         let (chain, columns) = (&scene.chain, self.columns()?);
         if self.is_field() && self.times.is_none() {
@@ -281,7 +275,7 @@ impl ChainRows<'_> {
         let times = self.row_times(&history)?;
         progress.set_stage("values of the answer");
         let heads: Vec<Column> = columns.iter().map(|column| column.head(scene)).collect();
-        let bounds = (self.uncertainty, self.bare);
+        let bounds = (self.args.uncertainty, self.args.bare);
         let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, bounds, digits(*numbers));
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let places: Vec<Option<&Number>> = if self.is_field() { points.iter().map(Some).collect() } else { vec![None] };
@@ -303,7 +297,7 @@ impl ChainRows<'_> {
         let header = Header::of_chain((scene, last), *numbers, warnings(&history), ends);
         let below = format!("\n{}", unit_line(scene, &measures));
         let keys = columns.iter().take_while(|column| matches!(column, RowColumn::Key(_))).count();
-        let layout = Layout { below, keys: (!self.wide).then_some(keys) };
+        let layout = Layout { below, keys: (!self.args.wide).then_some(keys) };
         writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
     }
 }

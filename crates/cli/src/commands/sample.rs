@@ -54,7 +54,7 @@ pub(crate) struct Reference {
 
 #[derive(Args, Debug)]
 #[command(mut_arg("format", known_formats(FORMATS)))]
-struct SampleArgs {
+pub(super) struct SampleArgs {
     #[command(flatten)]
     scene: SceneArgs,
     /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
@@ -63,7 +63,7 @@ struct SampleArgs {
     /// for a group of one body, chain_energy and chain_momentum for sums over all bodies; by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
     #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).with_places())]
-    quantity: Vec<String>,
+    pub(super) quantity: Vec<String>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B. The scene is followed
     /// to the last of them, whatever its own run says
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true, group = "when")]
@@ -80,7 +80,7 @@ struct SampleArgs {
     /// Points along the rod, in the same form as --times: the rows are the field there. With `field` the default is
     /// both ends and the middle. Of a chain they count from the lower end of each body: u.2, v.2, strain.2
     #[arg(long, value_name = "LIST", value_parser = list, allow_hyphen_values = true)]
-    points: Option<List>,
+    pub(super) points: Option<List>,
     /// Meaning of the field on the grid of the points
     #[arg(long, value_parser = words::<Slice>(), default_value_t, requires = "points")]
     field: Slice,
@@ -93,13 +93,13 @@ struct SampleArgs {
     derivatives: Vec<Parameter>,
     /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
     #[arg(long)]
-    uncertainty: bool,
+    pub(super) uncertainty: bool,
     /// Keep each row of a table on one line, however wide
     #[arg(long)]
-    wide: bool,
+    pub(super) wide: bool,
     /// Leave out the comments above a CSV, and digits beyond their bound where there is no column of bounds
     #[arg(long)]
-    bare: bool,
+    pub(super) bare: bool,
 }
 
 /// The formats of values over time; those of a golden file begin with CSV.
@@ -205,17 +205,8 @@ impl SampleArgs {
         if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
             return Err(failure!("found {option} with a chain of bodies, expected it with one of them, --body N"));
         }
-        let rows = ChainRows {
-            scene,
-            numbers: self.scene.numbers.numbers_to(scene.accuracy),
-            names: &self.quantity,
-            times: self.times()?,
-            points: self.points.clone(),
-            side: self.side(is_golden),
-            uncertainty: self.uncertainty,
-            bare: self.bare,
-            wide: self.wide,
-        };
+        let (numbers, times) = (self.scene.numbers.numbers_to(scene.accuracy), self.times()?);
+        let rows = ChainRows { args: self, scene, numbers, times, side: self.side(is_golden) };
         rows.write(&self.destinations(is_golden)?)
     }
 
