@@ -1,4 +1,5 @@
 //! The JSON Schema of the output of solve for a whole chain.
+#![expect(dead_code, reason = "describes the output of another type")]
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,6 @@ use dalembert_compare::SchemaVersion;
 /// Output of solve for a whole chain
 #[derive(JsonSchema)]
 #[schemars(rename = "chain")]
-#[expect(dead_code, reason = "describes an output")]
 pub(super) struct ChainSchema {
     schema: SchemaVersion,
     title: Option<String>,
@@ -33,7 +33,6 @@ pub(super) struct ChainSchema {
 
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_body")]
-#[expect(dead_code, reason = "describes an output")]
 struct BodySchema {
     /// The number of the body, from 1 at the bottom.
     body: usize,
@@ -46,7 +45,6 @@ struct BodySchema {
 /// An impact or a release
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_event")]
-#[expect(dead_code, reason = "describes an output")]
 struct EventSchema {
     /// The node: bottom, joint 1 above the first body, top.
     node: String,
@@ -61,7 +59,6 @@ struct EventSchema {
 
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_event_kind", rename_all = "lowercase")]
-#[expect(dead_code, reason = "describes an output")]
 enum EventKindSchema {
     Impact,
     Release,
@@ -70,7 +67,6 @@ enum EventKindSchema {
 /// A gap that reaches zero without a contact
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_touch")]
-#[expect(dead_code, reason = "describes an output")]
 struct TouchSchema {
     node: String,
     t: NumberSchema,
@@ -80,7 +76,6 @@ struct TouchSchema {
 /// A contact at a node
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_contact")]
-#[expect(dead_code, reason = "describes an output")]
 struct ContactSchema {
     node: String,
     impact: NumberSchema,
@@ -96,7 +91,6 @@ struct ContactSchema {
 /// A stretch of time on which the compressive force of a node is linear, or has one Chebyshev series
 #[derive(JsonSchema)]
 #[schemars(rename = "chain_force")]
-#[expect(dead_code, reason = "describes an output")]
 struct ForceSchema {
     node: String,
     start: NumberSchema,

@@ -1,4 +1,5 @@
 //! The types that stand for numbers, bounds and rows in the JSON Schema of the outputs.
+#![expect(dead_code, reason = "describes how values of the library are written")]
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,7 +13,6 @@ use dalembert::quantity::{Needs, Table};
 /// A number: of JSON in doubles, a text in digits ("1.25") and fractions ("5/4"), and both ends where they are proved.
 #[derive(JsonSchema)]
 #[schemars(rename = "number", untagged)]
-#[expect(dead_code, reason = "describes how the numbers of the library are written")]
 pub(super) enum NumberSchema {
     Double(f64),
     Text(String),
@@ -23,7 +23,6 @@ pub(super) enum NumberSchema {
 /// or the bound is not known, a text where the bound is below the least double.
 #[derive(JsonSchema)]
 #[schemars(rename = "bound", untagged)]
-#[expect(dead_code, reason = "describes how the bounds of the library are written")]
 pub(super) enum BoundSchema {
     Double(Option<f64>),
     Text(String),
@@ -32,7 +31,6 @@ pub(super) enum BoundSchema {
 /// The bound of each number under the key of the number; of a list, one for each item.
 #[derive(JsonSchema)]
 #[schemars(rename = "uncertainty", untagged)]
-#[expect(dead_code, reason = "describes the bounds in a row")]
 pub(super) enum UncertaintySchema {
     Bound(BoundSchema),
     List(Vec<BoundSchema>),
@@ -43,7 +41,6 @@ pub(super) enum UncertaintySchema {
 /// side has none.
 #[derive(JsonSchema)]
 #[schemars(rename = "derivative", untagged)]
-#[expect(dead_code, reason = "describes the derivatives in a row")]
 enum DerivativeSchema {
     Both(NumberSchema),
     Sides {
