@@ -1,6 +1,6 @@
 //! Causes that were once named wrongly: damping, soft contacts, causes that are alike, velocities of Verlet's scheme.
 
-use dalembert::{Quantity, Scene, Side};
+use dalembert::{Quantity, Side};
 use dalembert_compare::Options;
 use serde_json::Value;
 
@@ -24,18 +24,13 @@ fn number(hint: &Value, key: &str) -> f64 {
 
 /// The scene of the bar with a damping, and some columns of the exact motion of another damping.
 fn damped(in_scene: f64, in_data: f64, columns: &[Quantity]) -> Value {
-    let text = |damping: f64| {
-        format!(
-            "rod = {{ length = 10, modulus = 900, density = 1, area = 1, damping = {damping} }}\nimpact.speed = 10\n\
-             gravity.acceleration = 10\nrun.time = {END}\n"
-        )
-    };
+    let [in_scene, in_data] = [in_scene, in_data].map(|damping| scene(&Rod { damping, ..BAR }.scene(END)));
     let times: Vec<f64> = (0..=450).map(|k| f64::from(k) / 100.0).collect();
-    let exact = scene(&text(in_data)).problem.doubles().unwrap();
+    let exact = in_data.problem.doubles().unwrap();
     let values = exact.columns(columns, &times, Some(Side::Right)).unwrap();
     let names = columns.iter().map(|column| column.name()).zip(values);
     let data: Vec<(&str, Vec<f64>)> = std::iter::once(("t", times)).chain(names).collect();
-    compare_columns(&scene(&text(in_scene)), &data, &Options::default())
+    compare_columns(&in_scene, &data, &Options::default())
 }
 
 /// Exact data of another damping, and of none, are told their damping, whichever columns there are.
@@ -102,10 +97,7 @@ fn the_dissipation_of_a_scheme_is_not_asserted_as_damping() {
 /// A gap of a few samples in a contact is chatter, whatever flights come after the data.
 #[test]
 fn flights_after_the_data_do_not_make_chatter_a_contact() {
-    let scene = scene(
-        "rod = { length = 10, modulus = 900, density = 1, area = 1, damping = 0.1 }\nimpact.speed = 10\n\
-         gravity.acceleration = 10\nrun.time = 6.5\n",
-    );
+    let scene = scene(&Rod { damping: 0.1, ..BAR }.scene(6.5));
     let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.0015).collect();
     let exact = scene.problem.doubles().unwrap();
     let shortest = exact.contacts().windows(2).map(|pair| pair[1].impact - pair[0].release.unwrap());
@@ -142,14 +134,6 @@ fn soft_contact_is_named() {
 /// A rod of unit length, wave speed and mass that hits the ground at unit speed.
 const UNIT: Rod = Rod { length: 1.0, modulus: 1.0, speed: 1.0, ..BAR };
 
-/// The scene of [`UNIT`] under a gravity.
-fn unit_scene(gravity: f64) -> Scene {
-    scene(&format!(
-        "rod = {{ length = 1, modulus = 1, density = 1, area = 1 }}\nimpact.speed = 1\n\
-         gravity.acceleration = {gravity}\nrun.time = {END}\n"
-    ))
-}
-
 /// The columns of the tests of soft contacts.
 const MANY_AND_FEW: [&[&str]; 2] =
     [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate", "E_total"], &["t", "u", "force"]];
@@ -161,7 +145,7 @@ fn stiff_penalties_on_fine_meshes_are_named() {
         let rod = Rod { gravity, ..UNIT };
         let rows = rod.run(Scheme::Hht(penalty / rod.elements as f64), END);
         for names in MANY_AND_FEW {
-            let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
+            let report = compare_columns(&scene(&rod.scene(END)), &columns_of(&rows, names), &Options::default());
             let found = hints(&report);
             let soft = &found[0];
             assert!(soft["kind"] == "soft_contact" && soft["asserted"] == true, "{gravity} {penalty}: {found:#?}");
@@ -178,9 +162,10 @@ fn rigid_contacts_are_not_soft() {
     let rigid = SCHEMES.into_iter().filter(|scheme| !matches!(scheme, Scheme::Penalty | Scheme::Hht(_)));
     for (scheme, elements) in rigid.flat_map(|scheme| [20, 100, 400].map(|elements| (scheme, elements))) {
         for gravity in [0.0, 0.3] {
-            let rows = Rod { gravity, elements, ..UNIT }.run(scheme, END);
+            let rod = Rod { gravity, elements, ..UNIT };
+            let rows = rod.run(scheme, END);
             for names in MANY_AND_FEW {
-                let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &Options::default());
+                let report = compare_columns(&scene(&rod.scene(END)), &columns_of(&rows, names), &Options::default());
                 let found = hints(&report);
                 assert!(!kinds(&found).contains(&"soft_contact"), "{scheme:?} {elements} {gravity}: {found:#?}");
             }
@@ -198,7 +183,7 @@ fn another_stiffness_is_named() {
         let rows = rod.run(Scheme::Hht(20.0 * (1.0 + share) / rod.elements as f64), END);
         // The energy of the spring is not that of the rod.
         for names in [&["t", "u", "v", "force", "u_top", "v_top", "h", "h_rate"][..], &["t", "u", "force"]] {
-            let report = compare_columns(&unit_scene(gravity), &columns_of(&rows, names), &options);
+            let report = compare_columns(&scene(&rod.scene(END)), &columns_of(&rows, names), &options);
             let found = hints(&report);
             if share == 0.0 {
                 assert!(found.is_empty(), "{gravity}: {found:#?}");

@@ -133,6 +133,15 @@ impl Rod {
         }
     }
 
+    /// The text of its scene.
+    pub(crate) fn scene(&self, time: f64) -> String {
+        let Rod { length, modulus, density, area, gravity, damping, speed, .. } = self;
+        format!(
+            "rod = {{ length = {length}, modulus = {modulus:e}, density = {density}, area = {area:e}, damping = \
+             {damping} }}\nimpact.speed = {speed}\ngravity.acceleration = {gravity}\nrun.time = {time:e}\n"
+        )
+    }
+
     /// Places, velocities and the output at the start.
     fn start(&self) -> (Vec<f64>, Vec<f64>, Vec<Row>) {
         let (u, v) = (vec![0.0; self.elements + 1], vec![-self.speed; self.elements + 1]);
