@@ -2,6 +2,7 @@
 
 use crate::command::{Run, run, run_with};
 use crate::command_samples::column;
+use crate::reference::scene;
 use serde_json::Value;
 
 /// g/2r = 1 is slower than √(2 g drop_height) = 2.
@@ -75,11 +76,7 @@ fn stress(scene: &str, more: &str) -> (String, Vec<([f64; 4], String)>) {
 /// Straight lines between the rows, and the Chebyshev sums, against the closed form asked at times of its own.
 #[test]
 fn the_stress_of_a_damped_rod_can_be_drawn_from_its_csv() {
-    let history = dalembert::Scene::parse(dalembert::builtin::get("figure-4-r02").unwrap().source)
-        .unwrap()
-        .problem
-        .doubles()
-        .unwrap();
+    let history = scene("figure-4-r02").doubles().unwrap();
     let (said, lines) = stress("figure-4-r02", "");
     assert!(said.contains("within 1e-6 of the greatest v_x(0,t); the coefficients"), "{said}");
     let (said, curves) = stress("figure-4-r02", "--coefficients");

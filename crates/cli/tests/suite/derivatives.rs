@@ -36,7 +36,7 @@ fn doubles(history: &TypedHistory<f64>, by: &str, quantity: Quantity) -> Vec<Est
 
 /// Within the bound and a few roundings of the formula.
 #[track_caller]
-fn meets(found: &Estimate<f64>, expected: f64) {
+pub(crate) fn meets(found: &Estimate<f64>, expected: f64) {
     let off = (found.value() - expected).abs();
     assert!(off <= found.bound() + 1e-14 * expected.abs(), "{found:?} is not {expected:e}");
 }
@@ -317,8 +317,7 @@ pub(crate) fn bessel(n: i32, x: f64) -> f64 {
 fn a_damped_bounce_between_rays() {
     let (r, t1) = (0.25, 2.0);
     for (mu, g) in [("1.6", "1"), ("2", "1"), ("2.4", "1"), ("1", "0.5")] {
-        let mut rod = uniform("1", "1", g, mu, Run::Impacts(1));
-        rod = rod.to_builder().damping(number("0.25")).build().unwrap();
+        let rod = uniform("1", "1", g, mu, Run::Impacts(1)).to_builder().damping(number("0.25")).build().unwrap();
         let history = rod.doubles().unwrap();
         let (mu, g, t) = (number(mu).to_f64(), number(g).to_f64(), history.events()[1].t);
         assert!(t > t1 + 0.01 && t < 2.0 * t1 - 0.01, "{t}");
@@ -348,8 +347,7 @@ fn restitution_by_damping() {
     };
     assert_eq!(slope(0.0), -1.0);
     for r in ["0", "0.05", "0.1", "0.3"] {
-        let mut rod = uniform("1", "1", "0", "1", Run::Impacts(1));
-        rod = rod.to_builder().damping(number(r)).build().unwrap();
+        let rod = uniform("1", "1", "0", "1", Run::Impacts(1)).to_builder().damping(number(r)).build().unwrap();
         let found = &doubles(&rod.doubles().unwrap(), "damping", Quantity::MomentumRestitution)[0];
         // R = r t₁, t₁ = 2.
         let expected = 2.0 * slope(2.0 * number(r).to_f64());
@@ -364,14 +362,9 @@ fn damped(impacts: std::ops::RangeInclusive<u32>) -> impl Strategy<Value = Probl
         (0.02f64..0.8, prop::option::weighted(0.7, 0.2f64..2.0), 0.5f64..3.0, prop::option::weighted(0.3, 0.1f64..1.0));
     (rod, 0.5f64..2.0, any::<bool>(), impacts).prop_map(|((r, g, m, gap), l, fixed, impacts)| {
         let number = |x: f64| number(&format!("{x:.3}"));
-        let mut problem = Problem::uniform(number(l), number(1.5), number(g.unwrap_or(0.0)), number(m));
-        problem = problem.to_builder().damping(number(r)).build().unwrap();
-        problem = problem.to_builder().top(if fixed { Top::Fixed } else { Top::Free }).build().unwrap();
-        if let Some(gap) = gap {
-            problem = problem.to_builder().start(Start::Above { gap: number(gap), speed: number(m) }).build().unwrap();
-        }
-        problem = problem.with_run(Run::Impacts(impacts)).unwrap();
-        problem
+        let rod = Problem::builder().length(number(l)).wave_speed(number(1.5)).impact_speed(number(m)).impacts(impacts);
+        let rod = rod.damping(number(r)).gravity(number(g.unwrap_or(0.0))).gap(number(gap.unwrap_or(0.0)));
+        rod.top(if fixed { Top::Fixed } else { Top::Free }).build().unwrap()
     })
 }
 

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::process::Command;
+use std::slice::from_ref;
 
 use dalembert::quantity::Slice;
 use dalembert::{Number, Problem, Rational, Run, Scene, Side};
@@ -13,7 +14,7 @@ use crate::command::{Folder, csv, json, quiet, refused, refused_with, run_with};
 use crate::command_samples::column;
 use crate::cuts::cuts;
 
-fn scene(name: &str) -> Problem {
+pub(crate) fn scene(name: &str) -> Problem {
     Scene::parse(dalembert::builtin::get(name).unwrap().source).unwrap().problem
 }
 
@@ -78,11 +79,7 @@ fn two_waves_are_the_field() {
             let t = history.end().clone() * fraction(k, 60);
             for j in 0..=7 {
                 let x = length.clone() * fraction(j, 7);
-                let [field] = history
-                    .field(std::slice::from_ref(&x), std::slice::from_ref(&t), Side::Right)
-                    .unwrap()
-                    .try_into()
-                    .unwrap();
+                let field = history.field(from_ref(&x), from_ref(&t), Side::Right).unwrap().remove(0);
                 // v is continuous; the others are the limit from later times, at the ends too.
                 assert_eq!(waves.at(&x, &t), field, "{x} {t}");
             }
@@ -104,7 +101,7 @@ fn means_and_projections_are_integrals() {
         let length = rod.length().to_rational();
         // Not the whole rod, and not equally spaced.
         let grid: Vec<Rational> = [1, 2, 4, 7, 9].map(|k| length.clone() * fraction(k, 10)).into();
-        let field = history.field(&grid, std::slice::from_ref(&t), Side::Right).unwrap();
+        let field = history.field(&grid, from_ref(&t), Side::Right).unwrap();
         let at = |slice| history.ask_slices(slice, None, |_| Ok((grid.clone(), vec![t.clone()]))).unwrap();
         let means = at(Slice::Averages);
         for (k, mean) in means[5].iter().enumerate() {
@@ -125,7 +122,7 @@ fn means_and_projections_are_integrals() {
             for (quarter, weight) in [(1, fraction(2, 3)), (2, fraction(-1, 3)), (3, fraction(2, 3))] {
                 let x = width.clone() * fraction(quarter, 4) + &pair[0];
                 let upper: Rational = (x.clone() - &grid[cell]) / (grid[cell + 1].clone() - &grid[cell]);
-                let value = history.field(&[x], std::slice::from_ref(&t), Side::Right).unwrap().remove(0);
+                let value = history.field(&[x], from_ref(&t), Side::Right).unwrap().remove(0);
                 for (j, f) in [value.displacement, value.velocity, value.strain].into_iter().enumerate() {
                     let part = f * &weight * &width;
                     areas[cell][j] += &part;
