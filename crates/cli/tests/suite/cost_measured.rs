@@ -5,7 +5,7 @@ use dalembert_verify::cost::Family;
 use serde_json::Value;
 use strum::VariantArray;
 
-use crate::command::{Folder, quiet, refused, run};
+use crate::command::{Folder, keys, quiet, refused, run};
 
 #[track_caller]
 fn json(args: &str) -> Value {
@@ -44,9 +44,7 @@ fn schema() {
         assert!(found["quantity"].is_string() && found["truth"].is_number());
         let rows = found["rows"].as_array().unwrap();
         for row in rows {
-            let keys: Vec<&str> = row.as_object().unwrap().keys().map(String::as_str).collect();
-            let expected = ["route", "setting", "error", "log10_error", "seconds", "spread_seconds", "runs", "chosen"];
-            assert_eq!(keys, expected);
+            keys(row, "route setting error log10_error seconds spread_seconds runs chosen");
             assert!(row["error"].as_f64().unwrap() >= 0.0 && row["seconds"].as_f64().unwrap() > 0.0);
             let route = row["route"].as_str().unwrap();
             assert!(Family::VARIANTS.iter().any(|family| route == family.to_string()), "{route}");
