@@ -23,13 +23,12 @@ use crate::reason::{Near, Reason, Warning};
     strum::VariantArray,
 )]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum Side {
     /// The limit from earlier times, `t⁻`; at the start, the given data.
-    #[strum(serialize = "left")]
     Left,
     /// The limit from later times, `t⁺`.
     #[default]
-    #[strum(serialize = "right")]
     Right,
 }
 
@@ -43,12 +42,11 @@ impl Side {
 /// Kind of an event at the ground end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum EventKind {
     /// Contact begins: the end lands.
-    #[strum(serialize = "impact")]
     Impact,
     /// Contact ends: the end leaves the ground.
-    #[strum(serialize = "release")]
     Release,
 }
 

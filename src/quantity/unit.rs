@@ -9,30 +9,23 @@ use crate::problem::{Material, Problem};
 /// The measure of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum Measure {
     /// A time.
-    #[strum(serialize = "time")]
     Time,
     /// A displacement, or the place of the centre of mass.
-    #[strum(serialize = "length")]
     Length,
     /// A velocity.
-    #[strum(serialize = "velocity")]
     Velocity,
     /// `v_x`: a strain.
-    #[strum(serialize = "strain")]
     Strain,
     /// `E v_x`: a stress, negative in compression.
-    #[strum(serialize = "stress")]
     Stress,
     /// `−E S v_x(0,t)`: the force of the ground on the rod, positive upwards.
-    #[strum(serialize = "force")]
     Force,
     /// `−E S ∫ v_x(0,t) dt`: momentum from the ground.
-    #[strum(serialize = "impulse")]
     Impulse,
     /// An energy.
-    #[strum(serialize = "energy")]
     Energy,
 }
 

@@ -10,40 +10,30 @@ use crate::problem::{Material, Run, Start, Top};
 /// An effect that the solver knows. One that a scene does not call for costs it nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, strum::Display, strum::IntoStaticStr)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
 pub enum Effect {
     /// `g > 0`.
-    #[strum(serialize = "gravity")]
     Gravity,
     /// `r > 0`.
-    #[strum(serialize = "damping")]
     Damping,
     /// The ground pushes and never pulls: in every scene.
-    #[strum(serialize = "unilateral_contact")]
     UnilateralContact,
     /// Several contacts.
-    #[strum(serialize = "repeated_impacts")]
     RepeatedImpacts,
     /// The top does not move.
-    #[strum(serialize = "fixed_top")]
     FixedTop,
     /// The undeformed rod starts above the ground.
-    #[strum(serialize = "initial_gap")]
     InitialGap,
     /// The rod starts deformed or above the ground, by a profile.
-    #[strum(serialize = "initial_strain")]
     InitialStrain,
     /// The rod starts with a velocity of its own at every point.
-    #[strum(serialize = "initial_velocity")]
     InitialVelocity,
     /// Modulus and density, with an area or for a unit of it, give forces and energies their units.
-    #[strum(serialize = "si_forces")]
     SiForces,
     /// Energies and the field at other times than the ends of contacts: what `sample` asks for.
-    #[strum(serialize = "field_energies")]
     FieldEnergies,
     /// Fractions or more bits than doubles have: what digits and fractions take.
-    #[strum(serialize = "arbitrary_precision")]
     ArbitraryPrecision,
 }
 
@@ -52,9 +42,7 @@ impl Effect {
     pub fn name(self) -> &'static str {
         self.into()
     }
-}
 
-impl Effect {
     /// Every effect that a scene can call for, in the order in which they are explained.
     pub const ALL: [Effect; 9] = [
         Effect::UnilateralContact,

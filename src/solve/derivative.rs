@@ -33,12 +33,11 @@ pub enum Derivative<S> {
 
 /// Reason for the absence of a derivative on a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum NoDerivative {
     /// Difference quotients grow without bound as steps shrink, but slower than the inverse step: next to a touch.
-    #[strum(serialize = "infinite")]
     Infinite,
     /// The number jumps, or belongs to another event.
-    #[strum(serialize = "jumps")]
     Jumps,
     /// The tried numbers do not determine the derivative; in fractions, first order does not.
     #[strum(serialize = "not settled")]
