@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::maps::maps;
 use crate::number::{Bounded, Scalar};
 use crate::reason::{Near, Reason, Warning};
 
@@ -122,35 +123,17 @@ pub struct StressPiece<S> {
     pub chebyshev: Vec<S>,
 }
 
-impl<S> Event<S> {
-    /// Converts the event to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Event<T> {
-        Event {
-            kind: self.kind,
-            t: f(self.t),
-            v_end: f(self.v_end),
-            h: f(self.h),
-            h_rate: f(self.h_rate),
-            t_error: self.t_error,
-        }
-    }
+maps!(pub Event { t, v_end, h, h_rate } keeps kind, t_error);
+maps!(pub Contact { impact, impulse, peak_strain } maps release);
+maps!(pub Energy { total, translational, vibrational });
 
+impl<S> Event<S> {
     pub(crate) fn numbers(&self) -> [&S; 4] {
         [&self.t, &self.v_end, &self.h, &self.h_rate]
     }
 }
 
 impl<S> Contact<S> {
-    /// Converts the contact to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Contact<T> {
-        Contact {
-            impact: f(self.impact),
-            release: self.release.map(&f),
-            impulse: f(self.impulse),
-            peak_strain: f(self.peak_strain),
-        }
-    }
-
     /// Returns the times of impact and release.
     pub fn times(&self) -> (&S, Option<&S>) {
         (&self.impact, self.release.as_ref())
@@ -175,11 +158,6 @@ impl<S: Clone> Contact<S> {
 }
 
 impl<S> Energy<S> {
-    /// Converts the energies to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Energy<T> {
-        Energy { total: f(self.total), translational: f(self.translational), vibrational: f(self.vibrational) }
-    }
-
     /// Returns the three numbers, in the order of the fields.
     pub fn numbers(&self) -> [&S; 3] {
         [&self.total, &self.translational, &self.vibrational]

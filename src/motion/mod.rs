@@ -3,6 +3,7 @@
 mod at_start;
 mod course;
 mod listed_rays;
+mod maps;
 pub(crate) mod moments;
 mod partition;
 mod query;
@@ -13,6 +14,7 @@ mod wave;
 
 pub(crate) use at_start::{AtStart, Datum, Segment};
 pub use course::{Contact, Course, Ending, Energy, Event, EventKind, Side, StressHistory, StressPiece};
+pub(crate) use maps::maps;
 pub(crate) use partition::partition;
 pub(crate) use query::by_time;
 pub use query::{Motion, Pair, Scales, unobserved};

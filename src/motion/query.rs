@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::maps::maps;
 use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
@@ -49,18 +50,7 @@ impl<S: Scalar> Scales<S> {
     }
 }
 
-impl<S> Scales<S> {
-    /// Converts the scales to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Scales<T> {
-        Scales {
-            time: f(self.time),
-            velocity: f(self.velocity),
-            length: f(self.length),
-            wave_speed: f(self.wave_speed),
-            gravity: f(self.gravity),
-        }
-    }
-}
+maps!(pub Scales { time, velocity, length, wave_speed, gravity });
 
 /// Two quantities at a time that an engine computes together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

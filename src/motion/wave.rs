@@ -2,6 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
+use super::maps::maps;
 use crate::number::Scalar;
 use crate::problem::Top;
 
@@ -16,12 +17,9 @@ pub struct Field<S> {
     pub strain: S,
 }
 
-impl<S> Field<S> {
-    /// Converts the field to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Field<T> {
-        Field { displacement: f(self.displacement), velocity: f(self.velocity), strain: f(self.strain) }
-    }
+maps!(pub Field { displacement, velocity, strain });
 
+impl<S> Field<S> {
     /// Returns displacement, velocity and strain.
     pub fn numbers(&self) -> [&S; 3] {
         [&self.displacement, &self.velocity, &self.strain]
@@ -80,18 +78,7 @@ pub struct Stretch<S> {
     pub strain: [S; 2],
 }
 
-impl<S> Stretch<S> {
-    /// Converts the stretch to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Stretch<T> {
-        Stretch {
-            from: f(self.from),
-            width: f(self.width),
-            displacement: f(self.displacement),
-            velocity: self.velocity.map(&f),
-            strain: self.strain.map(&f),
-        }
-    }
-}
+maps!(pub Stretch { from, width, displacement } maps velocity, strain);
 
 impl<S: Scalar> Stretch<S> {
     /// Returns `v` at the distance `way` above the lower end.
@@ -142,6 +129,8 @@ pub struct WavePiece<S> {
     pub slope: S,
 }
 
+maps!(pub WavePiece { from, sum, rate, slope });
+
 impl<S: Scalar> WavePiece<S> {
     /// Returns `P` and `P′` at `s`.
     pub fn at(&self, s: &S) -> (S, S) {
@@ -187,14 +176,8 @@ impl<S> Waves<S> {
 
     /// Returns the same waves in other numbers.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
-        let piece = |piece: WavePiece<S>| WavePiece {
-            from: f(piece.from),
-            sum: f(piece.sum),
-            rate: f(piece.rate),
-            slope: f(piece.slope),
-        };
         Waves {
-            pieces: self.pieces.into_iter().map(piece).collect(),
+            pieces: self.pieces.into_iter().map(|piece| piece.map(&f)).collect(),
             constant: f(self.constant),
             linear: f(self.linear),
             quadratic: f(self.quadratic),
@@ -224,12 +207,7 @@ pub struct Ray<S> {
     pub kink: S,
 }
 
-impl<S> Ray<S> {
-    /// Converts the ray to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Ray<T> {
-        Ray { from: f(self.from), to: f(self.to), up: self.up.map(&f), down: self.down.map(&f), kink: f(self.kink) }
-    }
-}
+maps!(pub Ray { from, to, kink } maps up, down);
 
 impl<S: Scalar> Ray<S> {
     /// Returns `([v_x], [v_t])` on the way up as a plane vector. **Accuracy**: rounded to doubles.

@@ -3,7 +3,7 @@
 use std::iter::once;
 
 use crate::error::Error;
-use crate::motion::{EventKind, Motion};
+use crate::motion::{EventKind, Motion, maps};
 use crate::number::Scalar;
 
 /// The coefficients of restitution `e_P` and `e_E²` of one contact, its end compared with its own beginning.
@@ -44,11 +44,9 @@ pub enum Undefined {
     NotPositiveBefore,
 }
 
-impl<S> Restitution<S> {
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Restitution<T> {
-        Restitution { e_p: self.e_p.map(&f), e_e2: self.e_e2.map(&f) }
-    }
+maps!(pub(crate) Restitution {} maps e_p, e_e2);
 
+impl<S> Restitution<S> {
     /// Returns every number in it.
     pub fn numbers(&self) -> Vec<&S> {
         self.e_p.iter().chain(&self.e_e2).collect()
@@ -115,16 +113,9 @@ pub struct Flight<S> {
     pub top: Option<S>,
 }
 
-impl<S> Flight<S> {
-    pub(crate) fn map<T>(self, f: impl Fn(S) -> T) -> Flight<T> {
-        Flight {
-            takeoff: f(self.takeoff),
-            landing: self.landing.map(&f),
-            top_time: self.top_time.map(&f),
-            top: self.top.map(f),
-        }
-    }
+maps!(pub(crate) Flight { takeoff } maps landing, top_time, top);
 
+impl<S> Flight<S> {
     /// Returns every number in them.
     pub(crate) fn numbers(flights: &[Self]) -> Vec<&S> {
         let numbers = flights.iter().flat_map(|Flight { takeoff, landing, top_time, top }| {
