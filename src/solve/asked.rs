@@ -4,17 +4,17 @@
 //! on it or after it. Such a query goes to longer runs, which are made for these times only and kept. If none of them
 //! decides, the answer covers both sides. All other times are answered directly.
 
+use std::convert::identity;
 use std::sync::{Arc, Mutex, OnceLock};
 
+use super::forwarded::forwarded;
 use super::ladder::Engined;
 use super::plan::Rung;
 use crate::error::Error;
 use crate::motion::moments::Moments;
-use crate::motion::{Course, Ending, Field, Motion, Pair, Ray, RayRegister, Scales, Side};
-use crate::motion::{StressPiece, Stretch, Waves};
+use crate::motion::{Course, Field, Motion, Pair, RayRegister, Scales, Side, Stretch};
 use crate::number::{Answer, Estimate, Rational, Rounded, Scalar, Spelling, spelled_as};
 use crate::problem::{Material, Problem, Start};
-use crate::reason::Warning;
 use crate::threads::locked;
 
 /// The rays of a motion: those of the start, and those of events whose times carry errors.
@@ -243,6 +243,8 @@ fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
 }
 
 impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
+    forwarded!(Estimate<S>, identity);
+
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {
         self.answer(&time.zero(), time, side, |engine, time, side| engine.strain(time, side), hull)
     }
@@ -294,53 +296,14 @@ impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
     fn scales(&self) -> Scales<Estimate<S>> {
         self.engine.scales()
     }
-    fn stress_pieces(&self) -> Vec<StressPiece<Estimate<S>>> {
-        self.engine.stress_pieces()
-    }
-    fn end(&self) -> Estimate<S> {
-        self.engine.end()
-    }
-    fn ending(&self) -> &Ending {
-        self.engine.ending()
-    }
-    fn contact_times(&self, contact: usize) -> Option<(Estimate<S>, Option<Estimate<S>>)> {
-        self.engine.contact_times(contact)
-    }
-    fn impulse(&self, contact: usize) -> Option<Estimate<S>> {
-        self.engine.impulse(contact)
-    }
-    fn warnings(&self) -> &[Warning] {
-        self.engine.warnings()
-    }
     fn rates(&self, places: &[(Estimate<S>, Estimate<S>)]) -> Result<Vec<[Estimate<S>; 2]>, Error> {
         self.engine.rates(places)
-    }
-    fn highest(&self, release: usize) -> Option<(Estimate<S>, Estimate<S>)> {
-        self.engine.highest(release)
-    }
-    fn rays(&self, trip: usize) -> Result<Vec<Ray<Estimate<S>>>, Error> {
-        self.engine.rays(trip)
-    }
-    fn departures(&self) -> Result<[Vec<(Estimate<S>, Estimate<S>)>; 2], Error> {
-        self.engine.departures()
     }
     fn stretches(&self, time: &Estimate<S>) -> Result<Vec<Stretch<Estimate<S>>>, Error> {
         self.engine.stretches(time)
     }
-    fn corners(&self) -> Vec<Estimate<S>> {
-        self.engine.corners()
-    }
     fn moments(&self, time: &Estimate<S>, points: &[Estimate<S>]) -> Result<Vec<Moments<Estimate<S>>>, Error> {
         self.engine.moments(time, points)
-    }
-    fn waves(&self) -> Result<Waves<Estimate<S>>, Error> {
-        self.engine.waves()
-    }
-    fn error_estimate(&self) -> Estimate<S> {
-        self.engine.error_estimate()
-    }
-    fn digits_lost(&self) -> Option<(u32, f64)> {
-        self.engine.digits_lost()
     }
 }
 

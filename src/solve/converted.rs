@@ -4,15 +4,14 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, Windows, not_told};
+use super::forwarded::forwarded;
 use super::ladder::Engined;
 use super::plan::{LONG, Plan};
 use super::question::Observer;
 use crate::error::Error;
 use crate::lattice::Undamped;
 use crate::motion::moments::{self, Moments};
-use crate::motion::{
-    Course, Field, Motion, Pair, Ray, RayRegister, Scales, Side, StressPiece, Stretch, Waves, by_time,
-};
+use crate::motion::{Course, Field, Motion, Pair, RayRegister, Scales, Side, Stretch, by_time};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
 use crate::problem::{Parameters, Problem};
 
@@ -269,12 +268,10 @@ fn array<S, const K: usize>(list: Vec<S>) -> [S; K] {
 }
 
 impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
+    forwarded!(M, M::read);
+
     fn course(&self) -> &Course<M> {
         &self.course
-    }
-
-    fn stress_pieces(&self) -> Vec<StressPiece<M>> {
-        self.engine.stress_pieces().into_iter().map(|piece| piece.map(M::read)).collect()
     }
 
     fn strain(&self, time: &M, side: Side) -> Result<M, Error> {
@@ -335,27 +332,10 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         Ok(self.engine.rates(&places)?.into_iter().map(|pair| pair.map(M::read)).collect())
     }
 
-    fn highest(&self, release: usize) -> Option<(M, M)> {
-        self.engine.highest(release).map(|(time, height)| (M::read(time), M::read(height)))
-    }
-
     fn may_jump(&self, time: &M) -> Result<bool, Error> {
         let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, time)?];
         // If an enclosure leaves this undecided, both sides are queried.
         Ok([ground, top].iter().any(|time| self.engine.may_jump(time).unwrap_or(true)))
-    }
-
-    fn rays(&self, trip: usize) -> Result<Vec<Ray<M>>, Error> {
-        Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(M::read)).collect())
-    }
-
-    fn departures(&self) -> Result<[Vec<(M, M)>; 2], Error> {
-        let read = |ray: (N, N)| (M::read(ray.0), M::read(ray.1));
-        Ok(self.engine.departures()?.map(|rays| rays.into_iter().map(read).collect()))
-    }
-
-    fn corners(&self) -> Vec<M> {
-        self.engine.corners().into_iter().map(M::read).collect()
     }
 
     fn stretches(&self, time: &M) -> Result<Vec<Stretch<M>>, Error> {
@@ -386,20 +366,8 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
         Ok((1..points.len()).map(|_| cell()).collect())
     }
 
-    fn waves(&self) -> Result<Waves<M>, Error> {
-        Ok(self.engine.waves()?.map(M::read))
-    }
-
     fn scales(&self) -> Scales<M> {
         self.scales.clone()
-    }
-
-    fn error_estimate(&self) -> M {
-        M::read(self.engine.error_estimate())
-    }
-
-    fn digits_lost(&self) -> Option<(u32, f64)> {
-        self.engine.digits_lost()
     }
 }
 

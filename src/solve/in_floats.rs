@@ -2,12 +2,12 @@
 
 use std::sync::OnceLock;
 
+use super::forwarded::forwarded;
 use super::ladder::Engined;
 use crate::error::Error;
 use crate::motion::moments::Moments;
-use crate::motion::{Course, Ending, Field, Motion, Pair, Ray, Scales, Side, StressPiece, Stretch, Waves};
+use crate::motion::{Course, Field, Motion, Pair, Scales, Side, Stretch};
 use crate::number::{Estimate, Float, Reads, Wide};
-use crate::reason::Warning;
 
 type Long = Estimate<Float>;
 
@@ -38,36 +38,14 @@ fn give_all<const N: usize>(numbers: &[Long]) -> Vec<Estimate<Wide<N>>> {
 }
 
 impl<const N: usize> Motion<Long> for InFloats<N> {
+    forwarded!(Long, read);
+
     fn course(&self) -> &Course<Long> {
         self.course.get_or_init(|| self.engine.course().clone().map(read))
     }
 
-    fn end(&self) -> Long {
-        read(self.engine.end())
-    }
-
-    fn ending(&self) -> &Ending {
-        self.engine.ending()
-    }
-
-    fn warnings(&self) -> &[Warning] {
-        self.engine.warnings()
-    }
-
-    fn contact_times(&self, contact: usize) -> Option<(Long, Option<Long>)> {
-        self.engine.contact_times(contact).map(|(impact, release)| (read(impact), release.map(read)))
-    }
-
-    fn impulse(&self, contact: usize) -> Option<Long> {
-        self.engine.impulse(contact).map(read)
-    }
-
     fn scales(&self) -> Scales<Long> {
         self.engine.scales().map(read)
-    }
-
-    fn stress_pieces(&self) -> Vec<StressPiece<Long>> {
-        self.engine.stress_pieces().into_iter().map(|piece| piece.map(read)).collect()
     }
 
     fn strain(&self, time: &Long, side: Side) -> Result<Long, Error> {
@@ -92,25 +70,8 @@ impl<const N: usize> Motion<Long> for InFloats<N> {
         Ok(rates.into_iter().map(|pair| pair.map(read)).collect())
     }
 
-    fn highest(&self, release: usize) -> Option<(Long, Long)> {
-        self.engine.highest(release).map(|(time, height)| (read(time), read(height)))
-    }
-
-    fn rays(&self, trip: usize) -> Result<Vec<Ray<Long>>, Error> {
-        Ok(self.engine.rays(trip)?.into_iter().map(|ray| ray.map(read)).collect())
-    }
-
     fn stretches(&self, time: &Long) -> Result<Vec<Stretch<Long>>, Error> {
         Ok(self.engine.stretches(&give(time))?.into_iter().map(|stretch| stretch.map(read)).collect())
-    }
-
-    fn departures(&self) -> Result<[Vec<(Long, Long)>; 2], Error> {
-        let read = |(time, jump): (Estimate<Wide<N>>, Estimate<Wide<N>>)| (read(time), read(jump));
-        Ok(self.engine.departures()?.map(|rays| rays.into_iter().map(read).collect()))
-    }
-
-    fn corners(&self) -> Vec<Long> {
-        self.engine.corners().into_iter().map(read).collect()
     }
 
     fn moments(&self, time: &Long, points: &[Long]) -> Result<Vec<Moments<Long>>, Error> {
@@ -120,17 +81,5 @@ impl<const N: usize> Motion<Long> for InFloats<N> {
 
     fn may_jump(&self, time: &Long) -> Result<bool, Error> {
         self.engine.may_jump(&give(time))
-    }
-
-    fn waves(&self) -> Result<Waves<Long>, Error> {
-        Ok(self.engine.waves()?.map(read))
-    }
-
-    fn error_estimate(&self) -> Long {
-        read(self.engine.error_estimate())
-    }
-
-    fn digits_lost(&self) -> Option<(u32, f64)> {
-        self.engine.digits_lost()
     }
 }

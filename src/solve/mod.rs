@@ -22,6 +22,7 @@ mod differences;
 mod engines;
 mod finer;
 mod foresee;
+mod forwarded;
 mod history;
 mod in_floats;
 mod interpolated;

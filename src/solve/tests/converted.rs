@@ -1,8 +1,9 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
-use crate::motion::Ending;
+use crate::motion::{Ending, StressPiece};
 use crate::number::{Estimate, Float};
+use crate::problem::Problem;
 
 type Long = Estimate<Float>;
 
