@@ -90,7 +90,7 @@ pub use reason::{Reason, Warning};
 #[cfg(feature = "mp")]
 pub use rug;
 pub use scene::{
-    ChainEffect, ChainScene, ChainTarget, Effect, EffectUse, Publication, Published, Scene, SceneError, Target, builtin,
+    ChainScene, ChainTarget, Effect, EffectUse, Publication, Published, Scene, SceneError, Target, builtin,
 };
 pub use solve::{Derivative, Engine, History, Numbers, Observer, Plan, Question, TypedHistory};
 

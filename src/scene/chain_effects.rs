@@ -1,26 +1,12 @@
 //! The effects that a chain calls for.
 
-use serde::Serialize;
-
 use super::chain::ChainScene;
+use super::effects::EffectUse;
 use crate::chain::{End, Joint};
-
-/// The use that a chain makes of one effect.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct ChainEffect {
-    /// The effect.
-    pub effect: &'static str,
-    /// Whether the chain calls for it.
-    pub called: bool,
-    /// The line of the scene that calls for it, from 1.
-    pub line: Option<usize>,
-    /// The reason, or the computation that is left out.
-    pub because: String,
-}
 
 impl ChainScene {
     /// Returns every effect of a chain, with the line that calls for it.
-    pub fn effects(&self) -> Vec<ChainEffect> {
+    pub fn effects(&self) -> Vec<EffectUse<&'static str>> {
         let chain = &self.chain;
         let bodies = chain.bodies().len();
         let first = |is: &dyn Fn(&Joint) -> bool| chain.joints().iter().position(is).map(|k| k + 1);
@@ -33,12 +19,7 @@ impl ChainScene {
         let mut add = |effect, key: Option<String>, because: String, otherwise: &str| {
             let called = key.is_some();
             let line = key.and_then(|key| self.line_of(&key).or_else(|| self.line_of(key.split('.').next()?)));
-            effects.push(ChainEffect {
-                effect,
-                called,
-                line,
-                because: if called { because } else { otherwise.into() },
-            });
+            effects.push(EffectUse { effect, called, line, because: if called { because } else { otherwise.into() } });
         };
         add("bodies", Some("body[0]".into()), format!("{bodies} bodies, from the bottom up"), "");
         add(

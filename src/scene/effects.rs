@@ -57,11 +57,11 @@ impl Effect {
     ];
 }
 
-/// The use that a scene makes of one effect.
+/// The use that a scene makes of one effect; those of a chain have names alone.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct EffectUse {
+pub struct EffectUse<E = Effect> {
     /// The effect.
-    pub effect: Effect,
+    pub effect: E,
     /// Whether the scene calls for it.
     pub called: bool,
     /// The line of the scene that decides so, from 1; `None` where it is so because nothing is said.

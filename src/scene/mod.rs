@@ -14,7 +14,6 @@ mod suggest;
 mod target;
 
 pub use chain::ChainScene;
-pub use chain_effects::ChainEffect;
 pub use effects::{Effect, EffectUse};
 pub use error::SceneError;
 pub use publication::Publication;

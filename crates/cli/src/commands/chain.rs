@@ -235,7 +235,7 @@ pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Dest
                 "cost": cost,
             })));
         }
-        let row = |effect: &dalembert::ChainEffect| {
+        let row = |effect: &dalembert::EffectUse<&str>| {
             let line = effect.line.map_or(Json::Null, Json::from);
             vec![
                 (Column::new("effect").text(), effect.effect.into()),
