@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::ladder::Ladder;
 use super::plan::{LONG, Lacks, Plan, Rung};
-use super::question::{Numbers, Observer};
+use super::question::Numbers;
 use crate::chain::{BodyMotion, Chain, ChainRun, Varied};
 use crate::error::Error;
 use crate::motion::{Ending, Event, Motion};
@@ -49,17 +50,12 @@ fn is_last(plan: &Plan, rung: Rung) -> bool {
     plan.next(rung, Lacks::Bits(f64::INFINITY)).is_none()
 }
 
-/// Returns the motion of the body that `problem` describes, from a run of its chain in the numbers `N`.
+/// Returns the motion of the body that the problem describes, from a run of its chain in the numbers `N`.
 ///
 /// **Errors**: those of the run; [`Error::NotDecided`] if longer numbers follow and this run does not decide its
 /// events, or if its fractions end.
-pub(super) fn motion<N: Bounded>(
-    problem: &Problem,
-    plan: &Plan,
-    at: (Rung, &N::Precision),
-    observe: &Observer,
-) -> Result<BodyMotion<N>, Error> {
-    let (rung, motion) = (at.0, open_motion::<N>(problem, plan, at, observe)?);
+pub(super) fn motion<N: Bounded>(ladder: Ladder<'_>, at: (Rung, &N::Precision)) -> Result<BodyMotion<N>, Error> {
+    let (plan, rung, motion) = (ladder.plan, at.0, open_motion::<N>(ladder, at)?);
     if !is_last(plan, rung) && motion.undetermined_from().is_some() {
         return Err(undecided(rung, "in which order the events come"));
     }
@@ -71,10 +67,8 @@ pub(super) fn motion<N: Bounded>(
 
 /// Returns [`motion`] also where it leaves decisions open.
 fn open_motion<N: Bounded>(
-    problem: &Problem,
-    plan: &Plan,
+    Ladder { problem, plan, observe }: Ladder<'_>,
     (rung, precision): (Rung, &N::Precision),
-    observe: &Observer,
 ) -> Result<BodyMotion<N>, Error> {
     if !CHAINS {
         return Err(Error::NoChains);
@@ -107,18 +101,13 @@ fn open_motion<N: Bounded>(
 
 /// Returns the motion in doubles where a picture is asked for and longer numbers leave a decision open: doubles with the
 /// same events, known to the accuracy of the picture, are right under the same condition, and answer many times as fast.
-pub(super) fn sketch(
-    problem: &Problem,
-    plan: &Plan,
-    long: &dyn Motion<Estimate<f64>>,
-    observe: &Observer,
-) -> Option<BodyMotion<Estimate<f64>>> {
-    let Numbers::Double(Some(accuracy)) = plan.numbers else { return None };
+pub(super) fn sketch(ladder: Ladder<'_>, long: &dyn Motion<Estimate<f64>>) -> Option<BodyMotion<Estimate<f64>>> {
+    let Numbers::Double(Some(accuracy)) = ladder.plan.numbers else { return None };
     let is_open = long.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));
     if accuracy < COARSE || !is_open {
         return None;
     }
-    let motion = open_motion(problem, plan, (Rung::Double, &()), observe).ok()?;
+    let motion = open_motion(ladder, (Rung::Double, &())).ok()?;
     let is_same = |(a, b): (&Event<Estimate<f64>>, &Event<Estimate<f64>>)| {
         a.kind == b.kind && (a.t.clone() - &b.t).vanishes() != Ok(false)
     };
@@ -129,16 +118,15 @@ pub(super) fn sketch(
     agrees.then_some(motion)
 }
 
-/// Returns the motion of the body that `problem` describes, in numbers that carry the rates at which they change as the
+/// Returns the motion of the body that the problem describes, in numbers that carry the rates at which they change as the
 /// problem changes to `further`, or away from it where the value `falls`.
 ///
 /// **Errors**: those of the run.
 pub(super) fn varied<N: Bounded>(
-    plan: &Plan,
-    [problem, further]: [&Problem; 2],
+    Ladder { problem, plan, observe }: Ladder<'_>,
+    further: &Problem,
     falls: bool,
     precision: &N::Precision,
-    observe: &Observer,
 ) -> Result<BodyMotion<N>, Error> {
     let (Some((chain, body)), Some((further, _))) = (problem.chain(), further.chain()) else {
         return Err(Error::NotDecided { what: "a chain without neighbours", bits: 0 });
@@ -151,11 +139,6 @@ pub(super) fn varied<N: Bounded>(
     Ok(BodyMotion::new(&chain, body, Arc::new(run)))
 }
 
-pub(super) fn engine<N: Bounded>(
-    problem: &Problem,
-    plan: &Plan,
-    at: (Rung, &N::Precision),
-    observe: &Observer,
-) -> Result<Arc<dyn Motion<N>>, Error> {
-    Ok(Arc::new(motion::<N>(problem, plan, at, observe)?))
+pub(super) fn engine<N: Bounded>(ladder: Ladder<'_>, at: (Rung, &N::Precision)) -> Result<Arc<dyn Motion<N>>, Error> {
+    Ok(Arc::new(motion::<N>(ladder, at)?))
 }

@@ -5,15 +5,14 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling, Windows, not_told};
 use super::forwarded::forwarded;
-use super::ladder::Engined;
-use super::plan::{LONG, Plan};
-use super::question::Observer;
+use super::ladder::{Engined, Ladder};
+use super::plan::LONG;
 use crate::error::Error;
 use crate::lattice::Undamped;
 use crate::motion::moments::{self, Moments};
 use crate::motion::{Course, Field, Motion, Pair, RayRegister, Scales, Side, Stretch, by_time};
 use crate::number::{Bounded, Estimate, Reads, Scalar, Spelling};
-use crate::problem::{Parameters, Problem};
+use crate::problem::Parameters;
 
 /// The history of an engine in numbers `N`, converted to numbers `M`.
 pub(super) struct Converted<N: Scalar, M> {
@@ -374,18 +373,16 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
 /// Returns the history in doubles, which answers faster than exact numbers, if all its coincidences are exact: then its
 /// answers are within their bounds. Otherwise returns the exact history.
 pub(super) fn confirmed<N: Bounded>(
-    problem: &Problem,
-    plan: &Plan,
+    ladder: Ladder<'_>,
     exact: Undamped<N>,
     longer: Longer<f64>,
-    observe: &Observer,
 ) -> Result<Engined<f64>, Error>
 where
     Estimate<f64>: Reads<N>,
 {
-    let mut doubles = plan.lattice::<Estimate<f64>>(problem, &(), observe)?;
+    let mut doubles = ladder.lattice::<Estimate<f64>>(&())?;
     Ok(if doubles.confirm(&exact) {
-        Telling::of(Arc::new(doubles), problem, Open::Ask(longer))
+        Telling::of(Arc::new(doubles), ladder.problem, Open::Ask(longer))
     } else {
         Arc::new(Converted::new(Arc::new(exact)))
     })

@@ -1,5 +1,6 @@
 //! Derivatives of the numbers of a history with respect to a value of the problem, from both sides.
 
+use super::ladder::Ladder;
 use super::plan::{Plan, Rung};
 use super::question::{Observer, Want};
 use crate::error::Error;
@@ -120,7 +121,12 @@ pub(super) struct At<'a> {
     pub(super) side: Side,
 }
 
-impl Asked<'_> {
+impl<'a> Asked<'a> {
+    /// Returns the same plan for another problem.
+    pub(super) fn ladder(&self, problem: &'a Problem) -> Ladder<'a> {
+        Ladder { problem, plan: self.plan, observe: self.observe }
+    }
+
     /// Returns the numbers to be differentiated, in units of `problem`: a row for each entry of the list, or for each
     /// time and, within it, each point.
     pub(super) fn values<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Computed};
-use super::ladder::{Engined, Target};
+use super::ladder::{Engined, Ladder, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, LONG, LONGEST, Plan, Rung};
 use super::planned::estimates;
 use super::question::Observer;
@@ -17,41 +17,41 @@ use crate::problem::Problem;
 
 impl Target for f64 {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+        let ladder = Ladder { problem, plan, observe };
         if plan.engine == Engine::Chain {
             let engine = if rung == Rung::Double {
-                chain::motion::<Estimate<f64>>(problem, plan, (rung, &()), observe)?
+                chain::motion::<Estimate<f64>>(ladder, (rung, &()))?
             } else {
-                let run = long_chain(problem, plan, rung, observe)?;
+                let run = long_chain(ladder, rung)?;
                 // Without longer numbers the first attempt answers.
-                match LONG.then(|| chain::sketch(problem, plan, &*run, observe)).flatten() {
+                match LONG.then(|| chain::sketch(ladder, &*run)).flatten() {
                     Some(sketch) => sketch,
                     None => return Ok(run),
                 }
             };
             let rungs = plan.chain_rungs().into_iter().skip(1).collect();
-            let owned = (problem.clone(), plan.clone(), observe.clone());
-            let run = move |rung| long_chain(&owned.0, &owned.1, rung, &owned.2);
-            let longer = Longer::<f64> { rungs, exact_contacts: u32::MAX, run: Box::new(run) };
+            let longer = longer(ladder, rungs, u32::MAX, long_chain);
             return Ok(Telling::of(Arc::new(engine), problem, Open::Says(longer)));
         }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
-        let longer = longer(problem, plan, if exact { Rung::Double } else { rung }, observe);
+        let rungs = plan.telling(if exact { Rung::Double } else { rung });
+        let longer = longer(ladder, rungs, plan.climb.exact_contacts.unwrap_or(0), long_rod);
         match rung {
             Rung::Double => {}
             Rung::Fractions => {
-                let exact = match plan.lattice::<Rational>(problem, &(), observe) {
+                let exact = match ladder.lattice::<Rational>(&()) {
                     Err(Error::Irrational { .. }) => None,
                     exact => Some(exact?).filter(|exact| !matches!(exact.ending(), Ending::ExactnessEnds { .. })),
                 };
                 let exact = exact.ok_or(Error::NotDecided { what: "by fractions", bits: 0 })?;
-                return confirmed(problem, plan, exact, longer, observe);
+                return confirmed(ladder, exact, longer);
             }
-            rung if rung.bits() <= LONGEST => return long::in_doubles(problem, plan, (rung, longer), observe),
+            rung if rung.bits() <= LONGEST => return long::in_doubles(ladder, rung, longer),
             _ => return Err(not_in_doubles()),
         }
         let problem = &*plan.reaching(problem);
-        let task = plan.task::<f64>(problem, &(), rung, observe);
+        let task = Ladder { problem, ..ladder }.task::<f64>(&(), rung);
         let engine = estimates(plan, &task, rung.bits(), |march| march())?;
         Ok(Telling::of(engine, problem, Open::Ask(longer)))
     }
@@ -78,12 +78,10 @@ impl Target for f64 {
 }
 
 /// Makes an attempt at a chain in fractions or in more bits than doubles have, converted to doubles.
-fn long_chain(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+fn long_chain(ladder: Ladder<'_>, rung: Rung) -> Result<Engined<f64>, Error> {
     match rung {
-        Rung::Fractions => {
-            Ok(Arc::new(Converted::new(chain::engine::<Rational>(problem, plan, (rung, &()), observe)?)))
-        }
-        rung if LONG => long::chain_in_doubles(problem, plan, rung, observe),
+        Rung::Fractions => Ok(Arc::new(Converted::new(chain::engine::<Rational>(ladder, (rung, &()))?))),
+        rung if LONG => long::chain_in_doubles(ladder, rung),
         _ => Err(not_in_doubles()),
     }
 }
@@ -95,10 +93,11 @@ fn not_in_doubles() -> Error {
 
 impl Target for Rational {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Rational>, Error> {
+        let ladder = Ladder { problem, plan, observe };
         if plan.engine == Engine::Chain {
-            return chain::engine::<Rational>(problem, plan, (rung, &()), observe);
+            return chain::engine::<Rational>(ladder, (rung, &()));
         }
-        Ok(Arc::new(plan.lattice::<Rational>(problem, &(), observe)?))
+        Ok(Arc::new(ladder.lattice::<Rational>(&())?))
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Rational>, Error> {
@@ -106,18 +105,23 @@ impl Target for Rational {
     }
 }
 
-/// Returns the runs that distinguish a time from an event or a ray if a run in `rung` does not: fractions for an
-/// undamped rod with few enough bounces, and runs with more and more bits.
-fn longer(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Longer<f64> {
-    let (rungs, exact_contacts) = (plan.telling(rung), plan.climb.exact_contacts.unwrap_or(0));
-    let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
-    let run = move |rung: Rung| match rung {
-        Rung::Fractions => {
-            let exact: Engined<Rational> = Arc::new(plan.lattice(&problem, &(), &observe)?);
-            Ok(Arc::new(Converted::new(exact)) as Engined<f64>)
-        }
-        rung if rung.bits() <= LONGEST => long::read(&problem, &plan, rung, &observe),
+/// Makes an attempt at a rod in fractions or in more bits than doubles have, converted to doubles.
+fn long_rod(ladder: Ladder<'_>, rung: Rung) -> Result<Engined<f64>, Error> {
+    match rung {
+        Rung::Fractions => Ok(Arc::new(Converted::new(Arc::new(ladder.lattice::<Rational>(&())?)))),
+        rung if rung.bits() <= LONGEST => long::read(ladder, rung),
         _ => Err(not_in_doubles()),
-    };
+    }
+}
+
+/// Returns the runs that distinguish a time from an event or a ray if an attempt does not: `run` makes those of `rungs`.
+fn longer(
+    Ladder { problem, plan, observe }: Ladder<'_>,
+    rungs: Vec<Rung>,
+    exact_contacts: u32,
+    run: fn(Ladder<'_>, Rung) -> Result<Engined<f64>, Error>,
+) -> Longer<f64> {
+    let (problem, plan, observe) = (problem.clone(), plan.clone(), observe.clone());
+    let run = move |rung| run(Ladder { problem: &problem, plan: &plan, observe: &observe }, rung);
     Longer { rungs, exact_contacts, run: Box::new(run) }
 }

@@ -5,14 +5,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use super::ladder::Target;
+use super::ladder::{Ladder, Target};
 use super::places::Places;
 use super::plan::{Engine, Plan};
-use super::question::{Numbers, Observer};
+use super::question::Numbers;
 use super::typed::TypedHistory;
 use crate::error::Error;
 use crate::number::{Estimate, Float, Interval, Number, Scalar, Spelling};
-use crate::problem::Problem;
 use crate::threads::locked;
 
 /// Maximum number of digits of a longer run, in which a number of more digits is rounded.
@@ -64,9 +63,8 @@ fn rounded_up(written: u32) -> u32 {
 /// **Errors**: [`Error::Interrupted`] by `observe`.
 fn run<S: Target>(
     kept: &Kept<S>,
-    (problem, plan): (&Problem, &Plan),
+    Ladder { problem, plan, observe }: Ladder<'_>,
     (digits, numbers): (u32, fn(u32) -> Numbers),
-    observe: &Observer,
 ) -> Result<Option<Arc<TypedHistory<S>>>, Error> {
     let mut kept = locked(kept);
     match &*kept {
@@ -89,11 +87,10 @@ impl Finer {
     /// **Errors**: [`Error::Interrupted`] by `observe`.
     pub(super) fn proved(
         &self,
-        problem: &Problem,
-        plan: &Plan,
-        observe: &Observer,
+        ladder: Ladder<'_>,
         written: u32,
     ) -> Result<Option<Arc<TypedHistory<Interval>>>, Error> {
+        let plan = ladder.plan;
         if plan.engine != Engine::Cells {
             return Ok(None);
         }
@@ -102,7 +99,7 @@ impl Finer {
             _ => PROVED_DIGITS,
         };
         let digits = if is_enclosed(written, asked) { asked } else { rounded_up(written).max(asked) };
-        run(&self.proved, (problem, plan), (digits, Numbers::Certified), observe)
+        run(&self.proved, ladder, (digits, Numbers::Certified))
     }
 
     /// Returns a run that holds numbers of this many digits.
@@ -110,14 +107,12 @@ impl Finer {
     /// **Errors**: [`Error::Interrupted`] by `observe`.
     pub(super) fn in_digits(
         &self,
-        problem: &Problem,
-        plan: &Plan,
-        observe: &Observer,
+        ladder: Ladder<'_>,
         written: u32,
     ) -> Result<Option<Arc<TypedHistory<Float>>>, Error> {
-        if matches!(plan.numbers, Numbers::Certified(_)) {
+        if matches!(ladder.plan.numbers, Numbers::Certified(_)) {
             return Ok(None);
         }
-        run(&self.digits, (problem, plan), (rounded_up(written), Numbers::Digits), observe)
+        run(&self.digits, ladder, (rounded_up(written), Numbers::Digits))
     }
 }

@@ -64,15 +64,14 @@ macro_rules! typed {
 /// history inside `$history`.
 macro_rules! typed_at {
     ($history:expr, $places:expr, $typed:ident => $body:expr) => {{
-        let (problem, plan) = ($history.problem(), $history.plan());
+        let ladder = typed!($history, history => history.ladder());
         let mut found = None;
-        if LONG && let Some(digits) = digits_beyond(plan, &$places) {
-            let observe = typed!($history, history => &history.observe);
-            if let Some($typed) = $history.finer.proved(problem, plan, observe, digits)? {
+        if LONG && let Some(digits) = digits_beyond(ladder.plan, &$places) {
+            if let Some($typed) = $history.finer.proved(ladder, digits)? {
                 found = answered((|| -> Result<_, Error> { $body })());
             }
             if found.is_none()
-                && let Some($typed) = $history.finer.in_digits(problem, plan, observe, digits)?
+                && let Some($typed) = $history.finer.in_digits(ladder, digits)?
             {
                 found = answered((|| -> Result<_, Error> { $body })());
             }

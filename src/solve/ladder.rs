@@ -6,9 +6,11 @@ use std::sync::Arc;
 use super::derivative::{Asked, Computed};
 use super::plan::{Engine, Goal, LONG, Lacks, Plan, Rung};
 use super::question::{Numbers, Observer, UNOBSERVED};
+use crate::cells::Task;
 use crate::error::Error;
+use crate::lattice::Undamped;
 use crate::motion::{Ending, Motion, Scales};
-use crate::number::{Answer, IntoValue, Scalar};
+use crate::number::{Answer, Bounded, IntoValue, Scalar};
 use crate::problem::Problem;
 use crate::reason::{Reason, Warning};
 
@@ -119,7 +121,19 @@ pub(crate) fn settled<S: Target, T, A>(
 /// Number of attempts, each with more bits, that may leave the same doubt before the doubt becomes the answer.
 const SAME_DOUBT: usize = 3;
 
-impl Ladder<'_> {
+impl<'a> Ladder<'a> {
+    /// Computes the history of an undamped rod.
+    pub(super) fn lattice<N: Bounded>(self, precision: &N::Precision) -> Result<Undamped<N>, Error> {
+        let Ladder { problem, plan, observe } = self;
+        Undamped::solve_within(&plan.reaching(problem), precision, plan.lattice_limits(problem), &**observe)
+    }
+
+    /// Returns the task of a damped march in the numbers of `rung`.
+    pub(super) fn task<S: Scalar>(self, precision: &'a S::Precision, rung: Rung) -> Task<'a, S> {
+        let Ladder { problem, plan, observe } = self;
+        Task { problem, precision, effort: plan.effort(rung), observe: &**observe }
+    }
+
     /// Returns the answer to `query`, settled by [`Ladder::settle`], and its attempt.
     pub(crate) fn ask<S: Target, T>(
         &self,

@@ -8,7 +8,7 @@ use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Computed};
 pub(super) use super::differences::of as quotients;
 use super::in_floats::in_floats;
-use super::ladder::{Engined, Target, needs_bits};
+use super::ladder::{Engined, Ladder, Target, needs_bits};
 use super::plan::{Engine, LONG, Lacks, MOST_PROVED, Plan, Rung};
 use super::planned::{self, March};
 use super::question::{Numbers, Observer};
@@ -45,19 +45,20 @@ macro_rules! in_numbers {
 
 impl Target for Float {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Float>, Error> {
+        let ladder = Ladder { problem, plan, observe };
         match rung {
             Rung::Bits(bits) if plan.engine == Engine::Chain => Ok(in_numbers!(
                 bits,
-                |S, precision| in_floats(chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?),
-                chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?
+                |S, precision| in_floats(chain::engine::<Estimate<S>>(ladder, (rung, precision))?),
+                chain::engine::<Estimate<S>>(ladder, (rung, precision))?
             )),
-            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?))),
+            Rung::Enclosures(bits) => Ok(Arc::new(Converted::new(enclosures(ladder, bits)?))),
             rung => {
                 let bits = rung.bits();
                 let run: Engined<Float> = in_numbers!(
                     bits,
-                    |S, precision| in_floats(estimates::<S>(problem, plan, (bits, precision), observe)?),
-                    estimates::<S>(problem, plan, (bits, precision), observe)?
+                    |S, precision| in_floats(estimates::<S>(ladder, bits, precision)?),
+                    estimates::<S>(ladder, bits, precision)?
                 );
                 // An event of an undamped rod may be exactly at the queried time.
                 if plan.engine == Engine::Lattice {
@@ -81,7 +82,7 @@ const MOST_TIMES: u32 = 4;
 
 impl Target for Interval {
     fn run(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<Interval>, Error> {
-        enclosures(problem, plan, rung.bits(), observe)
+        enclosures(Ladder { problem, plan, observe }, rung.bits())
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Interval>, Error> {
@@ -90,52 +91,33 @@ impl Target for Interval {
 }
 
 /// Makes an attempt in more bits than doubles have, converted to doubles; `longer` answers undecided times.
-pub(super) fn in_doubles(
-    problem: &Problem,
-    plan: &Plan,
-    (rung, longer): (Rung, Longer<f64>),
-    observe: &Observer,
-) -> Result<Engined<f64>, Error> {
+pub(super) fn in_doubles(ladder: Ladder<'_>, rung: Rung, longer: Longer<f64>) -> Result<Engined<f64>, Error> {
     Ok(match rung {
-        Rung::Enclosures(bits) if LONG => Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)),
-        Rung::Confirmed(bits) if LONG => {
-            confirmed(problem, plan, roots(problem, plan, bits, observe)?, longer, observe)?
-        }
-        rung => Telling::of(read(problem, plan, rung, observe)?, problem, Open::Says(longer)),
+        Rung::Enclosures(bits) if LONG => Arc::new(Converted::new(enclosures(ladder, bits)?)),
+        Rung::Confirmed(bits) if LONG => confirmed(ladder, roots(ladder, bits)?, longer)?,
+        rung => Telling::of(read(ladder, rung)?, ladder.problem, Open::Says(longer)),
     })
 }
 
 /// Makes an attempt at a chain in more bits than doubles have, converted to doubles.
-pub(super) fn chain_in_doubles(
-    problem: &Problem,
-    plan: &Plan,
-    rung: Rung,
-    observe: &Observer,
-) -> Result<Engined<f64>, Error> {
+pub(super) fn chain_in_doubles(ladder: Ladder<'_>, rung: Rung) -> Result<Engined<f64>, Error> {
     if let Rung::Enclosures(bits) = rung {
-        return Ok(Arc::new(Converted::new(enclosures(problem, plan, bits, observe)?)));
+        return Ok(Arc::new(Converted::new(enclosures(ladder, bits)?)));
     }
     Ok(in_numbers!(rung.bits(), |S, precision| {
-        Arc::new(Converted::new(chain::engine::<Estimate<S>>(problem, plan, (rung, precision), observe)?))
+        Arc::new(Converted::new(chain::engine::<Estimate<S>>(ladder, (rung, precision))?))
     }))
 }
 
 /// Makes an attempt in this many bits, converted to doubles; it reports times that it does not decide.
-pub(super) fn read(problem: &Problem, plan: &Plan, rung: Rung, observe: &Observer) -> Result<Engined<f64>, Error> {
+pub(super) fn read(ladder: Ladder<'_>, rung: Rung) -> Result<Engined<f64>, Error> {
     let bits = rung.bits();
-    Ok(in_numbers!(bits, |S, precision| {
-        Arc::new(Converted::new(estimates::<S>(problem, plan, (bits, precision), observe)?))
-    }))
+    Ok(in_numbers!(bits, |S, precision| Arc::new(Converted::new(estimates::<S>(ladder, bits, precision)?))))
 }
 
-fn estimates<S: RoundedSpecial>(
-    problem: &Problem,
-    plan: &Plan,
-    (bits, precision): (u32, &S::Precision),
-    observe: &Observer,
-) -> Result<Engined<S>, Error> {
-    let problem = &*plan.reaching(problem);
-    let task = plan.task::<S>(problem, precision, Rung::Bits(bits), observe);
+fn estimates<S: RoundedSpecial>(ladder: Ladder<'_>, bits: u32, precision: &S::Precision) -> Result<Engined<S>, Error> {
+    let (plan, problem) = (ladder.plan, &*ladder.plan.reaching(ladder.problem));
+    let task = Ladder { problem, ..ladder }.task::<S>(precision, Rung::Bits(bits));
     planned::estimates(plan, &task, bits, |march| marched(plan, &task, bits, march))
 }
 
@@ -164,21 +146,22 @@ fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Resul
 }
 
 /// Computes enclosures with exact roots inside, for an undamped rod.
-fn roots(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Undamped<Interval>, Error> {
-    plan.lattice(problem, &IntervalPrecision::with_exact(bits), observe)
+fn roots(ladder: Ladder<'_>, bits: u32) -> Result<Undamped<Interval>, Error> {
+    ladder.lattice(&IntervalPrecision::with_exact(bits))
 }
 
-fn enclosures(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
-    let problem = &*plan.reaching(problem);
+fn enclosures(ladder: Ladder<'_>, bits: u32) -> Result<Engined<Interval>, Error> {
+    let (plan, problem) = (ladder.plan, &*ladder.plan.reaching(ladder.problem));
+    let ladder = Ladder { problem, ..ladder };
     match plan.engine {
         Engine::Chain => {
             let precision = IntervalPrecision::with_exact(bits);
-            chain::engine::<Interval>(problem, plan, (Rung::Enclosures(bits), &precision), observe)
+            chain::engine::<Interval>(ladder, (Rung::Enclosures(bits), &precision))
         }
-        Engine::Lattice => Ok(Arc::new(roots(problem, plan, bits, observe)?)),
-        Engine::Cells if !problem.has_closed_form() => proved(problem, plan, bits, observe),
+        Engine::Lattice => Ok(Arc::new(roots(ladder, bits)?)),
+        Engine::Cells if !problem.has_closed_form() => proved(ladder, bits),
         // For more digits than a march can prove, the first contact provides all of them.
-        Engine::Cells if bits <= MOST_PROVED && bounces(problem, bits)? => match proved(problem, plan, bits, observe) {
+        Engine::Cells if bits <= MOST_PROVED && bounces(problem, bits)? => match proved(ladder, bits) {
             Err(Error::NotDecided { .. }) if last_proof(plan, bits) => contact(problem, bits),
             run => run,
         },
@@ -206,12 +189,13 @@ fn last_proof(plan: &Plan, bits: u32) -> bool {
 }
 
 /// Makes a proved damped run; returns an error first if more bits may prove more.
-fn proved(problem: &Problem, plan: &Plan, bits: u32, observe: &Observer) -> Result<Engined<Interval>, Error> {
+fn proved(ladder: Ladder<'_>, bits: u32) -> Result<Engined<Interval>, Error> {
+    let Ladder { problem, plan, .. } = ladder;
     if bits > MOST_PROVED {
         return Err(Error::Undecided { digits: plan.goal.digits as u32, bits: MOST_PROVED });
     }
     in_numbers!(bits, |S, precision| {
-        let run = prove::<S>(plan, &plan.task(problem, precision, Rung::Bits(bits), observe), bits)?;
+        let run = prove::<S>(plan, &ladder.task(precision, Rung::Bits(bits)), bits)?;
         if matches!(run.ending(), Ending::Unproved { .. }) && !last_proof(plan, bits) {
             return Err(Error::NotDecided { what: "what happens at the ground", bits });
         }

@@ -4,12 +4,12 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use super::question::{Numbers, Observer, Question, Want};
+use super::question::{Numbers, Question, Want};
 use super::{chain, foresee};
-use crate::cells::{Effort, MOST_DIGITS, Task};
+use crate::cells::{Effort, MOST_DIGITS};
 use crate::error::Error;
-use crate::lattice::{Limits, Undamped};
-use crate::number::{Bounded, Number, Scalar, bits_for_digits};
+use crate::lattice::Limits;
+use crate::number::{Number, bits_for_digits};
 use crate::problem::validate::check_time;
 use crate::problem::{Parameters, Problem, Run};
 use crate::reason::Warning;
@@ -517,7 +517,7 @@ impl Plan {
 
     /// Returns the limits of a damped march in the numbers of `rung`. A run that has lost its events is useless if
     /// longer numbers follow.
-    fn effort(&self, rung: Rung) -> Effort {
+    pub(super) fn effort(&self, rung: Rung) -> Effort {
         let CellLimits { double_digits, double_cells, long_cells, .. } = self.cells.unwrap_or(CELLS);
         let (digits, cells) = match rung {
             Rung::Bits(bits) | Rung::Enclosures(bits) => {
@@ -552,29 +552,10 @@ impl Plan {
         if bits == first { all.min(series_digits(needed)) } else { all }
     }
 
-    pub(super) fn task<'a, S: Scalar>(
-        &self,
-        problem: &'a Problem,
-        precision: &'a S::Precision,
-        rung: Rung,
-        observe: &'a Observer,
-    ) -> Task<'a, S> {
-        Task { problem, precision, effort: self.effort(rung), observe: &**observe }
-    }
-
     /// Returns the warning that digits of a damped march in this many bits are not proved.
     pub(super) fn not_proved(&self, rung: Rung) -> Option<Warning> {
         let digits = self.cells.is_some() && matches!(self.numbers, Numbers::Digits(_));
         (digits && rung.bits() > MOST_PROVED).then_some(Warning::NotProved { most: MOST_PROVED })
-    }
-
-    pub(super) fn lattice<N: Bounded>(
-        &self,
-        problem: &Problem,
-        precision: &N::Precision,
-        observe: &Observer,
-    ) -> Result<Undamped<N>, Error> {
-        Undamped::solve_within(&self.reaching(problem), precision, self.lattice_limits(problem), &**observe)
     }
 
     /// Returns the limits of an undamped march.

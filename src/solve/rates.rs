@@ -44,12 +44,10 @@ fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error>
         return Err(Error::Derivative { parameter: asked.by, expected });
     }
     let problem = &*asked.plan.reaching(asked.problem);
+    let ladder = asked.ladder(problem);
     let base = match asked.plan.engine {
-        Engine::Chain => {
-            let run = chain::engine::<Rational>(problem, asked.plan, (Rung::Fractions, &()), asked.observe)?;
-            asked.values(problem, &*run)?
-        }
-        _ => asked.values(problem, &asked.plan.lattice::<Rational>(problem, &(), asked.observe)?)?,
+        Engine::Chain => asked.values(problem, &*chain::engine::<Rational>(ladder, (Rung::Fractions, &()))?)?,
+        _ => asked.values(problem, &ladder.lattice::<Rational>(&())?)?,
     };
     let (right, mut settled) = with_rates(asked, problem, &value, 1)?;
     let left = match asked.by.only_grows(problem) {
@@ -148,7 +146,7 @@ fn with_rates<S: Bounded>(
     let further = &further.ok_or(Error::Derivative { parameter: asked.by, expected })?;
     let is_chain = asked.plan.engine == Engine::Chain;
     let motion: Box<dyn Motion<Dual<S>>> = match is_chain {
-        true => Box::new(chain::varied(asked.plan, [problem, further], sign < 0, &value.precision(), asked.observe)?),
+        true => Box::new(chain::varied(asked.ladder(problem), further, sign < 0, &value.precision())?),
         false => Box::new(lattice(asked, problem, value, &value.int(sign))?),
     };
     let powers = unit_powers(asked, [problem, further]);

@@ -101,6 +101,10 @@ impl<S: Target> TypedHistory<S> {
         self.current().engine.scales()
     }
 
+    pub(super) fn ladder(&self) -> Ladder<'_> {
+        Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe }
+    }
+
     fn current(&self) -> Attempt<S> {
         locked(&self.last).clone()
     }
@@ -140,8 +144,7 @@ impl<S: Target> TypedHistory<S> {
         let last = self.current();
         let rung = last.rung;
         let known = if self.first.rung == rung { vec![last] } else { vec![self.first.clone(), last] };
-        let ladder = Ladder { problem: &self.problem, plan: &self.plan, observe: &self.observe };
-        let (attempt, answer) = ladder.settle::<S>(known, query).map_err(|error| self.explained(error))?;
+        let (attempt, answer) = self.ladder().settle::<S>(known, query).map_err(|error| self.explained(error))?;
         if attempt.rung != rung && attempt.rung != self.first.rung {
             let before = std::mem::replace(&mut *locked(&self.last), attempt);
             let covered = before.engine.covered().map(|(times, _)| times);
