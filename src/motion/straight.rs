@@ -30,26 +30,16 @@ fn cut<S: Scalar>(piece: &StressPiece<S>, tolerance: f64, parts: &mut Vec<Stress
     let mut shares = Vec::new();
     halve(coefficients, (0.0, 1.0), tolerance, MOST_HALVINGS, &mut shares);
     shares.pop();
-    let (mut from, mut left) = (piece.start.clone(), piece.strain_start.clone());
-    for share in shares {
-        let to = (piece.end.clone() - &piece.start) * piece.start.double(share) + &piece.start;
-        let right = piece.eval(&to);
-        parts.push(StressPiece {
-            start: from,
-            end: to.clone(),
-            strain_start: left,
-            strain_end: right.clone(),
-            chebyshev: Vec::new(),
-        });
-        (from, left) = (to, right);
+    let cut = |share| {
+        let time = (piece.end.clone() - &piece.start) * piece.start.double(share) + &piece.start;
+        (piece.eval(&time), time)
+    };
+    let (mut strain_start, mut start) = (piece.strain_start.clone(), piece.start.clone());
+    for (strain, time) in shares.into_iter().map(cut).chain([(piece.strain_end.clone(), piece.end.clone())]) {
+        let (strain_end, end, chebyshev) = (strain.clone(), time.clone(), Vec::new());
+        parts.push(StressPiece { start, end, strain_start, strain_end, chebyshev });
+        (strain_start, start) = (strain, time);
     }
-    parts.push(StressPiece {
-        start: from,
-        end: piece.end.clone(),
-        strain_start: left,
-        strain_end: piece.strain_end.clone(),
-        chebyshev: Vec::new(),
-    });
 }
 
 /// Appends the ends, from left to right, of the parts whose chords are within the tolerance of the polynomial with

@@ -59,41 +59,26 @@ macro_rules! parameters {
                 Parameter::Displacement(None), Parameter::Strain(None), Parameter::Velocity(None),
             ];
 
-            const fn names(self) -> Names {
+            fn names(self) -> Names {
+                let names = |path, field, noun, synonyms: &'static [&'static str]| {
+                    Names { path, field, noun, synonyms, is_differentiable: true }
+                };
                 match self {
-                    $(Parameter::$parameter => {
-                        Names {
-                            path: $path,
-                            field: stringify!($field),
-                            noun: $noun,
-                            synonyms: &$synonyms,
-                            is_differentiable: parameters!(differentiable $kind),
-                        }
-                    })+
-                    Parameter::Displacement(_) => Names {
-                        path: "start.displacement",
-                        field: "displacement",
-                        noun: "a displacement",
-                        synonyms: &["u", "v", "deformation", "position"],
-                        is_differentiable: true,
-                    },
-                    Parameter::Strain(_) => Names {
-                        path: "start.strain",
-                        field: "strain",
-                        noun: "a strain",
-                        synonyms: &["prestrain", "initial_strain", "v_x", "u_x"],
-                        is_differentiable: true,
-                    },
-                    Parameter::Velocity(_) => Names {
-                        path: "start.velocity",
-                        field: "velocity",
-                        noun: "a velocity",
-                        synonyms: &[],
-                        is_differentiable: true,
-                    },
+                    $(Parameter::$parameter => Names {
+                        is_differentiable: parameters!(differentiable $kind),
+                        ..names($path, stringify!($field), $noun, &$synonyms)
+                    },)+
+                    Parameter::Displacement(_) => {
+                        let synonyms = &["u", "v", "deformation", "position"];
+                        names("start.displacement", "displacement", "a displacement", synonyms)
+                    }
+                    Parameter::Strain(_) => {
+                        names("start.strain", "strain", "a strain", &["prestrain", "initial_strain", "v_x", "u_x"])
+                    }
+                    Parameter::Velocity(_) => names("start.velocity", "velocity", "a velocity", &[]),
                     Parameter::OfChain(parameter) => {
-                        let name = chain_path(parameter.value());
-                        Names { path: name, field: name, noun: "a value", synonyms: &[], is_differentiable: true }
+                        let path = chain_path(parameter.value());
+                        names(path, path, "a value", &[])
                     }
                 }
             }
@@ -283,7 +268,7 @@ fn chain_nearest(text: &str) -> Option<String> {
 }
 
 /// Returns the path of a value of a chain without its place.
-const fn chain_path(value: ChainValue) -> &'static str {
+fn chain_path(value: ChainValue) -> &'static str {
     match value {
         ChainValue::Length => "body.length",
         ChainValue::WaveSpeed => "body.wave_speed",

@@ -185,15 +185,10 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 
     /// Returns the time for a query at `point`: the time of a ray there if only roundings of `M` separate a computed
-    /// time from it.
+    /// time from it. With more digits than a double, the point is only `near` the spelled one.
     ///
     /// **Errors**: the time is indistinguishable from another event or ray.
-    fn time_at(&self, point: &N, time: &M) -> Result<N, Error> {
-        self.time_at_point(point, false, time)
-    }
-
-    /// Returns the same time for a point that, with more digits than a double, is only `near` the spelled point.
-    fn time_at_point(&self, point: &N, near: bool, time: &M) -> Result<N, Error> {
+    fn time_at(&self, point: &N, near: bool, time: &M) -> Result<N, Error> {
         self.finite(time)?;
         if let Some(known) = self.known(time) {
             return Ok(known);
@@ -224,7 +219,7 @@ impl<N: Scalar, M: Reads<N>> Converted<N, M> {
     }
 
     fn time_at_ground(&self, time: &M) -> Result<N, Error> {
-        self.time_at(&self.engine.end().zero(), time)
+        self.time_at(&self.engine.end().zero(), false, time)
     }
 
     /// Returns the numbers of `ask` for the ground at a time, or at that of an event or ray within roundings of it.
@@ -292,7 +287,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     fn field(&self, point: &M, time: &M, side: Side) -> Result<Field<M>, Error> {
         let mut given = self.point(point)?;
         let near = point.spelled_as() == Some(Spelling::Near);
-        let at = self.time_at_point(&given, near, time)?;
+        let at = self.time_at(&given, near, time)?;
         // The engine knows the time of its own event or end, while the point was rounded: it is moved onto the ray that
         // passes it. The page, which has no long numbers, has no room for this.
         let is_end = |point: &N| point.vanishes() == Ok(true) || self.engine.scales().length.alike(point);
@@ -332,7 +327,7 @@ impl<N: Scalar, M: Reads<N>> Motion<M> for Converted<N, M> {
     }
 
     fn may_jump(&self, time: &M) -> Result<bool, Error> {
-        let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, time)?];
+        let [ground, top] = [self.time_at_ground(time)?, self.time_at(&self.engine.scales().length, false, time)?];
         // If an enclosure leaves this undecided, both sides are queried.
         Ok([ground, top].iter().any(|time| self.engine.may_jump(time).unwrap_or(true)))
     }
