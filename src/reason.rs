@@ -225,6 +225,17 @@ pub enum Near {
     End,
 }
 
+impl Near {
+    /// Returns the question that it leaves open.
+    pub(crate) fn question(self) -> &'static str {
+        match self {
+            Near::Touch => "whether the end touches the ground next",
+            Near::Release => "whether the end lets go of the ground next",
+            Near::End => "what follows the motion that has faded",
+        }
+    }
+}
+
 impl Warning {
     /// Whether more bits could settle it in a damped run.
     pub fn needs_bits(&self) -> bool {

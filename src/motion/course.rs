@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
+use thiserror::Error;
 
 use super::maps::maps;
 use crate::number::{Bounded, Scalar};
@@ -297,20 +298,26 @@ impl<S: Scalar> fmt::Display for StressHistory<S> {
 }
 
 /// Reason of the end of a history.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum Ending {
     /// The requested time.
+    #[error("the time asked for")]
     Time,
     /// The next impact after the requested contacts.
+    #[error("the impact after the last contact asked for")]
     NextImpact,
     /// No impact can follow, for the given reason.
+    #[error("no further impact: {0}")]
     NoFurtherImpact(Reason),
     /// No release can follow, for the given reason.
+    #[error("no bounce: {0}")]
     NoBounce(Reason),
     /// The rod has come to rest, by the given criterion. A history with a requested time reaches that time, here as
     /// well as with [`Ending::NoBounce`] and [`Ending::NoFurtherImpact`] once the motion has faded below the accuracy.
+    #[error("at rest: {0}")]
     Rest(Reason),
     /// The next event has an irrational time.
+    #[error("exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")]
     ExactnessEnds {
         /// The event.
         kind: EventKind,
@@ -320,8 +327,10 @@ pub enum Ending {
         near: f64,
     },
     /// The first bounce: no proof covers what follows.
+    #[error("the first bounce: whether and when the rod lands again is not proved")]
     Bounce,
     /// No proof covers what follows: no affordable number of bits decides whether a close event happens.
+    #[error("{} is not proved; velocities may differ by {differ:.1e} from there on", what.question())]
     Unproved {
         /// The undecided event.
         what: Near,
@@ -329,6 +338,7 @@ pub enum Ending {
         differ: f64,
     },
     /// The requested accuracy or effort does not decide what follows.
+    #[error("undecided: {0}")]
     Undecided(Reason),
 }
 
@@ -343,31 +353,6 @@ impl Ending {
         match self {
             Ending::ExactnessEnds { .. } => self.to_string(),
             reason => format!("ends at t = {end}: {reason}"),
-        }
-    }
-}
-
-impl fmt::Display for Ending {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Ending::Time => f.write_str("the time asked for"),
-            Ending::NextImpact => f.write_str("the impact after the last contact asked for"),
-            Ending::NoFurtherImpact(reason) => write!(f, "no further impact: {reason}"),
-            Ending::NoBounce(reason) => write!(f, "no bounce: {reason}"),
-            Ending::Rest(reason) => write!(f, "at rest: {reason}"),
-            Ending::ExactnessEnds { time, near, .. } => {
-                write!(f, "exactness ends before the impact at t = {time} ≈ {near}, which is no fraction")
-            }
-            Ending::Bounce => f.write_str("the first bounce: whether and when the rod lands again is not proved"),
-            Ending::Unproved { what, differ } => {
-                let open = match what {
-                    Near::Touch => "whether the end touches the ground next",
-                    Near::Release => "whether the end lets go of the ground next",
-                    Near::End => "what follows the motion that has faded",
-                };
-                write!(f, "{open} is not proved; velocities may differ by {differ:.1e} from there on")
-            }
-            Ending::Undecided(reason) => write!(f, "undecided: {reason}"),
         }
     }
 }

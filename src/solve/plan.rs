@@ -141,18 +141,23 @@ pub enum Reach {
 }
 
 /// The numbers of one attempt, in the order of their cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display)]
 #[serde(rename_all = "snake_case")]
 pub enum Rung {
     /// Doubles with their error bound.
+    #[strum(to_string = "doubles")]
     Double,
     /// Numbers of this many bits with their error bound.
+    #[strum(to_string = "numbers of {0} bits")]
     Bits(u32),
     /// Fractions.
+    #[strum(to_string = "fractions")]
     Fractions,
     /// Doubles, confirmed by enclosures of this many bits with the same events.
+    #[strum(to_string = "doubles that enclosures of {0} bits confirm")]
     Confirmed(u32),
     /// Enclosures of this many bits, with exact roots inside if the rod is undamped.
+    #[strum(to_string = "enclosures of {0} bits")]
     Enclosures(u32),
 }
 
@@ -629,18 +634,6 @@ impl std::fmt::Display for Reach {
             Reach::Contacts(contacts) => write!(f, "through {contacts} contacts and the flight after the last"),
             Reach::FirstContact => f.write_str("to the end of the first contact"),
             Reach::Time(time) => write!(f, "to t = {time}"),
-        }
-    }
-}
-
-impl std::fmt::Display for Rung {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Rung::Double => f.write_str("doubles"),
-            Rung::Bits(bits) => write!(f, "numbers of {bits} bits"),
-            Rung::Fractions => f.write_str("fractions"),
-            Rung::Confirmed(bits) => write!(f, "doubles that enclosures of {bits} bits confirm"),
-            Rung::Enclosures(bits) => write!(f, "enclosures of {bits} bits"),
         }
     }
 }

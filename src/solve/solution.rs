@@ -18,9 +18,10 @@ pub(super) enum Solution {
 }
 
 /// An event, a parameter or a signal that fractions cannot hold.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum ExactnessEnd {
     /// A parameter of the problem.
+    #[error("the {quantity} √({square}) is no fraction")]
     Parameter {
         /// Its name.
         quantity: &'static str,
@@ -28,19 +29,11 @@ pub enum ExactnessEnd {
         square: String,
     },
     /// The signals of springs, dashpots and masses, which are exponentials.
+    #[error("the signals of springs, dashpots and masses are no fractions")]
     Curves,
     /// An event, as [`Ending::ExactnessEnds`].
+    #[error("{0}")]
     Event(Ending),
-}
-
-impl std::fmt::Display for ExactnessEnd {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            ExactnessEnd::Parameter { quantity, square } => write!(f, "the {quantity} √({square}) is no fraction"),
-            ExactnessEnd::Curves => f.write_str("the signals of springs, dashpots and masses are no fractions"),
-            ExactnessEnd::Event(ending) => ending.fmt(f),
-        }
-    }
 }
 
 impl Plan {
