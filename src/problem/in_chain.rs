@@ -215,8 +215,8 @@ impl Problem {
         let uniform = |value: &Number| ends.iter().map(|x| (x.clone(), value.clone())).collect::<Vec<_>>();
         let down = |speed: &Number| {
             let negative = Number::of_rational(&-speed.to_rational());
-            let path = Parameter::ImpactSpeed.path();
-            let refused = || ProblemError::new(Kind::OutOfRange, path, format!("speed = {speed}"), "fewer digits");
+            let found = || format!("speed = {speed}");
+            let refused = || Parameter::ImpactSpeed.error(Kind::OutOfRange, found(), "fewer digits");
             Ok::<_, ProblemError>(uniform(&negative.ok_or_else(refused)?))
         };
         let mut strain = Vec::new();
@@ -303,13 +303,12 @@ impl Problem {
             return Ok(self);
         }
         if self.damping.is_some() {
-            let (path, found) = (Parameter::Damping.path(), "damping of a body of a chain");
-            return Err(ProblemError::new(Kind::Contradiction, path, found, "undamped bodies, or a single rod"));
+            let expected = "undamped bodies, or a single rod";
+            return Err(Parameter::Damping.error(Kind::Contradiction, "damping of a body of a chain", expected));
         }
         if !matches!(self.run, Run::Time(_)) {
             let found = "a number of impacts of a body of a chain";
-            let expected = "the last time of the run";
-            return Err(ProblemError::new(Kind::Contradiction, Parameter::Impacts.path(), found, expected));
+            return Err(Parameter::Impacts.error(Kind::Contradiction, found, "the last time of the run"));
         }
         if let Some((chain, _)) = self.chain() {
             chain.checked()?;

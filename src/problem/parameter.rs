@@ -4,7 +4,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Builder, Problem, Start, Written};
+use super::{Builder, Problem, ProblemError, ProblemErrorKind as Kind, Start, Written};
 use crate::chain::{ChainParameter, ChainValue};
 use crate::names::{UnknownName, nearest};
 use crate::number::Number;
@@ -163,6 +163,11 @@ impl Parameter {
     /// for one of its points.
     pub fn name(self) -> &'static str {
         self.names().field
+    }
+
+    /// Builds the error of its value in a problem.
+    pub(super) fn error(self, kind: Kind, found: impl Into<String>, expected: impl Into<String>) -> ProblemError {
+        ProblemError::new(kind, self.path(), found, expected)
     }
 
     /// Returns the kind of value, with its article: `a length`.

@@ -42,9 +42,8 @@ fn read(key: &str, points: &Points, length: &Number, over_ground: bool) -> Resul
         let before = i.checked_sub(1).map_or("", |before| &points[before].0.shown);
         let checked = point(key, x, v).and_then(|(number, value)| {
             if over_ground && i == 0 && key == "displacement" && value.to_f64() < 0.0 {
-                let (found, expected) =
-                    (format!("the displacement {} at x = 0", v.shown), "zero or more: the ground is at zero");
-                return Err(ProblemError::new(Kind::OutOfRange, "v", found, expected));
+                let found = format!("the displacement {} at x = 0", v.shown);
+                return Err(ProblemError::new(Kind::OutOfRange, "v", found, "zero or more: the ground is at zero"));
             }
             let misplaced = |expected: Cow<'static, str>| {
                 ProblemError::new(Kind::Profile, "x", format!("the point x = {} of the {key}", x.shown), expected)

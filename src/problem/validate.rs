@@ -25,7 +25,7 @@ pub(crate) fn check_time(time: &Number, shown: &str, t1: f64) -> Result<(), Prob
     }
     let found = format!("time = {shown}, which is {round_trips:e} round trips");
     let expected = format!("at most {MAX_ROUND_TRIPS:e} round trips of 2L/c");
-    Err(ProblemError::new(Kind::Combination, Parameter::Time.path(), found, expected))
+    Err(Parameter::Time.error(Kind::Combination, found, expected))
 }
 
 /// The values of a problem before any check.
@@ -64,7 +64,7 @@ impl Draft {
             (Some(c), None) => return Ok(Material::WaveSpeed(c.number.clone())),
             (Some(_), Some(other)) => {
                 let found = format!("{} as well as wave_speed", self.name(other));
-                return Err(ProblemError::new(Kind::Contradiction, other.path(), found, format!("either {EITHER}")));
+                return Err(other.error(Kind::Contradiction, found, format!("either {EITHER}")));
             }
             (None, None) => return Err(ProblemError::new(Kind::Missing, "rod", "no wave speed", EITHER)),
             (None, Some(_)) => {}
@@ -84,19 +84,14 @@ impl Draft {
         let positive = self.non_negative(Parameter::Stiffness)?;
         if positive.is_none() && self.in_chain.as_ref().is_some_and(|place| !place.is_damped()) {
             let found = "stiffness = 0 and no damping below the rod";
-            return Err(ProblemError::new(
-                Kind::Contradiction,
-                Parameter::Stiffness.path(),
-                found,
-                "one of them above zero",
-            ));
+            return Err(Parameter::Stiffness.error(Kind::Contradiction, found, "one of them above zero"));
         }
         let stiffness = positive.as_ref().map_or(&none, |given| given.number);
         let place = self.in_chain.as_ref().and_then(|place| place.with_stiffness(stiffness));
         place.map(Some).ok_or_else(|| {
             let found = "a stiffness of rigid ground";
             let expected = "a rod on a spring: a scene with [ground] stiffness, or Problem::on_spring";
-            ProblemError::new(Kind::Contradiction, Parameter::Stiffness.path(), found, expected)
+            Parameter::Stiffness.error(Kind::Contradiction, found, expected)
         })
     }
 
@@ -105,7 +100,7 @@ impl Draft {
         if let Some(impact) = IMPACT.iter().find(|parameter| self.has(**parameter)) {
             let found = format!("{} of a body of a chain", self.name(*impact));
             let expected = "a velocity and a displacement of the start";
-            return Err(ProblemError::new(Kind::Contradiction, impact.path(), found, expected));
+            return Err(impact.error(Kind::Contradiction, found, expected));
         }
         profile::check(&self.profiles, length, false)
     }
@@ -142,27 +137,19 @@ impl Draft {
     fn above(&self, gap: &Given<'_>, t1: f64, g: f64) -> Result<Start, ProblemError> {
         let key = self.name(Parameter::ImpactSpeed);
         if self.has(Parameter::DropHeight) {
-            let (found, expected) = (
-                "gap as well as drop_height",
-                format!("gap with {key}; a rod dropped from rest at t = 0 has {key} = 0"),
-            );
-            return Err(ProblemError::new(Kind::Contradiction, Parameter::Gap.path(), found, expected));
+            let expected = format!("gap with {key}; a rod dropped from rest at t = 0 has {key} = 0");
+            return Err(Parameter::Gap.error(Kind::Contradiction, "gap as well as drop_height", expected));
         }
         if !self.has(Parameter::ImpactSpeed) {
             let expected = format!("{key} at t = 0 as well; zero for a rod dropped from rest");
-            return Err(ProblemError::new(
-                Kind::Missing,
-                Parameter::Gap.path(),
-                format!("gap without {key}"),
-                expected,
-            ));
+            return Err(Parameter::Gap.error(Kind::Missing, format!("gap without {key}"), expected));
         }
         let speed = match self.non_negative(Parameter::ImpactSpeed)? {
             None if g == 0.0 => {
                 let gravity = self.word("[gravity] with an acceleration above zero", "a gravity above zero");
                 let expected = format!("a speed above zero, or {gravity}: otherwise nothing moves");
                 let found = format!("{key} = 0 without gravity");
-                return Err(ProblemError::new(Kind::OutOfRange, Parameter::ImpactSpeed.path(), found, expected));
+                return Err(Parameter::ImpactSpeed.error(Kind::OutOfRange, found, expected));
             }
             given => given.map_or(Number::from(0), |given| given.number.clone()),
         };
@@ -191,13 +178,12 @@ impl Draft {
             (None, _) => {
                 let gravity = self.word("[gravity] with an acceleration", "a gravity");
                 let expected = format!("{gravity} above zero, or {key} in place of drop_height");
-                let found = "drop_height without gravity";
-                return Err(ProblemError::new(Kind::Missing, Parameter::DropHeight.path(), found, expected));
+                return Err(Parameter::DropHeight.error(Kind::Missing, "drop_height without gravity", expected));
             }
             (Some(_), Some(_)) => {
-                let (found, expected) =
-                    (format!("drop_height as well as {key}"), format!("either {key} or drop_height"));
-                return Err(ProblemError::new(Kind::Contradiction, Parameter::DropHeight.path(), found, expected));
+                let found = format!("drop_height as well as {key}");
+                let expected = format!("either {key} or drop_height");
+                return Err(Parameter::DropHeight.error(Kind::Contradiction, found, expected));
             }
         };
         let value = given.value(g);
@@ -211,8 +197,8 @@ impl Draft {
     pub(super) fn run(&self, t1: f64) -> Result<Run, ProblemError> {
         if let Some(time) = self.positive(Parameter::Time)? {
             if self.has(Parameter::Impacts) {
-                let (found, expected) = ("impacts as well as time", "either time or impacts");
-                return Err(ProblemError::new(Kind::Contradiction, Parameter::Impacts.path(), found, expected));
+                let found = "impacts as well as time";
+                return Err(Parameter::Impacts.error(Kind::Contradiction, found, "either time or impacts"));
             }
             check_time(time.number, time.shown, t1)?;
             return Ok(Run::Time(time.number.clone()));
@@ -221,12 +207,7 @@ impl Draft {
         let whole = impacts.number.as_ref().ok().and_then(|number| number.to_string().parse().ok());
         whole.filter(|n| (1..=MAX_IMPACTS).contains(n)).map(Run::Impacts).ok_or_else(|| {
             let expected = format!("a whole number from 1 to {MAX_IMPACTS}");
-            ProblemError::new(
-                Kind::OutOfRange,
-                Parameter::Impacts.path(),
-                format!("impacts = {}", impacts.shown),
-                expected,
-            )
+            Parameter::Impacts.error(Kind::OutOfRange, format!("impacts = {}", impacts.shown), expected)
         })
     }
 
@@ -248,9 +229,8 @@ impl Draft {
 
     pub(super) fn required(&self, parameter: Parameter) -> Result<Given<'_>, ProblemError> {
         self.positive(parameter)?.ok_or_else(|| {
-            let (found, expected) =
-                (format!("no {}", self.name(parameter)), format!("{} above zero", parameter.noun()));
-            ProblemError::new(Kind::Missing, "rod", found, expected)
+            let expected = format!("{} above zero", parameter.noun());
+            ProblemError::new(Kind::Missing, "rod", format!("no {}", self.name(parameter)), expected)
         })
     }
 

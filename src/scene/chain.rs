@@ -428,12 +428,8 @@ impl<'a> Reader<'a> {
     fn started(&self, body: Body) -> Result<Body, SceneError> {
         let Some(speed) = self.table("impact").plain_number("speed")? else { return self.table("start").moving(body) };
         if let Some((key, _)) = self.get("start") {
-            return Err(self.error(
-                key.span(),
-                Kind::Contradiction,
-                "[start] beside the speed of [impact]",
-                "one of them",
-            ));
+            let found = "[start] beside the speed of [impact]";
+            return Err(self.error(key.span(), Kind::Contradiction, found, "one of them"));
         }
         let span = self.get("impact.speed").map_or(0..0, |(_, value)| value.span());
         let refused = || self.error(span, Kind::NotANumber, format!("speed = {speed}"), "a number of fewer digits");
@@ -488,12 +484,8 @@ impl<'a> Reader<'a> {
         };
         let points: Points = array.into_iter().map(point).collect::<Result<_, _>>()?;
         if points.is_empty() {
-            return Err(self.error(
-                value.span(),
-                Kind::Profile,
-                format!("no points of the {key}"),
-                "one point or more",
-            ));
+            let found = format!("no points of the {key}");
+            return Err(self.error(value.span(), Kind::Profile, found, "one point or more"));
         }
         Ok(points)
     }

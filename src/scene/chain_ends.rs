@@ -74,13 +74,8 @@ impl Reader<'_> {
         };
         let yielding = self.table("ground").spring(bodies[0])?;
         if below.is_some() && yielding.is_some() {
-            let expected = "a spring in one of both";
-            return Err(self.error(
-                key.span(),
-                Kind::Contradiction,
-                "[ground] with a spring beside that of the bottom",
-                expected,
-            ));
+            let found = "[ground] with a spring beside that of the bottom";
+            return Err(self.error(key.span(), Kind::Contradiction, found, "a spring in one of both"));
         }
         let bottom = match bottom {
             None => End::Ground { gap: 0.into(), velocity: ground },
