@@ -102,14 +102,14 @@ impl<N: BoundedSpecial> ContactHistory<N> {
     ///
     /// **Errors**: [`Error::NotDecided`] if an enclosure leaves open which of the two comes first.
     pub fn new(contact: FirstContact<N>, bounce: Bounce<N>, asked: Option<N>) -> Result<Self, Error> {
+        let (rebound, course) = (OnceLock::new(), OnceLock::new());
         let (until, ending) = match bounce {
             Bounce::At { time, trips, kind } => match &asked {
                 Some(asked) if open("whether the contact lasts so long", asked, asked.below(&time))? => {
                     (None, Ending::Time)
                 }
                 _ => {
-                    let (release, rebound, course) = (Some(kind), OnceLock::new(), OnceLock::new());
-                    let (end, ending, followed, rest) = (time, Ending::Bounce, trips, None);
+                    let (end, ending, followed, release, rest) = (time, Ending::Bounce, trips, Some(kind), None);
                     return Ok(ContactHistory { contact, end, ending, followed, release, rest, rebound, course });
                 }
             },
@@ -133,7 +133,6 @@ impl<N: BoundedSpecial> ContactHistory<N> {
             Some(rest) => contact.lattice(rest),
             None => trips_at(&contact, &end)?,
         };
-        let (rebound, course) = (OnceLock::new(), OnceLock::new());
         Ok(ContactHistory { contact, end, ending, followed, release: None, rest, rebound, course })
     }
 
@@ -266,15 +265,9 @@ impl<N: BoundedSpecial> Motion<N> for ContactHistory<N> {
         }
         if let Some(rest) = self.rest {
             let still = StaticState::of(&self.contact.rod).field(&self.end.zero()).strain;
-            let from = self.end.int(rest) * &self.contact.round_trip;
-            let (left, chebyshev) = (still.clone(), vec![still.clone()]);
-            pieces.push(StressPiece {
-                start: from,
-                end: self.end.clone(),
-                strain_start: left,
-                strain_end: still,
-                chebyshev,
-            });
+            let (start, end) = (self.end.int(rest) * &self.contact.round_trip, self.end.clone());
+            let (strain_start, chebyshev) = (still.clone(), vec![still.clone()]);
+            pieces.push(StressPiece { start, end, strain_start, strain_end: still, chebyshev });
         }
         pieces
     }

@@ -158,8 +158,17 @@ impl<'a> Asked<'a> {
         }
     }
 
+    /// Returns the numbers with the natural scale of each column.
+    pub(super) fn scaled<S: Scalar>(
+        &self,
+        problem: &Problem,
+        motion: &dyn Motion<S>,
+    ) -> Result<(Rows<S>, Vec<f64>), Error> {
+        Ok((self.values(problem, motion)?, self.scales(problem, motion)))
+    }
+
     /// Returns the natural scale of each column, in units of `problem`; ratios have a scale of about 1.
-    pub(super) fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
+    fn scales<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Vec<f64> {
         let units = Units::new(problem, UnitSystem::default());
         let time = motion.scales().time.to_f64();
         self.quantities

@@ -226,7 +226,7 @@ fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Resul
     let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
     let plan = Plan::of(problem, &question)?;
     let history = TypedHistory::<Float>::solve(problem, &plan, asked.observe.clone())?;
-    let query = |motion: &dyn Motion<Long>| Ok((asked.values(problem, motion)?, asked.scales(problem, motion)));
+    let query = |motion: &dyn Motion<Long>| asked.scaled(problem, motion);
     let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {

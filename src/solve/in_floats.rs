@@ -33,10 +33,6 @@ fn give<const N: usize>(number: &Long) -> Estimate<Wide<N>> {
     Reads::give(number, &())
 }
 
-fn give_all<const N: usize>(numbers: &[Long]) -> Vec<Estimate<Wide<N>>> {
-    numbers.iter().map(give).collect()
-}
-
 impl<const N: usize> Motion<Long> for InFloats<N> {
     forwarded!(Long, read);
 
@@ -75,7 +71,7 @@ impl<const N: usize> Motion<Long> for InFloats<N> {
     }
 
     fn moments(&self, time: &Long, points: &[Long]) -> Result<Vec<Moments<Long>>, Error> {
-        let cells = self.engine.moments(&give(time), &give_all(points))?;
+        let cells = self.engine.moments(&give(time), &points.iter().map(give).collect::<Vec<_>>())?;
         Ok(cells.into_iter().map(|cell| cell.map(|both| both.map(read))).collect())
     }
 

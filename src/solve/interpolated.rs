@@ -16,7 +16,6 @@ use super::question::Question;
 use crate::error::Error;
 use crate::motion::Motion;
 use crate::number::{Estimate, Number, Rational, Scalar};
-use crate::problem::Problem;
 use crate::threads::Threads;
 
 type Double = Estimate<f64>;
@@ -31,7 +30,7 @@ const BEND: f64 = 100.0;
 /// Computes the derivatives that are `asked` for from this `run` and three more; `None` if some are not settled.
 pub(super) fn of(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option<Derivatives<Double>>, Error> {
     let value = asked.by.value_in::<f64>(asked.problem, &())?;
-    let (base, scales) = rows(asked, asked.problem, &**run)?;
+    let (base, scales) = asked.scaled(asked.problem, &**run)?;
     let size = |(number, scale): (&Option<Double>, &f64)| {
         let number = number.as_ref()?;
         Some(number.bound() / number.value().abs().max(*scale))
@@ -62,10 +61,8 @@ fn with_step(
         let Some(problem) = asked.by.moved(asked.problem, &by) else { return Ok(Vec::new()) };
         let plan = Plan::of(&problem, &Question { want: asked.want.clone(), numbers: asked.plan.numbers })?;
         let ladder = Ladder { problem: &problem, plan: &plan, observe: asked.observe };
-        let found = ladder.ask::<f64, _>(
-            |motion| rows(asked, &problem, motion),
-            |(rows, _)| rows.iter().flatten().flatten().collect(),
-        )?;
+        let query = |motion: &dyn Motion<Double>| asked.scaled(&problem, motion);
+        let found = ladder.ask::<f64, _>(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
     // A run on the lattice takes less time than starting a thread.
@@ -83,11 +80,6 @@ fn with_step(
         Derivative::One(slope.unwrap_or_else(|| number.zero()))
     });
     Ok(settled.then_some(found))
-}
-
-/// Returns the numbers of a run, and the natural scale of each column.
-fn rows(asked: &Asked<'_>, problem: &Problem, motion: &dyn Motion<Double>) -> Result<(Rows<Double>, Vec<f64>), Error> {
-    Ok((asked.values(problem, motion)?, asked.scales(problem, motion)))
 }
 
 /// The positions of the runs.

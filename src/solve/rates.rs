@@ -104,7 +104,7 @@ pub(super) fn in_doubles(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Option
     }
     let problem = &*asked.plan.reaching(asked.problem);
     let (rows, settled) = with_rates(asked, problem, &value, 1)?;
-    let (base, scales) = (asked.values(problem, &**run)?, asked.scales(problem, &**run));
+    let (base, scales) = asked.scaled(problem, &**run)?;
     let mut settled = settled && base.len() == rows.len();
     let found = of_each(&base, |place, number| {
         let rate = at(&rows, place).filter(|there| there.value().same(number)).and_then(Dual::rate);
