@@ -372,20 +372,11 @@ pub struct Course<S> {
     pub warnings: Vec<Warning>,
 }
 
+maps!(pub Course { end } lists events, contacts keeps ending, warnings);
+
 impl<S> Course<S> {
     /// Returns a course without events, contacts and warnings.
     pub fn new(end: S, ending: Ending) -> Self {
         Course { end, ending, events: Vec::new(), contacts: Vec::new(), warnings: Vec::new() }
-    }
-
-    /// Converts the course to other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Course<T> {
-        Course {
-            end: f(self.end),
-            ending: self.ending,
-            events: self.events.into_iter().map(|event| event.map(&f)).collect(),
-            contacts: self.contacts.into_iter().map(|contact| contact.map(&f)).collect(),
-            warnings: self.warnings,
-        }
     }
 }

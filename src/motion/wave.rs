@@ -167,25 +167,13 @@ impl<S: Scalar> Waves<S> {
     }
 }
 
+maps!(pub Waves { constant, linear, quadratic, round_trip, wave_speed, length } lists pieces keeps top);
+
 impl<S> Waves<S> {
     /// Returns all numbers of both waves.
     pub fn numbers(&self) -> Vec<&S> {
         let pieces = self.pieces.iter().flat_map(|piece| [&piece.from, &piece.sum, &piece.rate, &piece.slope]);
         [&self.constant, &self.linear, &self.quadratic].into_iter().chain(pieces).collect()
-    }
-
-    /// Returns the same waves in other numbers.
-    pub fn map<T>(self, f: impl Fn(S) -> T) -> Waves<T> {
-        Waves {
-            pieces: self.pieces.into_iter().map(|piece| piece.map(&f)).collect(),
-            constant: f(self.constant),
-            linear: f(self.linear),
-            quadratic: f(self.quadratic),
-            top: self.top,
-            round_trip: f(self.round_trip),
-            wave_speed: f(self.wave_speed),
-            length: f(self.length),
-        }
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{Material, Problem, Speed, Start, Top};
 use crate::error::Error;
+use crate::motion::maps;
 use crate::number::{Answer, Number, Scalar};
 
 /// The parameters of a problem in one number system.
@@ -106,6 +107,8 @@ impl Problem {
     }
 }
 
+maps!(pub(crate) Parameters { length, wave_speed, damping, gravity, speed });
+
 impl<S: Answer> Parameters<S> {
     /// The same parameters, taken for exact, in the numbers that computations carry.
     ///
@@ -115,13 +118,7 @@ impl<S: Answer> Parameters<S> {
     /// assert_eq!(rod.carry().damping.error(), 0.0);
     /// ```
     pub fn carry(&self) -> Parameters<S::Carried> {
-        Parameters {
-            length: self.length.exactly(),
-            wave_speed: self.wave_speed.exactly(),
-            damping: self.damping.exactly(),
-            gravity: self.gravity.exactly(),
-            speed: self.speed.exactly(),
-        }
+        self.clone().map(|number| number.exactly())
     }
 }
 

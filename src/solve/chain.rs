@@ -118,8 +118,8 @@ pub(super) fn sketch(ladder: Ladder<'_>, long: &dyn Motion<Estimate<f64>>) -> Op
     agrees.then_some(motion)
 }
 
-/// Returns the motion of the body that the problem describes, in numbers that carry the rates at which they change as the
-/// problem changes to `further`, or away from it where the value `falls`.
+/// Returns the motion of the body that the problem describes, in numbers that carry the rates at which they change as
+/// the problem changes to `further`, or away from it where the value `falls`.
 ///
 /// **Errors**: those of the run.
 pub(super) fn varied<N: Bounded>(

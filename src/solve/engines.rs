@@ -114,7 +114,7 @@ fn long_rod(ladder: Ladder<'_>, rung: Rung) -> Result<Engined<f64>, Error> {
     }
 }
 
-/// Returns the runs that distinguish a time from an event or a ray if an attempt does not: `run` makes those of `rungs`.
+/// Returns the runs that distinguish a time from an event or a ray if an attempt does not: `run` makes them.
 fn longer(
     Ladder { problem, plan, observe }: Ladder<'_>,
     rungs: Vec<Rung>,

@@ -28,6 +28,9 @@ const ENCLOSED_DIGITS: u32 = 28;
 /// A run that is kept with its digits; `None` if it failed.
 type Kept<S> = Mutex<Option<(u32, Option<Arc<TypedHistory<S>>>)>>;
 
+/// The run that is found, if there is one.
+type Found<S> = Result<Option<Arc<TypedHistory<S>>>, Error>;
+
 /// The longest runs of a history so far.
 #[derive(Debug, Default)]
 pub(super) struct Finer {
@@ -65,7 +68,7 @@ fn run<S: Target>(
     kept: &Kept<S>,
     Ladder { problem, plan, observe }: Ladder<'_>,
     (digits, numbers): (u32, fn(u32) -> Numbers),
-) -> Result<Option<Arc<TypedHistory<S>>>, Error> {
+) -> Found<S> {
     let mut kept = locked(kept);
     match &*kept {
         Some((known, run)) if *known >= digits => Ok(run.clone()),
@@ -85,11 +88,7 @@ impl Finer {
     /// that it has do not tell a time from an event, and is many times as fast as a run in as many digits.
     ///
     /// **Errors**: [`Error::Interrupted`] by `observe`.
-    pub(super) fn proved(
-        &self,
-        ladder: Ladder<'_>,
-        written: u32,
-    ) -> Result<Option<Arc<TypedHistory<Interval>>>, Error> {
+    pub(super) fn proved(&self, ladder: Ladder<'_>, written: u32) -> Found<Interval> {
         let plan = ladder.plan;
         if plan.engine != Engine::Cells {
             return Ok(None);
@@ -105,11 +104,7 @@ impl Finer {
     /// Returns a run that holds numbers of this many digits.
     ///
     /// **Errors**: [`Error::Interrupted`] by `observe`.
-    pub(super) fn in_digits(
-        &self,
-        ladder: Ladder<'_>,
-        written: u32,
-    ) -> Result<Option<Arc<TypedHistory<Float>>>, Error> {
+    pub(super) fn in_digits(&self, ladder: Ladder<'_>, written: u32) -> Found<Float> {
         if matches!(ladder.plan.numbers, Numbers::Certified(_)) {
             return Ok(None);
         }
