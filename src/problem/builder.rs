@@ -72,20 +72,16 @@ impl Builder {
 
     /// Sets the start.
     #[must_use]
-    pub fn start(self, start: Start) -> Self {
+    pub fn start(mut self, start: Start) -> Self {
         match start {
             Start::Uniform(Speed::Given(speed)) => self.impact_speed(speed),
             Start::Uniform(Speed::DropHeight(height)) => self.drop_height(height),
             Start::Above { gap, speed } => self.gap(gap).impact_speed(speed),
             Start::Profile(Profile { displacement, strain, velocity }) => {
-                let mut builder = self;
-                if !displacement.is_empty() {
-                    builder = builder.displacement(displacement);
-                }
-                if !strain.is_empty() {
-                    builder = builder.strain(strain);
-                }
-                if velocity.is_empty() { builder } else { builder.velocity(velocity) }
+                let lists = Parameter::LISTS.into_iter().zip([displacement, strain, velocity]);
+                let given = lists.filter(|(_, points)| !points.is_empty());
+                self.draft.profiles.extend(given.map(|(list, points)| (list, written(points))));
+                self
             }
         }
     }

@@ -203,25 +203,18 @@ impl<'a> Ladder<'a> {
                     }
                     let climbs = open && doubts.len() < SAME_DOUBT;
                     let tried = tried || open && !climbs;
-                    let reached = Some((Attempt { rung, engine, tried, farthest: last }, answer));
-                    match reached {
-                        Some(settled) if (missing <= 0.0 || stuck) && !coincides && !climbs || last => {
-                            return Ok(settled);
+                    let (attempt, settled) = (Attempt { rung, engine, tried, farthest: last }, missing <= 0.0);
+                    if last || (settled || stuck) && !coincides && !climbs {
+                        return Ok((attempt, answer));
+                    }
+                    if settled && !climbs {
+                        reserve = Some((attempt, answer));
+                        Lacks::Exactness
+                    } else {
+                        if climbs || rung == Rung::Double {
+                            kept = Some((attempt, answer, settled));
                         }
-                        _ if climbs => {
-                            kept = reached.map(|(attempt, answer)| (attempt, answer, missing <= 0.0));
-                            Lacks::Bits(f64::INFINITY)
-                        }
-                        _ if missing <= 0.0 => {
-                            reserve = reached;
-                            Lacks::Exactness
-                        }
-                        _ => {
-                            if rung == Rung::Double {
-                                kept = reached.map(|(attempt, answer)| (attempt, answer, false));
-                            }
-                            Lacks::Bits(missing)
-                        }
+                        Lacks::Bits(if climbs { f64::INFINITY } else { missing })
                     }
                 }
                 Err(Error::NotDecided { .. } | Error::Open(_)) => Lacks::Bits(f64::INFINITY),
