@@ -62,7 +62,7 @@ fn with_step(
         let plan = Plan::of(&problem, &Question { want: asked.want.clone(), numbers: asked.plan.numbers })?;
         let ladder = Ladder { problem: &problem, plan: &plan, observe: asked.observe };
         let query = |motion: &dyn Motion<Double>| asked.scaled(&problem, motion);
-        let found = ladder.ask::<f64, _>(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
+        let found = ladder.ask::<f64, _>(Vec::new(), query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
         Ok::<Rows<Double>, Error>(found.1.0)
     };
     // A run on the lattice takes less time than starting a thread.

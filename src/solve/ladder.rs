@@ -41,7 +41,7 @@ impl Plan {
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
         let ladder = Ladder { problem, plan: self, observe: &UNOBSERVED };
-        ladder.ask::<S, T>(query, numbers).map(|(_, answer)| answer)
+        ladder.ask::<S, T>(Vec::new(), query, numbers).map(|(_, answer)| answer)
     }
 }
 
@@ -81,7 +81,7 @@ pub(crate) struct Attempt<S: Answer> {
 }
 
 /// Magnitude and error of a number of an answer, which determine whether it is settled.
-pub(crate) struct Size {
+struct Size {
     /// Magnitude as `log₂`.
     log2: f64,
     log2_error: f64,
@@ -100,23 +100,7 @@ fn sizes<S: Scalar>(numbers: Vec<&S>) -> Vec<Size> {
 
 /// The query that the ladder puts to each attempt. It returns the index of the answer, counted from 0, and the sizes of
 /// its numbers, so that the ladder is compiled once for all kinds of answers.
-pub(crate) type Query<'a, S> =
-    &'a mut dyn FnMut(&dyn Motion<<S as Answer>::Carried>) -> Result<(usize, Vec<Size>), Error>;
-
-/// Returns the answer to `query` that `settle` selects among those of its attempts, and its other result.
-pub(crate) fn settled<S: Target, T, A>(
-    query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
-    numbers: impl Fn(&T) -> Vec<&S::Carried>,
-    settle: impl FnOnce(Query<'_, S>) -> Result<(A, usize), Error>,
-) -> Result<(A, T), Error> {
-    let mut answers = Vec::with_capacity(1);
-    let (beside, chosen) = settle(&mut |engine| {
-        answers.push(query(engine)?);
-        let last = answers.len() - 1;
-        Ok((last, sizes(numbers(&answers[last]))))
-    })?;
-    Ok((beside, answers.swap_remove(chosen)))
-}
+type Query<'a, S> = &'a mut dyn FnMut(&dyn Motion<<S as Answer>::Carried>) -> Result<(usize, Vec<Size>), Error>;
 
 /// Number of attempts, each with more bits, that may leave the same doubt before the doubt becomes the answer.
 const SAME_DOUBT: usize = 3;
@@ -137,10 +121,17 @@ impl<'a> Ladder<'a> {
     /// Returns the answer to `query`, settled by [`Ladder::settle`], and its attempt.
     pub(crate) fn ask<S: Target, T>(
         &self,
+        known: Vec<Attempt<S>>,
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<(Attempt<S>, T), Error> {
-        settled::<S, T, _>(query, numbers, |query| self.settle::<S>(Vec::new(), query))
+        let mut answers = Vec::with_capacity(1);
+        let (attempt, chosen) = self.settle(known, &mut |engine| {
+            answers.push(query(engine)?);
+            let last = answers.len() - 1;
+            Ok((last, sizes(numbers(&answers[last]))))
+        })?;
+        Ok((attempt, answers.swap_remove(chosen)))
     }
 
     /// Settles the answer to `query`. The `known` attempts answer first, then attempts with more and more bits, until
@@ -149,11 +140,7 @@ impl<'a> Ladder<'a> {
     /// **Accuracy**: each number has the digits of the plan, or an error that many digits, plus the spare ones of the
     /// plan, below the greatest number of the answer. In doubles it is the best reachable accuracy, as its own bounds
     /// state.
-    pub(crate) fn settle<S: Target>(
-        &self,
-        known: Vec<Attempt<S>>,
-        query: Query<'_, S>,
-    ) -> Result<(Attempt<S>, usize), Error> {
+    fn settle<S: Target>(&self, known: Vec<Attempt<S>>, query: Query<'_, S>) -> Result<(Attempt<S>, usize), Error> {
         let tried = known.iter().any(|attempt| attempt.tried);
         let farthest = known.iter().find(|attempt| attempt.farthest).map(|attempt| attempt.rung);
         let mut known = known.into_iter().map(|attempt| (attempt.rung, Some(attempt.engine)));

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, OnceLock};
 
-use super::ladder::{Attempt, Ladder, Query, Target, settled};
+use super::ladder::{Attempt, Ladder, Target};
 use super::plan::{Plan, Rung};
 use super::question::{Numbers, Observer, Question};
 use crate::error::Error;
@@ -68,7 +68,7 @@ impl<S: Target> TypedHistory<S> {
             let (events, contacts) = if ask_events { (engine.events(), engine.contacts()) } else { Default::default() };
             Ok((engine.end(), events.to_vec(), contacts.to_vec()))
         };
-        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(query, |(end, events, contacts)| {
+        let (attempt, (end, events, contacts)) = ladder.ask::<S, _>(Vec::new(), query, |(end, events, contacts)| {
             let happens = events.iter().flat_map(Event::numbers).chain(contacts.iter().flat_map(Contact::numbers));
             std::iter::once(end).chain(happens).collect()
         })?;
@@ -136,21 +136,22 @@ impl<S: Target> TypedHistory<S> {
         query: impl Fn(&dyn Motion<S::Carried>) -> Result<T, Error>,
         numbers: impl Fn(&T) -> Vec<&S::Carried>,
     ) -> Result<T, Error> {
-        settled::<S, T, _>(query, numbers, |query| self.settle(query)).map(|((), answer)| answer)
+        let last = self.current();
+        let known = if self.first.rung == last.rung { vec![last] } else { vec![self.first.clone(), last] };
+        let answer = self.ladder().ask(known, query, numbers);
+        let (attempt, answer) = answer.map_err(|error| self.explained(error))?;
+        self.keep(attempt);
+        Ok(answer)
     }
 
-    /// Settles a query by the first attempt, or else from the last one on, and keeps the attempt that settled it.
-    fn settle(&self, query: Query<'_, S>) -> Result<((), usize), Error> {
-        let last = self.current();
-        let rung = last.rung;
-        let known = if self.first.rung == rung { vec![last] } else { vec![self.first.clone(), last] };
-        let (attempt, answer) = self.ladder().settle::<S>(known, query).map_err(|error| self.explained(error))?;
-        if attempt.rung != rung && attempt.rung != self.first.rung {
-            let before = std::mem::replace(&mut *locked(&self.last), attempt);
+    /// Keeps an attempt in other numbers than those of the first and the last one.
+    fn keep(&self, attempt: Attempt<S>) {
+        let mut last = locked(&self.last);
+        if attempt.rung != last.rung && attempt.rung != self.first.rung {
+            let before = std::mem::replace(&mut *last, attempt);
             let covered = before.engine.covered().map(|(times, _)| times);
             locked(&self.covered).extend(covered.into_iter().flatten());
         }
-        Ok(((), answer))
     }
 
     /// Adds to an error of a query the reason why the history ends before the requested time.
