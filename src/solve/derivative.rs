@@ -63,16 +63,6 @@ pub struct Computed<S> {
     pub(super) is_estimated: bool,
 }
 
-impl<S> Computed<S> {
-    pub(super) fn bounded(rows: Derivatives<S>) -> Self {
-        Computed { rows, is_estimated: false }
-    }
-
-    pub(super) fn estimated(rows: Derivatives<S>) -> Self {
-        Computed { rows, is_estimated: true }
-    }
-}
-
 /// Numbers by row and column; `None` for a missing number.
 pub(super) type Rows<S> = Vec<Vec<Option<S>>>;
 

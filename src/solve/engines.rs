@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::asked::{Longer, Open, Telling};
 use super::converted::{Converted, confirmed};
-use super::derivative::{Asked, Computed};
+use super::derivative::{Asked, Computed, Derivative};
 use super::ladder::{Engined, Ladder, Target};
 use super::plan::{DEFAULT_ACCURACY, Engine, LONG, LONGEST, Plan, Rung};
 use super::planned::estimates;
@@ -61,19 +61,18 @@ impl Target for f64 {
     fn derivatives(asked: &Asked<'_>, run: &Engined<f64>) -> Result<Computed<Estimate<f64>>, Error> {
         if asked.plan.goal.digits <= -DEFAULT_ACCURACY.log10() {
             for way in [rates::in_doubles, rates::by_fractions] {
-                if let Ok(Some(found)) = way(asked, run) {
-                    return Ok(Computed::bounded(found));
+                if let Ok(Some(rows)) = way(asked, run) {
+                    return Ok(Computed { rows, is_estimated: false });
                 }
             }
-            if let Ok(Some(found)) = interpolated::of(asked, run) {
-                return Ok(Computed::estimated(found));
+            if let Ok(Some(rows)) = interpolated::of(asked, run) {
+                return Ok(Computed { rows, is_estimated: true });
             }
         }
         let digits = asked.plan.goal.digits.ceil() as u32;
-        let found = long::quotients(asked, digits)?;
-        let rows =
-            found.into_iter().map(|row| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read))).collect());
-        Ok(Computed::estimated(rows.collect()))
+        let read = |row: Vec<Option<Derivative<_>>>| row.into_iter().map(|cell| cell.map(|it| it.map(Reads::read)));
+        let rows = long::quotients(asked, digits)?.into_iter().map(|row| read(row).collect()).collect();
+        Ok(Computed { rows, is_estimated: true })
     }
 }
 
@@ -101,7 +100,7 @@ impl Target for Rational {
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Rational>, Error> {
-        rates::in_fractions(asked).map(Computed::bounded)
+        rates::in_fractions(asked).map(|rows| Computed { rows, is_estimated: false })
     }
 }
 

@@ -267,7 +267,7 @@ impl History {
 
     /// Returns a time-dependent quantity at one time.
     pub fn at_time(&self, quantity: Quantity, time: impl Into<Written>, side: Side) -> Result<Value, Error> {
-        let time = List::Numbers(vec![written("time", time)?]);
+        let time = written("time", time)?;
         let mut columns = self.sample(&[quantity], &Places::from(&time), Some(side))?;
         Ok(columns.remove(0).remove(0))
     }
@@ -275,7 +275,6 @@ impl History {
     /// Returns `v`, `v_t`, `v_x` at `(x,t)`; on a ray, the limit from later times.
     pub fn at(&self, point: impl Into<Written>, time: impl Into<Written>) -> Result<Field<Value>, Error> {
         let (point, time) = (written("point", point)?, written("time", time)?);
-        let (point, time) = (List::Numbers(vec![point]), List::Numbers(vec![time]));
         let [displacement, velocity, strain] =
             self.sample_pairs(&Places::from(&point), &Places::from(&time), Side::Right)?.map(|mut list| list.remove(0));
         Ok(Field { displacement, velocity, strain })
@@ -283,7 +282,7 @@ impl History {
 
     /// Returns `E`, `E_h`, `E_z` at a time, in the units of the history.
     pub fn energy(&self, time: impl Into<Written>) -> Result<Energy<Value>, Error> {
-        let time = List::Numbers(vec![written("time", time)?]);
+        let time = written("time", time)?;
         let quantities = [Quantity::Energy, Quantity::TranslationalEnergy, Quantity::VibrationalEnergy];
         let columns = self.sample(&quantities, &Places::from(&time), Some(Side::Right))?;
         let [total, translational, vibrational] = [0, 1, 2].map(|k| columns[k][0].clone());
@@ -387,11 +386,8 @@ impl History {
             let lists = [Table::Events, Table::Contacts, Table::Flights].map(Table::quantities);
             let (_, rows, curve, kinds) = history.ask(
                 |motion| {
-                    let rows = [
-                        quantity::rows(motion, lists[0])?,
-                        quantity::rows(motion, lists[1])?,
-                        quantity::rows(motion, lists[2])?,
-                    ];
+                    let [events, contacts, flights] = lists.map(|quantities| quantity::rows(motion, quantities));
+                    let rows = [events?, contacts?, flights?];
                     let curve = if stress.is_some() { motion.stress_pieces() } else { Vec::new() };
                     let kinds: Vec<EventKind> = motion.events().iter().map(|event| event.kind).collect();
                     Ok((motion.end(), rows, curve, kinds))
@@ -509,10 +505,12 @@ impl History {
     }
 }
 
-/// Parses the number that `text` spells.
-fn written(quantity: &'static str, text: impl Into<Written>) -> Result<Number, Error> {
-    let text = text.into();
-    text.number().cloned().map_err(|error| Error::Spelling { quantity, error: error.clone() })
+/// Parses the number that `text` spells, as a list.
+fn written(quantity: &'static str, text: impl Into<Written>) -> Result<List, Error> {
+    match text.into().number() {
+        Ok(number) => Ok(List::Numbers(vec![number.clone()])),
+        Err(error) => Err(Error::Spelling { quantity, error: error.clone() }),
+    }
 }
 
 impl Plan {

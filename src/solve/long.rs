@@ -73,7 +73,8 @@ impl Target for Float {
     }
 
     fn derivatives(asked: &Asked<'_>, _: &Engined<Self>) -> Result<Computed<Estimate<Float>>, Error> {
-        quotients(asked, asked.plan.goal.digits.ceil() as u32).map(Computed::estimated)
+        let rows = quotients(asked, asked.plan.goal.digits.ceil() as u32)?;
+        Ok(Computed { rows, is_estimated: true })
     }
 }
 

@@ -7,7 +7,7 @@
 //!    loss of digits.
 //! 3. `engines`, `long`, `chain`: an attempt in doubles and fractions, in longer numbers and enclosures, and at a body
 //!    of a chain; `planned` runs an engine in numbers with a bound.
-//! 4. `converted`, `in_floats`: the attempt in the numbers of the question.
+//! 4. `converted`, `in_floats`: the attempt in the numbers of the question; `forwarded`: the questions that they hand on.
 //! 5. `asked`: times beside events and rays; `finer`: times with more digits than the numbers hold.
 //! 6. `ladder`: the attempt that settles the answer.
 //! 7. `typed`, `history`, `solution`: the answer in one number system, in values, and its end.
@@ -44,8 +44,7 @@ pub use ladder::Target;
 pub use places::Places;
 pub(crate) use plan::LONG;
 pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, Plan, Reach, Rung};
-pub use question::unobserved;
-pub use question::{ACCURACIES, MAX_DIGITS, Numbers, Observer, Question, Want};
+pub use question::{ACCURACIES, MAX_DIGITS, Numbers, Observer, Question, Want, unobserved};
 pub use sensitivity::Sensitivity;
 pub use solution::ExactnessEnd;
 pub use typed::TypedHistory;

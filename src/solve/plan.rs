@@ -230,7 +230,10 @@ impl Plan {
     /// **Errors**: [`Error::DampedExact`]; [`Error::Accuracy`]; [`Error::Digits`] for no digits or absurdly many.
     pub fn of(problem: &Problem, question: &Question) -> Result<Self, Error> {
         let numbers = question.numbers;
-        check(problem, numbers)?;
+        if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (problem.damping(), numbers) {
+            return Err(Error::DampedExact { damping: damping.to_string() });
+        }
+        numbers.check()?;
         let reach = match &question.want {
             Want::FirstContact | Want::Bounce if problem.in_chain.is_some() => Reach::run(problem),
             Want::Run => Reach::run(problem),
@@ -600,13 +603,6 @@ const SPARE_DIGITS: u32 = 8;
 /// Digits below the greatest number of the answer, beyond the requested ones, at which a proved number may keep fewer
 /// digits: if it is truly zero, no number of bits would give it any.
 const FLOOR_DIGITS: u32 = 30;
-
-fn check(problem: &Problem, numbers: Numbers) -> Result<(), Error> {
-    if let (Some(damping), Numbers::Exact | Numbers::ExactThenDigits(_)) = (problem.damping(), numbers) {
-        return Err(Error::DampedExact { damping: damping.to_string() });
-    }
-    numbers.check()
-}
 
 impl Rung {
     /// Returns the bits of the significand; those of a double for fractions.
