@@ -401,11 +401,11 @@ impl<S: RoundedSpecial> Motion<Estimate<S>> for Damped<S> {
         let rays: Vec<usize> = lines.iter().map(|(_, rays)| *rays).collect();
         let high = far(rays.iter().sum()) + length * left_out * most / c;
 
-        let known = |x: &S| Estimate::exact(x.clone());
         let starts = std::iter::once(height.zero()).chain(points.iter().cloned()).map(Estimate::exact);
+        let exactly = |node: moments::Node<S>| node.map(Estimate::exact);
         let sums =
-            lines.iter().zip(starts).map(|((nodes, _), from)| Sums::of(&from, nodes.iter().map(|n| n.map(known))));
-        let ends: Vec<_> = points.iter().map(known).collect();
+            lines.into_iter().zip(starts).map(|((nodes, _), from)| Sums::of(&from, nodes.into_iter().map(exactly)));
+        let ends: Vec<_> = points.iter().cloned().map(Estimate::exact).collect();
         let cells = moments::of_sums(sums.collect(), &ends, Estimate::exact(height)).into_iter();
         let cells = cells.zip(points.windows(2)).zip(&rays[1..]).map(|(([v, v_t, v_x], pair), rays)| {
             let width = (pair[1].clone() - &pair[0]).to_f64();

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::motion::partition;
-use crate::motion::{EventKind, Side};
+use crate::motion::{EventKind, Side, partition};
 use crate::number::{Bounded, Open, is_exact_zero};
 use crate::problem::Top;
 

@@ -1,6 +1,7 @@
 //! Integrals of the field over the cells of a grid, from polynomials between rays or from quadrature nodes.
 
 use super::Stretch;
+use super::maps::maps;
 use crate::error::Error;
 use crate::number::Scalar;
 
@@ -55,11 +56,7 @@ pub(crate) struct Node<S> {
     pub(crate) strain: S,
 }
 
-impl<S> Node<S> {
-    pub(crate) fn map<T>(&self, f: impl Fn(&S) -> T) -> Node<T> {
-        Node { weight: f(&self.weight), x: f(&self.x), velocity: f(&self.velocity), strain: f(&self.strain) }
-    }
-}
+maps!(pub(crate) Node { weight, x, velocity, strain });
 
 /// `∫ v_x (x − a)ⁿ dx` for n < 3 and `∫ v_t (x − a)ⁿ dx` for n < 2, over a cell that begins at a.
 #[derive(Clone, Debug)]

@@ -6,7 +6,6 @@ use super::maps::maps;
 use super::moments::{self, Moments};
 use super::{Contact, Course, Ending, Energy, Event, EventKind, Field, Ray, Side, StressPiece, Stretch, Waves};
 use crate::error::Error;
-use crate::motion::partition;
 use crate::number::Scalar;
 use crate::problem::Parameters;
 use crate::reason::Warning;
@@ -24,6 +23,18 @@ pub(crate) fn by_time<S: Scalar, T: Clone>(
         times.extend(places.iter().map(|_| time.clone()));
     }
     Ok(times)
+}
+
+/// Returns the number of leading items of `list` that have `passed`, by bisection.
+///
+/// **Errors**: the first one of `passed`.
+pub(crate) fn partition<T, E>(list: &[T], passed: impl Fn(&T) -> Result<bool, E>) -> Result<usize, E> {
+    let (mut from, mut to) = (0, list.len());
+    while from < to {
+        let middle = (from + to) / 2;
+        if passed(&list[middle])? { from = middle + 1 } else { to = middle }
+    }
+    Ok(from)
 }
 
 /// Natural scales of a motion, with which its quantities are compared.

@@ -96,13 +96,8 @@ impl Problem {
     pub fn dimensionless(&self) -> Dimensionless {
         let or_zero = |n: &Option<Number>| n.as_ref().map_or(0.0, Number::to_f64);
         let (t1, g) = (self.material.round_trip(&self.length), or_zero(&self.gravity));
-        let speed = match &self.start {
-            Start::Uniform(speed) => Some(speed.value(g)),
-            Start::Above { gap, speed } if self.damping.is_none() && self.top == Top::Free => {
-                Some(touch_speed(gap, speed, g))
-            }
-            Start::Above { .. } | Start::Profile(_) => None,
-        };
+        let falls_freely = self.damping.is_none() && self.top == Top::Free;
+        let speed = self.touch_speed(g).filter(|_| falls_freely || self.gap().is_none());
         Dimensionless { damping_ratio: or_zero(&self.damping) * t1, speed_ratio: speed.map(|mu| mu / (g * t1)) }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::{Material, Parameter, Parameters, Problem, Profile, Speed, Start};
-use super::{ProblemError, given::Given};
+use super::given::Given;
+use super::{Material, Parameter, Parameters, Problem, ProblemError, Profile, Speed, Start};
 use crate::error::Error;
 use crate::number::{Number, Rational, Scalar};
 

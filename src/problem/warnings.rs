@@ -64,7 +64,7 @@ impl Problem {
     }
 
     /// The speed at the first touch under `gravity`, without drag; `None` for a start that is not uniform.
-    fn touch_speed(&self, gravity: f64) -> Option<f64> {
+    pub(super) fn touch_speed(&self, gravity: f64) -> Option<f64> {
         match &self.start {
             Start::Uniform(speed) => Some(speed.value(gravity)),
             Start::Above { gap, speed } => Some(touch_speed(gap, speed, gravity)),

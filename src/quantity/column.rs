@@ -3,7 +3,7 @@
 use super::table::{Needs, Quantity, Source};
 use super::unit::Units;
 use crate::error::Error;
-use crate::motion::{Field, Motion, Side, StressPiece};
+use crate::motion::{Motion, Pair, Side, StressPiece};
 use crate::number::Scalar;
 use crate::threads::Threads;
 
@@ -197,21 +197,14 @@ pub(super) fn same<S: Scalar>(a: &S, b: &S) -> bool {
 
 impl Source {
     fn ask<S: Scalar>(self, motion: &dyn Motion<S>, time: &S, side: Side, row: &mut Vec<S>) -> Result<(), Error> {
-        let pair = |(a, b): (S, S)| [a, b];
         match self {
             Source::Time => row.push(time.clone()),
-            Source::End => row.extend(pair(motion.ground_end(time, side)?)),
+            Source::End => row.extend(motion.pair(Pair::GroundEnd, time, side)?),
             Source::Strain => row.push(motion.strain(time, side)?),
-            Source::Top => {
-                let Field { displacement, velocity, strain } = motion.field(&motion.scales().length, time, side)?;
-                row.extend([displacement, velocity, strain]);
-            }
+            Source::Top => row.extend(motion.field(&motion.scales().length, time, side)?.numbers().map(S::clone)),
             Source::Contact => row.push(motion.in_contact(time, side)?),
-            Source::Centre => row.extend(pair(motion.centre(time)?)),
-            Source::Energy => {
-                let energy = motion.energy(time)?;
-                row.extend([energy.total, energy.translational, energy.vibrational]);
-            }
+            Source::Centre => row.extend(motion.pair(Pair::Centre, time, Side::Left)?),
+            Source::Energy => row.extend(motion.energy(time)?.numbers().map(S::clone)),
             Source::Parts => row.extend(motion.energy_parts(time)?),
             // The caller adds side and impulse; no other source is one of a time.
             _ => (),

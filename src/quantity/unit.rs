@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use crate::number::{Number, Scalar};
-use crate::problem::Parameters;
-use crate::problem::{Material, Problem};
+use crate::problem::{Material, Parameters, Problem};
 
 /// The measure of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, strum::Display, strum::IntoStaticStr)]
