@@ -1,15 +1,17 @@
 //! Floats of any number of bits in pure Rust: the part of `rug::Float` that this library uses.
 //!
-//! Sums, products, quotients and roots are integers of `dashu_int`, cut off with a mark of whether anything was cut
-//! off; elementary functions are those of `dashu_float`, cut off in the same way. [`round`] alone rounds.
+//! Sums, products, quotients and roots are integers of `dashu_int`, elementary functions those of `dashu_float`. All
+//! are cut off behind at least two bits more than are asked for, and the last of these is 1 if anything was cut off:
+//! it decides nothing but that. [`round`] alone rounds.
 
 use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Shl, Shr, ShrAssign, Sub, SubAssign};
 
 use dashu_base::Approximation;
+use dashu_float::round::Rounding;
 use dashu_float::round::mode::Zero;
-use dashu_float::{Context, FBig, FpError, FpResult, Repr};
+use dashu_float::{Context, FBig, FpError, Repr};
 use dashu_int::ops::{BitTest, DivRem, SquareRootRem, UnsignedAbs};
 use dashu_int::{IBig, Sign, UBig};
 
@@ -37,15 +39,6 @@ pub(crate) enum Constant {
     Pi,
 }
 
-/// A value that is no number.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Special {
-    /// No number.
-    Nan,
-    Infinity,
-    NegInfinity,
-}
-
 /// A binary floating-point number with any number of bits, infinite, or no number.
 ///
 /// **Accuracy**: every operation is *correctly rounded*. Exponents are those of MPFR.
@@ -65,26 +58,18 @@ enum Content {
 
 use Content::{Finite, Infinite, Nan};
 
-/// The result of an operation, not rounded yet.
+/// The result of a function, not rounded yet; a function of one number has it twice.
 #[derive(Clone, Copy, Debug)]
-pub enum Operation<'a> {
-    #[doc(hidden)]
-    Sum(&'a Float, &'a Float, Sign),
-    #[doc(hidden)]
-    Product(&'a Float, &'a Float),
-    #[doc(hidden)]
-    Quotient(&'a Float, &'a Float),
-    #[doc(hidden)]
-    Reciprocal(&'a Float),
-    #[doc(hidden)]
-    Root(&'a Float),
-    #[doc(hidden)]
-    Elementary(Function, &'a Float),
-}
+pub struct Operation<'a>(Function, &'a Float, &'a Float);
 
-#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
+enum Function {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Recip,
+    Sqrt,
     Exp,
     ExpM1,
     Ln,
@@ -129,67 +114,50 @@ pub(super) fn floor(x: &Float) -> Option<i64> {
     i64::try_from(if exponent < 0 { mantissa >> shift } else { mantissa << shift }).ok()
 }
 
-/// A magnitude `mantissa · 2^exponent`, and whether more was cut off, less than a unit of it.
-struct Cut {
-    sign: Sign,
-    mantissa: UBig,
-    exponent: i64,
-    more: bool,
+/// Rounds `mantissa · 2^exponent`.
+fn round(mantissa: IBig, mut exponent: i64, bits: u32, round: Round) -> Float {
+    let (sign, mut mantissa) = mantissa.into_parts();
+    let (room, negative) = (bits as usize, sign == Sign::Negative);
+    let drop = mantissa.bit_len().saturating_sub(room);
+    if drop > 0 {
+        let below = drop > 1 && mantissa.trailing_zeros().is_some_and(|zeros| zeros < drop - 1);
+        let half = mantissa.bit(drop - 1);
+        let away = match round {
+            Round::Nearest => half && (below || mantissa.bit(drop)),
+            Round::Down => negative && (half || below),
+            Round::Up => !negative && (half || below),
+            Round::AwayZero => half || below,
+        };
+        mantissa >>= drop;
+        exponent += drop as i64;
+        if away {
+            mantissa += 1u8;
+        }
+    }
+    let top = exponent.saturating_add(mantissa.bit_len() as i64);
+    let outwards = match round {
+        Round::Nearest => top > 0,
+        Round::Down => negative,
+        Round::Up => !negative,
+        Round::AwayZero => true,
+    };
+    let value = match (top > 0, outwards) {
+        _ if mantissa.is_zero() || top.abs() <= MOST_EXPONENT => Finite(IBig::from_parts(sign, mantissa), exponent),
+        (true, true) => Infinite(sign),
+        (true, false) => Finite(IBig::from_parts(sign, UBig::ones(room)), MOST_EXPONENT - room as i64),
+        (false, true) => Finite(IBig::from_parts(sign, UBig::ONE), -MOST_EXPONENT - 1),
+        (false, false) => Finite(IBig::ZERO, 0),
+    };
+    Float { bits, value }
 }
 
-impl Cut {
-    fn exact(mantissa: IBig, exponent: i64) -> Self {
-        let (sign, mantissa) = mantissa.into_parts();
-        Cut { sign, mantissa, exponent, more: false }
-    }
-
-    /// Rounds the number. The mantissa is extended first if what was cut off is to be seen behind its last bit.
-    fn round(mut self, bits: u32, round: Round) -> Float {
-        let (room, negative) = (bits as usize, self.sign == Sign::Negative);
-        if self.more && self.mantissa.bit_len() < room + 2 {
-            let by = room + 2 - self.mantissa.bit_len();
-            self.mantissa <<= by;
-            self.exponent -= by as i64;
-        }
-        let drop = self.mantissa.bit_len().saturating_sub(room);
-        if drop > 0 {
-            let below = self.more || drop > 1 && self.mantissa.trailing_zeros().is_some_and(|zeros| zeros < drop - 1);
-            let half = self.mantissa.bit(drop - 1);
-            let away = match round {
-                Round::Nearest => half && (below || self.mantissa.bit(drop)),
-                Round::Down => negative && (half || below),
-                Round::Up => !negative && (half || below),
-                Round::AwayZero => half || below,
-            };
-            self.mantissa >>= drop;
-            self.exponent += drop as i64;
-            if away {
-                self.mantissa += 1u8;
-            }
-        }
-        let top = self.exponent.saturating_add(self.mantissa.bit_len() as i64);
-        if self.mantissa.is_zero() || top.abs() <= MOST_EXPONENT {
-            return Float { bits, value: Finite(IBig::from_parts(self.sign, self.mantissa), self.exponent) };
-        }
-        let outwards = match round {
-            Round::Nearest => top > 0,
-            Round::Down => negative,
-            Round::Up => !negative,
-            Round::AwayZero => true,
-        };
-        let value = match (top > 0, outwards) {
-            (true, true) => Infinite(self.sign),
-            (true, false) => Finite(IBig::from_parts(self.sign, UBig::ones(room)), MOST_EXPONENT - room as i64),
-            (false, true) => Finite(IBig::from_parts(self.sign, UBig::ONE), -MOST_EXPONENT - 1),
-            (false, false) => Finite(IBig::ZERO, 0),
-        };
-        Float { bits, value }
-    }
-}
-
-/// Returns a value beyond all exponents, or one below them.
-fn beyond(sign: Sign, great: bool) -> Cut {
-    Cut { sign, mantissa: UBig::ONE, exponent: if great { 4 } else { -4 } * MOST_EXPONENT, more: false }
+/// Returns a number slightly farther from zero, or slightly nearer, than `mantissa · 2^exponent`: by less than a unit
+/// of its last bit, and of the third bit beyond `bits`.
+fn beside(mantissa: &IBig, exponent: i64, farther: bool, bits: u32) -> (IBig, i64) {
+    let by = (bits as usize + 3).saturating_sub(mantissa.bit_len()) + 1;
+    let unit = IBig::from_parts(mantissa.sign(), UBig::ONE);
+    let size = mantissa << by;
+    (if farther { size + unit } else { size - unit }, exponent - by as i64)
 }
 
 impl Float {
@@ -256,13 +224,17 @@ impl Float {
 
     /// Returns the sign; `None` for no number.
     pub fn cmp0(&self) -> Option<Ordering> {
-        let sign = match &self.value {
-            Nan => return None,
-            Infinite(sign) => *sign,
-            Finite(mantissa, _) if mantissa.is_zero() => return Some(Ordering::Equal),
-            Finite(mantissa, _) => mantissa.sign(),
-        };
-        Some(if sign == Sign::Negative { Ordering::Less } else { Ordering::Greater })
+        self.kind().partial_cmp(&0.0)
+    }
+
+    /// Returns a double of the same kind: −1, 0, 1, infinite or no number.
+    fn kind(&self) -> f64 {
+        match &self.value {
+            Nan => f64::NAN,
+            Infinite(sign) => *sign * f64::INFINITY,
+            Finite(mantissa, _) if mantissa.is_zero() => 0.0,
+            Finite(mantissa, _) => mantissa.sign() * 1.0,
+        }
     }
 
     /// Compares the magnitudes.
@@ -313,21 +285,15 @@ impl Float {
 
     /// Returns the double next to the number in one direction.
     pub fn to_f64_round(&self, round: Round) -> f64 {
-        let mantissa = match &self.value {
-            Nan => return f64::NAN,
-            Infinite(sign) => return f64::INFINITY * unit(*sign),
-            Finite(mantissa, _) => mantissa,
-        };
-        let (top, sign) = (self.top(), unit(mantissa.sign()));
+        let (top, sign) = (self.top(), self.kind());
+        let Some((mantissa, _)) = self.finite().filter(|_| sign != 0.0) else { return sign };
         let outwards = match round {
             Round::Nearest => top != -1074 || mantissa.unsigned_abs().trailing_zeros() == Some(mantissa.bit_len() - 1),
             Round::Down => sign < 0.0,
             Round::Up => sign > 0.0,
             Round::AwayZero => true,
         };
-        if mantissa.is_zero() {
-            return 0.0;
-        } else if top < -1073 {
+        if top < -1073 {
             // Below the least double; the nearest is zero up to its half.
             let least = if round == Round::Nearest { !outwards } else { outwards };
             return if least { sign * f64::from_bits(1) } else { 0.0 };
@@ -420,275 +386,202 @@ impl Float {
         Float::with_val(self.bits, self.exp_ref())
     }
 
-    pub(crate) fn recip_ref(&self) -> Operation<'_> {
-        Operation::Reciprocal(self)
-    }
-
-    pub(crate) fn sqrt_ref(&self) -> Operation<'_> {
-        Operation::Root(self)
-    }
-
     pub(crate) fn square_ref(&self) -> Operation<'_> {
-        Operation::Product(self, self)
+        Operation(Function::Mul, self, self)
     }
 }
 
-macro_rules! elementary {
+macro_rules! functions {
     ($($name:ident $function:ident),*) => {
         impl Float {
             $(pub(crate) fn $name(&self) -> Operation<'_> {
-                Operation::Elementary(Function::$function, self)
+                Operation(Function::$function, self, self)
             })*
         }
     };
 }
-elementary!(exp_ref Exp, exp_m1_ref ExpM1, ln_ref Ln, ln_1p_ref Ln1p, sin_ref Sin, cos_ref Cos);
+functions!(recip_ref Recip, sqrt_ref Sqrt, exp_ref Exp, exp_m1_ref ExpM1, ln_ref Ln, ln_1p_ref Ln1p);
+functions!(sin_ref Sin, cos_ref Cos);
 
 impl Unrounded for Operation<'_> {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        match self {
-            Operation::Sum(a, b, sign) => add(a, b, sign, bits, round),
-            Operation::Product(a, b) => match (&a.value, &b.value) {
-                (Finite(m, e), Finite(n, f)) => Cut::exact(m * n, e + f).round(bits, round),
-                _ => special(bits, signs(a, b)),
-            },
-            Operation::Quotient(a, b) => match (&a.value, &b.value) {
-                (Finite(m, e), Finite(n, f)) if !n.is_zero() => {
-                    let sign = m.sign() * n.sign();
-                    let by = (bits as usize + 2 + n.bit_len()).saturating_sub(m.bit_len());
-                    let (mantissa, rest) = (m.unsigned_abs() << by).div_rem(n.unsigned_abs());
-                    Cut { sign, mantissa, exponent: e - f - by as i64, more: !rest.is_zero() }.round(bits, round)
-                }
-                (Finite(..), Infinite(_)) => Float::new(bits),
-                (Infinite(_), Infinite(_)) => special(bits, None),
-                (Finite(m, _), Finite(..)) if m.is_zero() => special(bits, None),
-                (_, Finite(n, _)) if n.is_zero() => special(bits, sign(a)),
-                _ => special(bits, signs(a, b)),
-            },
-            Operation::Reciprocal(x) => (&Float::with_val(1, 1) / x).rounded(bits, round),
-            Operation::Root(x) => match &x.value {
-                Finite(m, e) if m.sign() == Sign::Positive => {
-                    let by = (2 * bits as usize + 4).saturating_sub(m.bit_len());
-                    let by = by + usize::from((e - by as i64) % 2 != 0);
-                    let (mantissa, rest) = (m.unsigned_abs() << by).sqrt_rem();
-                    let exponent = (e - by as i64) / 2;
-                    Cut { sign: Sign::Positive, mantissa, exponent, more: !rest.is_zero() }.round(bits, round)
-                }
-                Infinite(Sign::Positive) => special(bits, Some(Sign::Positive)),
-                _ => special(bits, None),
-            },
-            Operation::Elementary(function, x) => function.rounded(x, bits, round),
+    fn rounded(self, bits: u32, direction: Round) -> Float {
+        match self.cut(bits) {
+            Ok((mantissa, exponent)) => round(mantissa, exponent, bits, direction),
+            Err(value) => value.rounded(bits, direction),
         }
     }
 }
 
-/// Returns 1 or −1.
-fn unit(sign: Sign) -> f64 {
-    if sign == Sign::Negative { -1.0 } else { 1.0 }
-}
-
-/// Returns an infinity with this sign, or no number.
-fn special(bits: u32, sign: Option<Sign>) -> Float {
-    Float { bits, value: sign.map_or(Nan, Infinite) }
-}
-
-fn sign(x: &Float) -> Option<Sign> {
-    match x.cmp0()? {
-        Ordering::Less => Some(Sign::Negative),
-        Ordering::Equal => None,
-        Ordering::Greater => Some(Sign::Positive),
+impl Operation<'_> {
+    /// Computes the value, cut off; a double if that is exact, infinite or no number.
+    fn cut(self, bits: u32) -> Result<(IBig, i64), f64> {
+        let Operation(function, x, y) = self;
+        let in_doubles = || function.in_doubles(x.kind(), y.kind());
+        let ((m, e), (n, f)) = x.finite().zip(y.finite()).ok_or_else(in_doubles)?;
+        let room = bits as usize + 2;
+        Ok(match function {
+            Function::Add | Function::Sub => {
+                let minus = if function == Function::Add { Sign::Positive } else { Sign::Negative };
+                add((m, e, x.top(), Sign::Positive), (n, f, y.top(), minus), bits)
+            }
+            Function::Mul => (m * n, e + f),
+            _ if n.is_zero() => return Err(in_doubles()),
+            Function::Div => quotient((m, e), (n, f), room),
+            Function::Recip => quotient((&IBig::ONE, 0), (m, e), room),
+            Function::Sqrt | Function::Ln if m.sign() == Sign::Negative => return Err(f64::NAN),
+            Function::Sqrt => {
+                let by = (2 * room).saturating_sub(m.bit_len());
+                let by = by + usize::from((e - by as i64) % 2 != 0);
+                let (root, rest) = (m.unsigned_abs() << by).sqrt_rem();
+                (marked(root, &rest).into(), (e - by as i64) / 2)
+            }
+            _ => return function.elementary((m, e), x.top(), bits),
+        })
     }
 }
 
-/// Returns the sign of a product; `None` if a factor is zero or no number.
-fn signs(a: &Float, b: &Float) -> Option<Sign> {
-    Some(sign(a)? * sign(b)?)
+/// Returns a magnitude with its last bit set unless the rest is zero.
+fn marked(mut size: UBig, rest: &UBig) -> UBig {
+    if !rest.is_zero() {
+        size.set_bit(0);
+    }
+    size
 }
 
-/// Returns `a + b` or `a − b`.
-fn add(a: &Float, b: &Float, minus: Sign, bits: u32, round: Round) -> Float {
-    let (m, e, n, f) = match (&a.value, &b.value) {
-        (Finite(m, e), Finite(n, f)) => (m, *e, n, *f),
-        (Nan, _) | (_, Nan) => return special(bits, None),
-        (Infinite(a), Infinite(b)) => return special(bits, (*a == *b * minus).then_some(*a)),
-        (Infinite(a), _) => return special(bits, Some(*a)),
-        (_, Infinite(b)) => return special(bits, Some(*b * minus)),
-    };
+fn quotient((m, e): (&IBig, i64), (n, f): (&IBig, i64), room: usize) -> (IBig, i64) {
+    let by = (room + n.bit_len()).saturating_sub(m.bit_len());
+    let (size, rest) = (m.unsigned_abs() << by).div_rem(n.unsigned_abs());
+    (m.sign() * n.sign() * marked(size, &rest), e - f - by as i64)
+}
+
+/// Returns the sum of two numbers, each with the exponent of its magnitude and the sign that it is multiplied by.
+fn add(x: (&IBig, i64, i64, Sign), y: (&IBig, i64, i64, Sign), bits: u32) -> (IBig, i64) {
+    let ((m, e, _, plus), (n, f, top, minus)) = if x.2 < y.2 { (y, x) } else { (x, y) };
     if n.is_zero() {
-        return Cut::exact(m.clone(), e).round(bits, round);
-    } else if m.is_zero() {
-        return Cut::exact(n.clone() * minus, f).round(bits, round);
+        return (m.clone() * plus, e);
+    } else if top < e - (i64::from(bits) + 3 - m.bit_len() as i64).max(0) {
+        // The lesser number is below the last bit, of so many that it does not matter how far.
+        let (sum, exponent) = beside(m, e, m.sign() * plus == n.sign() * minus, bits);
+        return (sum * plus, exponent);
     }
-    let (great, low, small, sign, other) = match a.top() >= b.top() {
-        true => (m, e, b.top(), m.sign(), n.sign() * minus),
-        false => (n, f, a.top(), n.sign() * minus, m.sign()),
-    };
-    // The lesser number is below the last bit, of so many that it does not matter how far.
-    let room = (bits as usize + 3).saturating_sub(great.bit_len());
-    if small < low - room as i64 {
-        let mantissa = great.unsigned_abs() << room;
-        let mantissa = if sign == other { mantissa } else { mantissa - UBig::ONE };
-        return Cut { sign, mantissa, exponent: low - room as i64, more: true }.round(bits, round);
-    }
-    let exponent = e.min(f);
-    let total = (m << (e - exponent) as usize) + (n << (f - exponent) as usize) * minus;
-    Cut::exact(total, exponent).round(bits, round)
+    let least = e.min(f);
+    ((m << (e - least) as usize) * plus + (n << (f - least) as usize) * minus, least)
 }
 
 impl Function {
-    /// Rounds the function, by [`Function::near`] or cut off by `dashu_float`.
-    fn rounded(self, x: &Float, bits: u32, round: Round) -> Float {
-        use Function::{Cos, Exp, ExpM1, Ln, Ln1p, Sin};
-        let one = || Float::with_val(bits, 1);
-        let (mantissa, exponent) = match &x.value {
-            Finite(mantissa, exponent) => (mantissa, *exponent),
-            Infinite(Sign::Positive) if matches!(self, Exp | ExpM1 | Ln | Ln1p) => return special(bits, sign(x)),
-            Infinite(Sign::Negative) if self == Exp => return Float::new(bits),
-            Infinite(Sign::Negative) if self == ExpM1 => return -one(),
-            _ => return special(bits, None),
-        };
-        let (top, negative) = (x.top(), mantissa.sign() == Sign::Negative);
-        let exact = match self {
-            Exp | Cos if mantissa.is_zero() => Some(one()),
-            ExpM1 | Ln1p | Sin if mantissa.is_zero() => Some(Float::new(bits)),
-            Ln if mantissa.is_zero() => Some(special(bits, Some(Sign::Negative))),
-            Ln if *x == 1 => Some(Float::new(bits)),
-            Ln1p if *x == -1 => Some(special(bits, Some(Sign::Negative))),
-            _ => None,
-        };
-        if let Some(exact) = exact {
-            return exact;
+    fn in_doubles(self, x: f64, y: f64) -> f64 {
+        match self {
+            Function::Add => x + y,
+            Function::Sub => x - y,
+            Function::Mul => x * y,
+            Function::Div => x / y,
+            Function::Recip => x.recip(),
+            Function::Sqrt => x.sqrt(),
+            Function::Exp => x.exp(),
+            Function::ExpM1 => x.exp_m1(),
+            Function::Ln => x.ln(),
+            Function::Ln1p => x.ln_1p(),
+            Function::Sin => x.sin(),
+            Function::Cos => x.cos(),
         }
-        let cut = match self {
-            Exp | ExpM1 if top > 34 && !negative => beyond(Sign::Positive, true),
-            Exp if top > 34 => beyond(Sign::Positive, false),
-            ExpM1 if top > 34 => next_to(&IBig::NEG_ONE, 0, false, bits),
-            Sin | Cos if top > MOST_ANGLE => return special(bits, None),
-            _ if self != Ln && top < -i64::from(bits.max(mantissa.bit_len() as u32)) - 8 => match self {
-                Exp => next_to(&IBig::ONE, 0, !negative, bits),
-                Cos => next_to(&IBig::ONE, 0, false, bits),
-                ExpM1 => next_to(mantissa, exponent, !negative, bits),
-                Ln1p => next_to(mantissa, exponent, negative, bits),
-                _ => next_to(mantissa, exponent, false, bits),
-            },
-            _ => match self.cut(&Repr::new(mantissa.clone(), exponent as isize), bits as usize + 2) {
-                Ok(value) => {
-                    let (value, more) = match value {
-                        Approximation::Exact(value) => (value, false),
-                        Approximation::Inexact(value, _) => (value, true),
-                    };
-                    let (mantissa, exponent) = value.into_repr().into_parts();
-                    Cut { more, ..Cut::exact(mantissa, exponent as i64) }
-                }
-                Err(FpError::Overflow(sign)) => beyond(sign, true),
-                Err(FpError::Underflow(sign)) => beyond(sign, false),
-                Err(_) => return special(bits, None),
-            },
-        };
-        cut.round(bits, round)
     }
 
-    fn cut(self, x: &Repr<2>, bits: usize) -> FpResult<FBig<Zero, 2>> {
-        let context = Context::<Zero>::new(bits);
-        match self {
-            Function::Exp => context.exp(x, None),
-            Function::ExpM1 => context.exp_m1(x, None),
-            Function::Ln => context.ln(x, None),
-            Function::Ln1p => context.ln_1p(x, None),
-            Function::Sin => context.sin(x, None),
-            Function::Cos => context.cos(x, None),
+    /// Computes an elementary function as [`Operation::cut`].
+    fn elementary(self, (m, e): (&IBig, i64), top: i64, bits: u32) -> Result<(IBig, i64), f64> {
+        let negative = m.sign() == Sign::Negative;
+        if self != Function::Ln && top < -i64::from(bits.max(m.bit_len() as u32)) - 8 {
+            return Ok(match self {
+                Function::Exp => beside(&IBig::ONE, 0, !negative, bits),
+                Function::Cos => beside(&IBig::ONE, 0, false, bits),
+                Function::ExpM1 => beside(m, e, !negative, bits),
+                Function::Ln1p => beside(m, e, negative, bits),
+                _ => beside(m, e, false, bits),
+            });
+        }
+        let (context, x) = (Context::<Zero>::new(bits as usize + 2), Repr::new(m.clone(), e as isize));
+        let value = match self {
+            Function::Exp if top > 34 && negative => Err(FpError::Underflow(Sign::Positive)),
+            Function::Exp | Function::ExpM1 if top > 34 && !negative => Err(FpError::Overflow(Sign::Positive)),
+            Function::Exp => context.exp(&x, None),
+            Function::ExpM1 => context.exp_m1(&x, None),
+            Function::Ln => context.ln(&x, None),
+            Function::Ln1p => context.ln_1p(&x, None),
+            _ if top > MOST_ANGLE => Err(FpError::OutOfDomain),
+            Function::Cos => context.cos(&x, None),
+            _ => context.sin(&x, None),
+        };
+        match value {
+            // The logarithm of zero.
+            Ok(value) if value.value_ref().repr().is_infinite() => Err(f64::NEG_INFINITY),
+            Ok(value) => Ok(parts(value, bits)),
+            Err(FpError::Overflow(sign)) => Ok((sign * IBig::ONE, 4 * MOST_EXPONENT)),
+            Err(FpError::Underflow(sign)) => Ok((sign * IBig::ONE, -4 * MOST_EXPONENT)),
+            Err(_) => Err(f64::NAN),
         }
     }
 }
 
-/// Returns a number slightly farther from zero, or slightly nearer, than `mantissa · 2^exponent`: by less than a unit
-/// of its last bit, and of the third bit beyond `bits`.
-fn next_to(mantissa: &IBig, exponent: i64, farther: bool, bits: u32) -> Cut {
-    let by = (bits as usize + 3).saturating_sub(mantissa.bit_len());
-    let (sign, size) = (mantissa.sign(), mantissa.unsigned_abs() << by);
-    let mantissa = if farther { size } else { size - UBig::ONE };
-    Cut { sign, mantissa, exponent: exponent - by as i64, more: true }
+/// Returns mantissa and exponent of a value that `dashu_float` has cut off.
+fn parts(value: Approximation<FBig<Zero, 2>, Rounding>, bits: u32) -> (IBig, i64) {
+    let exact = matches!(value, Approximation::Exact(_));
+    let (mantissa, exponent) = value.value().into_repr().into_parts();
+    if exact { (mantissa, exponent as i64) } else { beside(&mantissa, exponent as i64, true, bits) }
 }
 
 macro_rules! from_integers {
     ($($type:ty),*) => {$(
         impl Unrounded for $type {
-            fn rounded(self, bits: u32, round: Round) -> Float {
-                Cut::exact(IBig::from(self), 0).round(bits, round)
+            fn rounded(self, bits: u32, direction: Round) -> Float {
+                round(IBig::from(self), 0, bits, direction)
             }
         }
     )*};
 }
 from_integers!(i32, i64, u32, u64, IBig);
 
-impl Unrounded for &IBig {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        self.clone().rounded(bits, round)
-    }
-}
-
 impl Unrounded for f64 {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        match Repr::<2>::try_from(self) {
-            Ok(value) if value.is_finite() => {
-                let (mantissa, exponent) = value.into_parts();
-                Cut::exact(mantissa, exponent as i64).round(bits, round)
-            }
-            _ if self.is_nan() => special(bits, None),
-            _ => special(bits, Some(if self < 0.0 { Sign::Negative } else { Sign::Positive })),
-        }
-    }
-}
-
-impl Unrounded for &f64 {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        (*self).rounded(bits, round)
-    }
-}
-
-impl Unrounded for &Float {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        match &self.value {
-            Finite(mantissa, exponent) => Cut::exact(mantissa.clone(), *exponent).round(bits, round),
-            value => Float { bits, value: value.clone() },
-        }
+    fn rounded(self, bits: u32, direction: Round) -> Float {
+        let value = match Repr::<2>::try_from(self).map(Repr::into_parts) {
+            Ok((mantissa, exponent)) if self.is_finite() => return round(mantissa, exponent as i64, bits, direction),
+            Ok(_) => Infinite(if self < 0.0 { Sign::Negative } else { Sign::Positive }),
+            Err(_) => Nan,
+        };
+        Float { bits, value }
     }
 }
 
 impl Unrounded for Float {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        (&self).rounded(bits, round)
-    }
-}
-
-impl Unrounded for &Rational {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        let whole = |n: IBig| Float { bits, value: Finite(n, 0) };
-        (&whole(self.numerator().clone()) / &whole(self.denominator().clone().into())).rounded(bits, round)
+    fn rounded(self, bits: u32, direction: Round) -> Float {
+        match self.value {
+            Finite(mantissa, exponent) => round(mantissa, exponent, bits, direction),
+            value => Float { bits, value },
+        }
     }
 }
 
 impl Unrounded for Rational {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        (&self).rounded(bits, round)
+    fn rounded(self, bits: u32, direction: Round) -> Float {
+        let (numerator, denominator) = self.into_parts();
+        let (mantissa, exponent) = quotient((&numerator, 0), (&denominator.into(), 0), bits as usize + 2);
+        round(mantissa, exponent, bits, direction)
     }
 }
+
+macro_rules! from_references {
+    ($($type:ty),*) => {$(
+        impl Unrounded for &$type {
+            fn rounded(self, bits: u32, direction: Round) -> Float {
+                self.clone().rounded(bits, direction)
+            }
+        }
+    )*};
+}
+from_references!(IBig, f64, Float, Rational);
 
 impl Unrounded for Constant {
-    fn rounded(self, bits: u32, round: Round) -> Float {
-        let (mantissa, exponent) =
-            Context::<Zero>::new(bits as usize + 2).pi::<2>(None).value().into_repr().into_parts();
-        Cut { more: true, ..Cut::exact(mantissa, exponent as i64) }.round(bits, round)
-    }
-}
-
-impl Unrounded for Special {
-    fn rounded(self, bits: u32, _: Round) -> Float {
-        match self {
-            Special::Nan => special(bits, None),
-            Special::Infinity => special(bits, Some(Sign::Positive)),
-            Special::NegInfinity => special(bits, Some(Sign::Negative)),
-        }
+    fn rounded(self, bits: u32, direction: Round) -> Float {
+        let (mantissa, exponent) = parts(Context::<Zero>::new(bits as usize + 2).pi(None), bits);
+        round(mantissa, exponent, bits, direction)
     }
 }
 
@@ -705,7 +598,7 @@ impl Pow for &Float {
                 let value = Finite(mantissa.pow(n as usize), exponent * i64::from(n));
                 Float { bits: self.bits.saturating_mul(n.max(1)), value }
             }
-            _ => Float::with_val(self.bits, Special::Nan),
+            _ => Float { value: Nan, ..self.clone() },
         }
     }
 }
@@ -730,12 +623,11 @@ impl Neg for &Float {
 }
 
 macro_rules! operators {
-    ($($trait:ident $method:ident $assign:ident $assign_method:ident, |$a:ident, $b:ident| $operation:expr;)*) => {$(
+    ($($trait:ident $method:ident $assign:ident $assign_method:ident),*) => {$(
         impl<'a> $trait<&'a Float> for &'a Float {
             type Output = Operation<'a>;
             fn $method(self, other: &'a Float) -> Operation<'a> {
-                let ($a, $b) = (self, other);
-                $operation
+                Operation(Function::$trait, self, other)
             }
         }
 
@@ -771,46 +663,27 @@ macro_rules! operators {
         }
     };
 }
-operators! {
-    Add add AddAssign add_assign, |a, b| Operation::Sum(a, b, Sign::Positive);
-    Sub sub SubAssign sub_assign, |a, b| Operation::Sum(a, b, Sign::Negative);
-    Mul mul MulAssign mul_assign, |a, b| Operation::Product(a, b);
-    Div div DivAssign div_assign, |a, b| Operation::Quotient(a, b);
-}
+operators!(Add add AddAssign add_assign, Sub sub SubAssign sub_assign, Mul mul MulAssign mul_assign);
+operators!(Div div DivAssign div_assign);
 
-impl Shl<u32> for Float {
-    type Output = Float;
-    fn shl(self, by: u32) -> Float {
-        self.scaled(i64::from(by))
-    }
+macro_rules! shifts {
+    ($($trait:ident $method:ident $type:ty: |$by:ident| $change:expr),*) => {$(
+        impl $trait<$type> for Float {
+            type Output = Float;
+            fn $method(self, $by: $type) -> Float {
+                match self.value {
+                    Finite(mantissa, exponent) => round(mantissa, exponent + $change, self.bits, Round::Nearest),
+                    value => Float { value, ..self },
+                }
+            }
+        }
+    )*};
 }
-
-impl Shr<u32> for Float {
-    type Output = Float;
-    fn shr(self, by: u32) -> Float {
-        self.scaled(-i64::from(by))
-    }
-}
-
-impl Shl<i32> for Float {
-    type Output = Float;
-    fn shl(self, by: i32) -> Float {
-        self.scaled(i64::from(by))
-    }
-}
+shifts!(Shl shl u32: |by| i64::from(by), Shr shr u32: |by| -i64::from(by), Shl shl i32: |by| i64::from(by));
 
 impl ShrAssign<u32> for Float {
     fn shr_assign(&mut self, by: u32) {
         *self = self.clone() >> by;
-    }
-}
-
-impl Float {
-    fn scaled(self, by: i64) -> Float {
-        match self.value {
-            Finite(mantissa, exponent) => Cut::exact(mantissa, exponent + by).round(self.bits, Round::Nearest),
-            value => Float { value, ..self },
-        }
     }
 }
 
@@ -822,20 +695,16 @@ impl PartialEq for Float {
 
 impl PartialOrd for Float {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        let (ours, theirs) = (self.cmp0()?, other.cmp0()?);
-        if ours != theirs || ours.is_eq() {
-            return Some(ours.cmp(&theirs));
+        let (ours, theirs) = (self.kind(), other.kind());
+        match (self.finite(), other.finite()) {
+            (Some((m, e)), Some((n, f))) if ours == theirs && ours != 0.0 => {
+                let (a, b) = if ours < 0.0 { (other, self) } else { (self, other) };
+                let least = e.min(f);
+                let in_full = || (m << (e - least) as usize).cmp(&(n << (f - least) as usize));
+                Some(a.top().cmp(&b.top()).then_with(in_full))
+            }
+            _ => ours.partial_cmp(&theirs),
         }
-        let (Some((m, e)), Some((n, f))) = (self.finite(), other.finite()) else {
-            let order = self.is_infinite().cmp(&other.is_infinite());
-            return Some(if ours.is_lt() { order.reverse() } else { order });
-        };
-        let tops = self.top().cmp(&other.top());
-        if tops.is_ne() {
-            return Some(if ours.is_lt() { tops.reverse() } else { tops });
-        }
-        let exponent = e.min(f);
-        Some((m << (e - exponent) as usize).cmp(&(n << (f - exponent) as usize)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Floats of any number of bits on MPFR.
 
 pub use rug::Float;
-pub(crate) use rug::float::{Constant, Round, Special};
+pub(crate) use rug::float::{Constant, Round};
 pub(crate) use rug::ops::Pow;
 use rug::ops::{AddAssignRound, AssignRound, SubAssignRound};
 

@@ -8,7 +8,7 @@ mod system;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::float::{self, Float, Round, Special, down, rounded, up};
+use super::float::{self, Float, Round, down, rounded, up};
 use super::radical::Radical;
 use super::{Estimate, Rational};
 
@@ -92,7 +92,7 @@ impl Interval {
     }
 
     pub(crate) fn everything(bits: u32) -> Self {
-        let [lo, hi] = [Special::NegInfinity, Special::Infinity].map(|end| Float::with_val(bits, end));
+        let [lo, hi] = [f64::NEG_INFINITY, f64::INFINITY].map(|end| Float::with_val(bits, end));
         Interval { lo, hi, inside: Inside::Off }
     }
 

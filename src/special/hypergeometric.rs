@@ -2,7 +2,7 @@
 
 use super::bessel::expansion;
 use crate::number::Float;
-use crate::number::float::{Pow, Special, down};
+use crate::number::float::{Pow, down};
 use crate::number::rational::{self, Integer};
 
 /// Bits of precision beyond the requested ones.
@@ -26,7 +26,7 @@ impl Spare {
 
 /// Rounds to p bits and returns the roundings; infinitely many if there is no value.
 pub(super) fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
-    value.map_or_else(|| (Float::with_val(p, Special::Nan), f64::INFINITY), |value| value.rounded(p))
+    value.map_or_else(|| (Float::with_val(p, f64::NAN), f64::INFINITY), |value| value.rounded(p))
 }
 
 /// Computes `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, where p
