@@ -43,10 +43,6 @@ pub(crate) fn bits(n: &Integer) -> u32 {
     n.bit_len() as u32
 }
 
-pub(crate) fn trailing_zeros(n: &Integer) -> u32 {
-    n.trailing_zeros().unwrap_or(0) as u32
-}
-
 pub(super) fn gcd(a: Integer, b: &Integer) -> Integer {
     a.gcd(b).into()
 }

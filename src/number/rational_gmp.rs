@@ -46,11 +46,6 @@ pub(crate) fn bits(n: &Integer) -> u32 {
     n.significant_bits()
 }
 
-/// Returns the number of zeros at the end; zero for zero.
-pub(crate) fn trailing_zeros(n: &Integer) -> u32 {
-    n.find_one(0).unwrap_or(0)
-}
-
 /// Returns the greatest common divisor.
 pub(super) fn gcd(a: Integer, b: &Integer) -> Integer {
     a.gcd(b)

@@ -1,9 +1,8 @@
-//! Bessel functions of long numbers with few long multiplications; the rest is arithmetic with machine words.
+//! Bessel functions of long numbers by their series, in which later terms have fewer bits.
 
 use super::bessel::expansion;
 use crate::number::Float;
-use crate::number::float::{Pow, down};
-use crate::number::rational::{self, Integer};
+use crate::number::float::Pow;
 
 /// Bits of precision beyond the requested ones.
 const GUARD_BITS: u32 = 16;
@@ -53,12 +52,12 @@ pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
 /// the power, n!, the quotient, the exponential and two products.
 fn with_power(base: &Float, y: &Float, n: u32, exponent: &Float) -> Option<Spare> {
     let bits = base.prec() + GUARD_BITS;
-    let (mut value, error) = hypergeometric(y, n, bits)?;
+    let mut value = hypergeometric(y, n, bits)?;
     if n > 0 {
         value *= Float::with_val(bits, base.pow(n)) / Float::with_val(bits, Float::factorial(n));
     }
     value *= Float::with_val(bits, exponent.exp_ref());
-    Some(Spare { long: value, small: error + 6.0 })
+    Some(Spare { long: value, small: SERIES + 6.0 })
 }
 
 /// Computes `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` if a number is not finite.
@@ -103,149 +102,42 @@ pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spar
     with_power(&one, &y, 0, &damped).map(|value| Spare { small: value.small + 1.0, ..value })
 }
 
-/// A number y ≥ 0 rounded down to `mantissa · 2^{−shift}`; short numbers stay short.
-#[derive(Clone)]
-struct Factor {
-    mantissa: Integer,
-    shift: u32,
-}
+/// Bound of the error of [`hypergeometric`], in units of `2^{−bits}`.
+const SERIES: f64 = 0.5;
 
-impl Factor {
-    /// Rounds y down to a multiple of `2^{−scale}`; `None` for infinity and NaN.
-    fn of(y: &Float, scale: u32) -> Option<Self> {
-        let (mut mantissa, exponent) = y.to_integer_exp()?;
-        let zeros = rational::trailing_zeros(&mantissa);
-        mantissa >>= zeros as usize;
-        let exponent = i64::from(exponent) + i64::from(zeros);
-        if exponent >= 0 {
-            return Some(Factor { mantissa: mantissa << usize::try_from(exponent).ok()?, shift: 0 });
-        }
-        let mut factor = Factor { mantissa, shift: u32::try_from(-exponent).ok()? };
-        factor.cut(scale);
-        Some(factor)
-    }
-
-    fn cut(&mut self, scale: u32) {
-        if self.shift > scale {
-            self.mantissa >>= (self.shift - scale) as usize;
-            self.shift = scale;
-        }
-    }
-
-    /// Returns the product, rounded down.
-    fn times(&self, other: &Factor, scale: u32) -> Self {
-        let mantissa = self.mantissa.clone() * &other.mantissa;
-        let mut result = Factor { mantissa, shift: self.shift + other.shift };
-        result.cut(scale);
-        result
-    }
-
-    /// Computes `yᵏ`, k ≥ 1.
-    fn power(&self, k: u32, scale: u32) -> Self {
-        let mut result = self.clone();
-        for bit in (0..k.ilog2()).rev() {
-            result = result.times(&result, scale);
-            if k >> bit & 1 == 1 {
-                result = result.times(self, scale);
-            }
-        }
-        result
-    }
-
-    /// Replaces t by `⌊t y⌋` within two units; only the bits of the mantissa that matter enter.
-    fn apply(&self, t: &mut Integer) {
-        let skip = self.shift.saturating_sub(rational::bits(t));
-        if skip < 64 {
-            *t *= &self.mantissa;
-            *t >>= self.shift as usize;
-        } else {
-            *t *= self.mantissa.clone() >> skip as usize;
-            *t >>= (self.shift - skip) as usize;
-        }
-    }
-}
-
-/// Computes `V = ₀F₁(; n+1; y) = Σ_m y^m/(m!(n+1)_m)` from below, and a bound of its relative error in units of
-/// `2^{−bits}`: little more than 1 if the number of terms is as expected. `None` for y not finite, negative, or at
-/// least `2⁴⁸`.
+/// Computes `V = ₀F₁(; n+1; y) = Σ_m T_m`, `T_m = y^m/(m!(n+1)_m)`, to this many bits; `None` for y not finite,
+/// negative, or at least `2⁴⁸`.
 ///
-/// **Source**: concurrent summation (Smith 1989). It keeps one sum for each residue of m modulo B, so that only every
-/// B-th step multiplies by a long number, `y^B`, and Horner's rule in y combines the sums. Small divisors `m(m+n)` are
-/// grouped as far as a word holds their product.
-///
-/// **Accuracy**: the sums are integers of unit `2^{−F}`, all rounded down. Let `β = max(1,y)`, and let `T_m` be the
-/// exact term without the powers of y below B that are applied last. An error e in `T_m` changes the result by
-/// `e y^{m mod B} Σ_{k≥m} c_k y^k/(c_m y^m) ≤ e β^{B−1} V`, because the ratios of terms decrease with m.
-/// - A division by the product D < 2⁶⁴ of a group has an error below 1 in the last of its terms and below
-///   `D/(d₁ ⋯ d_i)` in the others, which sum to less than 2·2⁶⁴: `(2⁶⁵ + V) β^{B−1} ≤ 2⁶⁶ V β^{B−1}`.
-/// - Each product with `y^B` has an error of two from its own roundings, plus the error of `y^B`. An addition chain
-///   computes `y^B` with an error below `2B β^B`: for y ≥ 1 that is the fraction `2B·2^{−F}` of all that follows; for
-///   y < 1, where T ≤ 1, it is at most 2B, times V.
-/// - Horner's rule errs by 1 in each step, times β^{B−1}, and y itself by 1: together 2B β^{B−1} V.
-///
-/// A term that has become zero stays zero, so the truncation adds nothing beyond these roundings. For N terms the total
-/// is at most `N·2⁶⁶ + 2N + 2N + 2B ≤ N·2⁶⁷` units, times `β^{B−1} V`.
-fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<(Float, f64)> {
+/// **Accuracy**: within [`SERIES`] units of `2^{−bits}` relatively. As `T_m ≤ (e²y/m²)^m`, at most `N = q + 2 + 4√y`
+/// terms matter to `2^{−q}`; `q = bits + 2 log₂ N + 4`. Term m has the bits that keep its four roundings (of y, the
+/// product, the quotient and the bits) to `2^{1−q} S_m/T_m` of itself, for the sum `S_m` so far, and all later terms
+/// inherit them: `4·2^{1−q} S_m Σ_{k≥m} T_k/T_m`. The ratios of terms decrease, so `T_i T_k ≤ T_m T_{i+k−m}` for
+/// `i ≤ m ≤ k`, and that is at most `4·2^{1−q} (m + 1) V`. The sum over m is below `5N² 2^{−q} V`, with the roundings of
+/// the sum and the rest.
+fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<Float> {
     if !y.is_finite() || y.is_sign_negative() || *y >= 281_474_976_710_656_u64 {
         return None;
     }
-    let size = y.get_exp().map_or(0.0, |exponent| f64::from(exponent.max(0)));
-    let expected = expected_terms(y, n, bits);
-    let short = y
-        .to_integer_exp()
-        .is_some_and(|(mantissa, _)| rational::bits(&mantissa) - rational::trailing_zeros(&mantissa) <= 24);
-    let block = if short { 8 } else { ((0.45 * expected).sqrt() as u32).clamp(1, 64) };
-    let lost = 67.0 + expected.log2() + f64::from(block - 1) * size;
-    let scale = bits + lost.ceil() as u32 + 1;
-    let first = Factor::of(y, scale)?;
-    let step = first.power(block, scale);
-
-    let mut term = Integer::from(1) << scale as usize;
-    let mut sums = vec![Integer::from(0); block as usize];
-    sums[0].clone_from(&term);
-    let (mut m, mut at) = (0u64, 1usize);
+    let size = y.to_f64();
+    let most = f64::from(bits) + 100.0 + 4.0 * size.sqrt();
+    let bits = bits + (2.0 * most.log2()).ceil() as u32 + 4;
+    let mut factor = Float::with_val(bits, y);
+    let (mut term, mut sum, mut m) = (Float::with_val(bits, 1), Float::with_val(bits, 1), 0i64);
     loop {
-        while at < sums.len() {
-            let from = at;
-            let mut product = 1u64;
-            let next = |m: u64| (m + 1) * (m + 1 + u64::from(n));
-            let start = m;
-            while at < sums.len() {
-                let Some(more) = product.checked_mul(next(m)) else { break };
-                product = more;
-                (m, at) = (m + 1, at + 1);
-            }
-            term /= product;
-            for (place, sum) in sums[from..at].iter_mut().enumerate() {
-                product /= next(start + place as u64);
-                *sum += &term * product;
-            }
+        m += 1;
+        term *= &factor;
+        term /= m * (m + i64::from(n));
+        sum += &term;
+        let (Some(top), Some(of_sum)) = (term.get_exp(), sum.get_exp()) else { return Some(sum) };
+        let left = bits as i32 + top - of_sum;
+        if left < 0 && 2.0 * size <= (m * m) as f64 {
+            return Some(sum);
         }
-        if term.is_zero() {
-            break;
+        // Precision in whole words.
+        let left = left.max(64) as u32;
+        if left.next_multiple_of(64) < term.prec() {
+            term.set_prec(left.next_multiple_of(64));
+            factor = Float::with_val(term.prec(), y);
         }
-        step.apply(&mut term);
-        at = 0;
     }
-    let mut value = Integer::from(0);
-    for sum in sums.iter().rev() {
-        value *= &first.mantissa;
-        value >>= first.shift as usize;
-        value += sum;
-    }
-    // The error before the value is rounded to the bits that are returned.
-    let error = 67.0 + (m as f64 + 1.0).log2() + f64::from(block - 1) * size - f64::from(scale);
-    let value = down(bits + 8, &value);
-    Some((value >> scale, (error + f64::from(bits)).exp2() + 2f64.powi(-7)))
-}
-
-/// Estimates the number of terms of `₀F₁` above `2^{−bits}`.
-fn expected_terms(y: &Float, n: u32, bits: u32) -> f64 {
-    let (y, n) = (y.to_f64(), f64::from(n));
-    let (mut m, mut log) = (0.0, 0.0);
-    while log > -f64::from(bits) - 70.0 {
-        m += 1.0;
-        log += (y / (m * (m + n))).log2();
-    }
-    m + 1.0
 }
