@@ -1,7 +1,7 @@
 //! Numbers with a derivative, for sensitivities.
 
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::Neg;
 
 use super::{Bounded, Number, Open, Scalar};
 
@@ -57,40 +57,21 @@ impl<S: Bounded> Dual<S> {
         let known = self.known && other.known;
         Dual { value: f(self.value, &other.value), rate: f(self.rate, &other.rate), known }
     }
-}
 
-impl<S: Bounded> Neg for Dual<S> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        self.each(S::neg)
-    }
-}
-
-impl<S: Bounded> Add<&Dual<S>> for Dual<S> {
-    type Output = Self;
-    fn add(self, other: &Self) -> Self {
+    fn plus(self, other: &Self) -> Self {
         self.with(other, |a, b| a + b)
     }
-}
 
-impl<S: Bounded> Sub<&Dual<S>> for Dual<S> {
-    type Output = Self;
-    fn sub(self, other: &Self) -> Self {
+    fn minus(self, other: &Self) -> Self {
         self.with(other, |a, b| a - b)
     }
-}
 
-impl<S: Bounded> Mul<&Dual<S>> for Dual<S> {
-    type Output = Self;
-    fn mul(self, other: &Self) -> Self {
+    fn times(self, other: &Self) -> Self {
         let rate = self.rate * &other.value + other.rate.clone() * &self.value;
         Dual { value: self.value * &other.value, rate, known: self.known && other.known }
     }
-}
 
-impl<S: Bounded> Div<&Dual<S>> for Dual<S> {
-    type Output = Self;
-    fn div(self, other: &Self) -> Self {
+    fn over(self, other: &Self) -> Self {
         if !other.known || other.value.vanishes() != Ok(false) {
             return Dual::unknown(&self.value);
         }
@@ -99,7 +80,14 @@ impl<S: Bounded> Div<&Dual<S>> for Dual<S> {
     }
 }
 
-by_value!([S: Bounded] Dual<S>);
+operators!([S: Bounded] Dual<S>);
+
+impl<S: Bounded> Neg for Dual<S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.each(S::neg)
+    }
+}
 
 impl<S: Bounded> Scalar for Dual<S> {
     type Precision = S::Precision;

@@ -1,7 +1,7 @@
 //! Rounded numbers with a bound of their own error.
 
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::Neg;
 
 use super::fraction::spelling;
 use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
@@ -115,7 +115,44 @@ impl<S: Rounded> Estimate<S> {
     fn root_of_error(&self) -> f64 {
         (self.error.log2() / 2.0 - self.value.log2_roundoff() / 2.0).exp2()
     }
+
+    #[inline]
+    fn plus(self, other: &Self) -> Self {
+        Estimate::once(self.value + &other.value, self.error + other.error)
+    }
+
+    #[inline]
+    fn minus(self, other: &Self) -> Self {
+        Estimate::once(self.value - &other.value, self.error + other.error)
+    }
+
+    #[inline]
+    fn times(self, other: &Self) -> Self {
+        let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
+        // This order keeps a product of errors in the range of doubles.
+        let both = self.error * self.value.unit() * other.error;
+        Estimate::once(self.value * &other.value, a * other.error + b * self.error + both)
+    }
+
+    /// Divides with the bound `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
+    #[inline]
+    fn over(self, other: &Self) -> Self {
+        let least = other.value.to_f64().abs() - other.bound();
+        let value = self.value / &other.value;
+        let error = self.error + value.to_f64().abs() * other.error;
+        // An exact divisor contributes no error, whatever its value.
+        let error = if least > 0.0 {
+            error / least
+        } else if other.error == 0.0 && error == 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        };
+        Estimate::once(value, error)
+    }
 }
+
+operators!([S: Rounded] Estimate<S>);
 
 /// Returns the size of one rounding of `value`, in roundoffs: `|value|`, but at least the least normal double unless
 /// the value is zero. Below that, doubles round more coarsely, and a long number has no size as a double.
@@ -132,55 +169,6 @@ impl<S: Rounded> Neg for Estimate<S> {
         Estimate { value: -self.value, error: self.error }
     }
 }
-
-impl<S: Rounded> Add<&Estimate<S>> for Estimate<S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: &Self) -> Self {
-        Estimate::once(self.value + &other.value, self.error + other.error)
-    }
-}
-
-impl<S: Rounded> Sub<&Estimate<S>> for Estimate<S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: &Self) -> Self {
-        Estimate::once(self.value - &other.value, self.error + other.error)
-    }
-}
-
-impl<S: Rounded> Mul<&Estimate<S>> for Estimate<S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: &Self) -> Self {
-        let (a, b) = (self.value.to_f64().abs(), other.value.to_f64().abs());
-        // This order keeps a product of errors in the range of doubles.
-        let both = self.error * self.value.unit() * other.error;
-        Estimate::once(self.value * &other.value, a * other.error + b * self.error + both)
-    }
-}
-
-impl<S: Rounded> Div<&Estimate<S>> for Estimate<S> {
-    type Output = Self;
-    /// Divides with the bound `|a/b − a′/b′| ≤ (|a − a′| + |a/b| |b − b′|)/|b′|`.
-    #[inline]
-    fn div(self, other: &Self) -> Self {
-        let least = other.value.to_f64().abs() - other.bound();
-        let value = self.value / &other.value;
-        let error = self.error + value.to_f64().abs() * other.error;
-        // An exact divisor contributes no error, whatever its value.
-        let error = if least > 0.0 {
-            error / least
-        } else if other.error == 0.0 && error == 0.0 {
-            0.0
-        } else {
-            f64::INFINITY
-        };
-        Estimate::once(value, error)
-    }
-}
-
-by_value!([S: Rounded] Estimate<S>);
 
 impl<S: Rounded> Scalar for Estimate<S> {
     type Precision = S::Precision;

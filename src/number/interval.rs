@@ -6,7 +6,7 @@
 mod system;
 
 use std::cmp::Ordering;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::Neg;
 
 use super::float::{self, Float, Round, down, rounded, up};
 use super::radical::Radical;
@@ -198,37 +198,21 @@ impl Interval {
         let within = |end: Float| end.max(&-one.clone()).min(&one);
         Interval { lo: within(lo), hi: within(hi), inside }
     }
-}
 
-impl Neg for Interval {
-    type Output = Interval;
-    fn neg(self) -> Interval {
-        Interval { inside: self.inside.map(|number| Some(number.neg())), lo: -self.hi, hi: -self.lo }
-    }
-}
-
-impl Add<&Interval> for Interval {
-    type Output = Interval;
-    fn add(self, other: &Interval) -> Interval {
+    fn plus(self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::add);
         let (lo, hi) = (float::sum(self.lo, &other.lo, Round::Down), float::sum(self.hi, &other.hi, Round::Up));
         Interval::checked(lo, hi, inside)
     }
-}
 
-impl Sub<&Interval> for Interval {
-    type Output = Interval;
-    fn sub(self, other: &Interval) -> Interval {
+    fn minus(self, other: &Interval) -> Interval {
         let inside = self.inside.with(&other.inside, Radical::sub);
         let (lo, hi) =
             (float::difference(self.lo, &other.hi, Round::Down), float::difference(self.hi, &other.lo, Round::Up));
         Interval::checked(lo, hi, inside)
     }
-}
 
-impl Mul<&Interval> for Interval {
-    type Output = Interval;
-    fn mul(self, other: &Interval) -> Interval {
+    fn times(self, other: &Interval) -> Interval {
         let bits = self.lo.prec();
         let inside = self.inside.with(&other.inside, Radical::mul);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
@@ -255,11 +239,8 @@ impl Mul<&Interval> for Interval {
         };
         Interval::checked(lo, hi, inside)
     }
-}
 
-impl Div<&Interval> for Interval {
-    type Output = Interval;
-    fn div(self, other: &Interval) -> Interval {
+    fn over(self, other: &Interval) -> Interval {
         let bits = self.lo.prec();
         let inside = self.inside.with(&other.inside, Radical::div);
         let (a, b, c, d) = (&self.lo, &self.hi, &other.lo, &other.hi);
@@ -280,4 +261,11 @@ impl Div<&Interval> for Interval {
     }
 }
 
-by_value!([] Interval);
+operators!([] Interval);
+
+impl Neg for Interval {
+    type Output = Interval;
+    fn neg(self) -> Interval {
+        Interval { inside: self.inside.map(|number| Some(number.neg())), lo: -self.hi, hi: -self.lo }
+    }
+}

@@ -14,20 +14,29 @@
 //! Formulas are written once. [`Scalar`] provides the field operations and the square root, [`Analytic`] the elementary
 //! functions; [`Rounded`] numbers round, and [`Bounded`] numbers account for their own error.
 
-/// Implements the operators with the right operand by value on top of those by reference.
-macro_rules! by_value {
+/// Implements the operators, with the right operand by reference and by value, by the methods `plus`, `minus`, `times`
+/// and `over`.
+macro_rules! operators {
     ([$($bound:tt)*] $type:ty) => {
-        by_value!(@ [$($bound)*] $type, Add add);
-        by_value!(@ [$($bound)*] $type, Sub sub);
-        by_value!(@ [$($bound)*] $type, Mul mul);
-        by_value!(@ [$($bound)*] $type, Div div);
+        operators!(@ [$($bound)*] $type, Add add plus);
+        operators!(@ [$($bound)*] $type, Sub sub minus);
+        operators!(@ [$($bound)*] $type, Mul mul times);
+        operators!(@ [$($bound)*] $type, Div div over);
     };
-    (@ [$($bound:tt)*] $type:ty, $trait:ident $method:ident) => {
-        impl<$($bound)*> $trait for $type {
+    (@ [$($bound:tt)*] $type:ty, $trait:ident $method:ident $own:ident) => {
+        impl<$($bound)*> std::ops::$trait<&$type> for $type {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: &Self) -> Self {
+                self.$own(other)
+            }
+        }
+
+        impl<$($bound)*> std::ops::$trait for $type {
             type Output = Self;
             #[inline]
             fn $method(self, other: Self) -> Self {
-                $trait::$method(self, &other)
+                self.$own(&other)
             }
         }
     };

@@ -44,20 +44,15 @@ macro_rules! stored {
     ($value:expr, $number:ident => $body:expr) => {
         match &$value.stored {
             Stored::Double($number) => $body,
-            Stored::Float($number) => {
-                let $number = &**$number;
-                $body
-            }
-            Stored::Fraction($number) => {
-                let $number = &**$number;
-                $body
-            }
-            Stored::Enclosure($number) => {
-                let $number = &**$number;
-                $body
-            }
+            Stored::Float(boxed) => stored!(@ boxed, $number => $body),
+            Stored::Fraction(boxed) => stored!(@ boxed, $number => $body),
+            Stored::Enclosure(boxed) => stored!(@ boxed, $number => $body),
         }
     };
+    (@ $boxed:ident, $number:ident => $body:expr) => {{
+        let $number = &**$boxed;
+        $body
+    }};
 }
 
 impl Value {
@@ -182,34 +177,22 @@ impl Value {
 
     /// Returns the double with its bound; `None` for a number of another system.
     pub fn as_double(&self) -> Option<&Estimate<f64>> {
-        match &self.stored {
-            Stored::Double(number) => Some(number),
-            _ => None,
-        }
+        if let Stored::Double(number) = &self.stored { Some(number) } else { None }
     }
 
     /// Returns the long number with its bound; `None` for a number of another system.
     pub fn as_float(&self) -> Option<&Estimate<Float>> {
-        match &self.stored {
-            Stored::Float(number) => Some(number),
-            _ => None,
-        }
+        if let Stored::Float(number) = &self.stored { Some(number) } else { None }
     }
 
     /// Returns the fraction; `None` for a number of another system.
     pub fn as_rational(&self) -> Option<&Rational> {
-        match &self.stored {
-            Stored::Fraction(number) => Some(number),
-            _ => None,
-        }
+        if let Stored::Fraction(number) = &self.stored { Some(number) } else { None }
     }
 
     /// Returns the enclosure; `None` for a number of another system.
     pub fn as_interval(&self) -> Option<&Interval> {
-        match &self.stored {
-            Stored::Enclosure(number) => Some(number),
-            _ => None,
-        }
+        if let Stored::Enclosure(number) = &self.stored { Some(number) } else { None }
     }
 
     fn printed_digits(&self) -> u32 {

@@ -1,8 +1,6 @@
 //! Sums, products, quotients and square roots.
 
-use std::ops::{Add, Div, Mul, Sub};
-
-use super::float::{INFINITE, TOP, Wide, ZERO};
+use super::float::{TOP, Wide};
 use super::limbs::{Divisor, add_masked, move_down, order, product, shift_down};
 
 impl<const N: usize> Wide<N> {
@@ -14,11 +12,11 @@ impl<const N: usize> Wide<N> {
     /// rounding is right. From a shift of `64 N + 2` on the smaller number is less than a half of the distance to
     /// either neighbour of the greater one.
     #[inline(always)]
-    fn plus(&self, other: &Self, negative: bool) -> Self {
+    fn sum(&self, other: &Self, negative: bool) -> Self {
         let other = Wide { negative, ..*other };
         let (a, b) = if self.exponent >= other.exponent { (*self, other) } else { (other, *self) };
-        if a.exponent == INFINITE || b.exponent == ZERO {
-            return special_sum(a, b);
+        if !a.finite() || b.is_zero() {
+            return if a.finite() { a } else { Wide::from(a.kind() + b.kind()) };
         }
         let apart = a.exponent.abs_diff(b.exponent);
         if apart >= 64 * N as u32 + 2 {
@@ -55,13 +53,22 @@ impl<const N: usize> Wide<N> {
         Wide::normalised(sum, guard, i64::from(a.exponent) + over as i64, sign)
     }
 
+    #[inline]
+    fn plus(self, other: &Self) -> Self {
+        self.sum(other, other.negative)
+    }
+
+    #[inline]
+    fn minus(self, other: &Self) -> Self {
+        self.sum(other, !other.negative)
+    }
+
     /// `self · other`. **Accuracy**: *correctly rounded*: the product is exact before it is rounded.
     #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
+    fn times(self, other: &Self) -> Self {
         let negative = self.negative != other.negative;
-        let special = |x: &Self| x.exponent == ZERO || x.exponent == INFINITE;
-        if special(self) || special(other) {
-            return special_product(self, other, negative);
+        if self.is_special() || other.is_special() {
+            return Wide::from(self.kind() * other.kind());
         }
         let (mut limbs, mut guard) = product(&self.limbs, &other.limbs);
         let exponent = i64::from(self.exponent) + i64::from(other.exponent);
@@ -73,11 +80,10 @@ impl<const N: usize> Wide<N> {
 
     /// `self/other`. **Accuracy**: *correctly rounded*: `N + 1` limbs of the quotient are exact, rounded down.
     #[inline]
-    fn over(&self, other: &Self) -> Self {
+    fn over(self, other: &Self) -> Self {
         let negative = self.negative != other.negative;
-        let special = |x: &Self| x.exponent == ZERO || x.exponent == INFINITE;
-        if special(self) || special(other) {
-            return special_quotient(self, other, negative);
+        if self.is_special() || other.is_special() {
+            return Wide::from(self.kind() / other.kind());
         }
         let exponent = i64::from(self.exponent) - i64::from(other.exponent);
         if other.limbs[N - 1] == TOP && other.limbs[..N - 1].iter().all(|limb| *limb == 0) {
@@ -148,59 +154,4 @@ impl<const N: usize> Wide<N> {
     }
 }
 
-/// A sum in which the first is not finite or the second is zero.
-#[cold]
-fn special_sum<const N: usize>(a: Wide<N>, b: Wide<N>) -> Wide<N> {
-    let opposite = !b.finite() && a.negative != b.negative;
-    match a.is_nan() || b.is_nan() || opposite {
-        true => Wide::NAN,
-        false => Wide { negative: a.negative && !a.is_zero(), ..a },
-    }
-}
-
-#[cold]
-fn special_product<const N: usize>(a: &Wide<N>, b: &Wide<N>, negative: bool) -> Wide<N> {
-    let nothing = a.is_zero() || b.is_zero();
-    match nothing && a.finite() && b.finite() {
-        true => Wide::ZERO,
-        false if nothing || a.is_nan() || b.is_nan() => Wide::NAN,
-        false => Wide::infinity(negative),
-    }
-}
-
-#[cold]
-fn special_quotient<const N: usize>(a: &Wide<N>, b: &Wide<N>, negative: bool) -> Wide<N> {
-    let alike = a.is_zero() && b.is_zero() || !a.finite() && !b.finite();
-    match alike || a.is_nan() || b.is_nan() {
-        true => Wide::NAN,
-        false if a.is_zero() || !b.finite() => Wide::ZERO,
-        false => Wide::infinity(negative),
-    }
-}
-
-macro_rules! operators {
-    ($($trait:ident $method:ident: |$a:ident, $b:ident| $result:expr),*) => {$(
-        impl<const N: usize> $trait<&Wide<N>> for Wide<N> {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: &Self) -> Self {
-                let ($a, $b) = (&self, other);
-                $result
-            }
-        }
-
-        impl<const N: usize> $trait for Wide<N> {
-            type Output = Self;
-            #[inline]
-            fn $method(self, other: Self) -> Self {
-                $trait::$method(self, &other)
-            }
-        }
-    )*};
-}
-operators!(
-    Add add: |a, b| a.plus(b, b.negative),
-    Sub sub: |a, b| a.plus(b, !b.negative),
-    Mul mul: |a, b| a.times(b),
-    Div div: |a, b| a.over(b)
-);
+operators!([const N: usize] Wide<N>);

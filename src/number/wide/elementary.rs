@@ -74,17 +74,11 @@ impl<const M: usize> Wide<M> {
     /// `e^{r/2^s}` has 18 roundings, and each of `s = 3M ≤ 24` squarings doubles what there is and adds one: less than
     /// `2^{s+5} v`, which is `2²⁹ v` up to M = 8.
     pub(crate) fn raw_exp(self) -> Self {
-        if self.is_nan() || self.exponent > 31 {
-            return match self.is_nan() {
-                true => self,
-                false if self.negative => {
-                    if self.finite() {
-                        Wide::power(-MOST)
-                    } else {
-                        Wide::ZERO
-                    }
-                }
-                false => Wide::infinity(false),
+        if self.exponent > 31 {
+            return match self.finite() {
+                true if self.negative => Wide::power(-MOST),
+                true => Wide::infinity(false),
+                false => Wide::from(self.kind().exp()),
             };
         }
         let turns = (self.nearest_double() * std::f64::consts::LOG2_E).round();
@@ -120,12 +114,8 @@ impl<const M: usize> Wide<M> {
     /// and one rounding because `|y| < 1` there, and the sum is at least `2^{−18}`: `2⁴⁹ v`, which sums with `k ln 2`,
     /// at least `½ ln 2` in all, do not make more than a few greater.
     pub(super) fn raw_ln(self) -> Self {
-        if self.is_zero() || self.is_nan() || self.negative || !self.finite() {
-            return match self.is_zero() {
-                true => Wide::infinity(true),
-                false if self.negative => Wide::NAN,
-                false => self,
-            };
+        if self.is_special() || self.negative {
+            return Wide::from(self.kind().ln());
         }
         let below = self.limbs[M - 1] < 0xb504_f333_f9de_6484;
         let power = self.exponent - i32::from(below);

@@ -68,6 +68,24 @@ impl<const N: usize> Wide<N> {
         !self.finite() && self.limbs[N - 1] != 0
     }
 
+    /// Whether the number is zero, infinite or none.
+    #[inline]
+    pub(super) fn is_special(&self) -> bool {
+        self.exponent == ZERO || self.exponent == INFINITE
+    }
+
+    /// A double of the same kind: −1, 0, 1, infinite or no number.
+    #[cold]
+    pub(super) fn kind(&self) -> f64 {
+        let size = match self.exponent {
+            ZERO => 0.0,
+            INFINITE if self.is_nan() => f64::NAN,
+            INFINITE => f64::INFINITY,
+            _ => 1.0,
+        };
+        if self.negative { -size } else { size }
+    }
+
     /// `self · 2^by`.
     #[inline]
     pub(super) fn scaled(self, by: i32) -> Self {
