@@ -77,11 +77,7 @@ impl<S: RoundedSpecial> Medium<S> {
             times_x(&mut series);
             series[0] = series[0].clone() + term;
         }
-        let mut rise = series.clone();
-        self.basis.integrate(&mut rise);
-        super::cell::scale(&mut rise, len);
-        rise[0] = rise[0].clone() + height;
-        (rise, series)
+        (self.basis.primitive(&series, len, height), series)
     }
 
     /// Returns whether flights are separated into centre of mass and vibration.

@@ -443,18 +443,14 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
         if self.contact {
             return (trace, Vec::new());
         }
-        let mut height = trace.to_vec();
-        height.push(len.zero());
-        self.medium.basis.integrate(&mut height);
-        super::cell::scale(&mut height, len);
-        match self.centre() {
-            Some(centre) => {
-                let (rise, rate) = self.medium.rigid(&centre, len);
-                height[0] = height[0].clone() + &self.ground;
-                add(&mut height, rise);
-                add(&mut trace, rate);
-            }
-            None => height[0] = height[0].clone() + &self.height,
+        let centre = self.centre();
+        let longer: Vec<S> = trace.iter().cloned().chain([len.zero()]).collect();
+        let start = if centre.is_some() { &self.ground } else { &self.height };
+        let mut height = self.medium.basis.primitive(&longer, len, start);
+        if let Some(centre) = centre {
+            let (rise, rate) = self.medium.rigid(&centre, len);
+            add(&mut height, rise);
+            add(&mut trace, rate);
         }
         (trace, height)
     }

@@ -138,9 +138,7 @@ impl<S: RoundedSpecial> Circle<'_, S> {
         self.counts();
         for ((_, len), c) in self.parts.iter().zip(f.iter_mut()) {
             self.drops(c);
-            self.basis.integrate(c);
-            scale(c, len);
-            c[0] = c[0].clone() + &here;
+            *c = self.basis.primitive(c, len, &here);
             here = at_one(c, &len.zero());
         }
         self.centre(f);
@@ -357,11 +355,8 @@ impl<S: RoundedSpecial> Medium<S> {
             grown = grown / &segment.decay;
             // Each iteration of Z = Z(0) + J(κZ + push) adds a power of κ·len ≤ ½.
             let depth = self.kappa.clone() * len;
-            let mut first = push.clone();
-            circle.drops(&first);
-            self.basis.integrate(&mut first);
-            scale(&mut first, len);
-            first[0] = first[0].clone() + &here;
+            circle.drops(&push);
+            let first = self.basis.primitive(&push, len, &here);
             let mut sum = first.clone();
             for _ in 0..self.rounds(&depth) {
                 circle.drops(&sum);
@@ -395,11 +390,8 @@ impl<S: RoundedSpecial> Medium<S> {
     fn unscaled(&self, segments: &mut VecDeque<Segment<S>>, circle: &Circle<'_, S>, rate: &[Vec<S>], ground: &S) {
         let (mut here, mut shrunk) = (ground.clone(), ground.int(2));
         for ((segment, rate), (_, len)) in segments.iter_mut().zip(rate).zip(&circle.parts) {
-            let mut value = rate.clone();
-            circle.drops(&value);
-            self.basis.integrate(&mut value);
-            scale(&mut value, len);
-            value[0] = value[0].clone() + &here;
+            circle.drops(rate);
+            let value = self.basis.primitive(rate, len, &here);
             here = at_one(&value, &len.zero());
             for (k, q) in segment.q.iter_mut().enumerate() {
                 *q = (rate[k].clone() - value[k].clone() * &self.kappa) * &shrunk;

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use super::cell::scale;
 use crate::number::Rounded;
 
 /// Tables shared by all series of a solution. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
@@ -82,6 +83,15 @@ impl<S: Rounded> Basis<S> {
             start = if k % 2 == 1 { start + &c[k] } else { start - &c[k] };
         }
         c[0] = start;
+    }
+
+    /// Computes `start + len ∫₀ˣ`; drops the term beyond the last one.
+    pub(super) fn primitive(&self, c: &[S], len: &S, start: &S) -> Vec<S> {
+        let mut area = c.to_vec();
+        self.integrate(&mut area);
+        scale(&mut area, len);
+        area[0] = area[0].clone() + start;
+        area
     }
 
     /// Computes the series of `e^{rate·x}` with `terms` terms, for `|rate|` up to about 2.
