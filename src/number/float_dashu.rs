@@ -372,10 +372,6 @@ impl Float {
         self.to_string_radix_round(radix, digits, Round::Nearest)
     }
 
-    pub(crate) fn factorial(n: u32) -> IBig {
-        (1..=n).fold(IBig::ONE, |product, k| product * k)
-    }
-
     /// Returns the square root in the bits of the number.
     pub fn sqrt(self) -> Self {
         Float::with_val(self.bits, self.sqrt_ref())

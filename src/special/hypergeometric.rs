@@ -1,143 +1,133 @@
-//! Bessel functions of long numbers by their series, in which later terms have fewer bits.
+//! Modified Bessel functions in numbers with a word to spare, in which their own roundings do not count: by their
+//! series, and by the expansion at infinity.
 
 use super::bessel::expansion;
-use crate::number::Float;
-use crate::number::float::Pow;
+use super::bits;
+use super::ray::Ray;
+use crate::number::{Analytic, Float, Rounded, Scalar, Wide};
 
-/// Bits of precision beyond the requested ones.
-const GUARD_BITS: u32 = 16;
+/// A number in which these functions are computed.
+pub(super) trait Spare: Rounded {
+    /// Computes `₀F₁(; n+1; y) = Σ_m T_m`, `T_m = y^m/(m!(n+1)_m)`, for finite `y ≥ 0`, and its roundings.
+    fn hypergeometric(y: &Self, n: u32) -> (Self, f64);
 
-/// A number with 16 spare bits, and its error in roundings of this longer precision.
-pub(super) struct Spare {
-    pub(super) long: Float,
-    small: f64,
+    /// Computes `eˣ` within `2³⁴` roundings.
+    fn exponential(&self) -> Self;
 }
 
-impl Spare {
-    /// Rounds to p bits and returns the roundings: one for this step, plus the earlier error in units of `2^{−p−16}`.
-    pub(super) fn rounded(&self, p: u32) -> (Float, f64) {
-        if self.long.is_zero() {
-            return (Float::new(p), 0.0);
+impl<const M: usize> Spare for Wide<M> {
+    /// All terms are positive. The m-th has two roundings more than the one before, and a sum of m terms has m: fewer
+    /// than `3m`. The terms fall by half at least where the sum ends, so that the rest is less than a rounding.
+    fn hypergeometric(y: &Self, n: u32) -> (Self, f64) {
+        let (mut term, mut sum, mut m) = (y.one(), y.one(), 0);
+        loop {
+            m += 1;
+            let next = term * y / y.int(m * (m + i64::from(n)));
+            sum = sum + next;
+            let falls = next + next < term || next.is_zero();
+            term = next;
+            if falls && term <= sum * y.roundoff() {
+                return (sum, 3.0 * m as f64 + 2.0);
+            }
         }
-        (Float::with_val(p, &self.long), 1.0 + 1.01 * self.small / f64::from(1u32 << GUARD_BITS))
+    }
+
+    fn exponential(&self) -> Self {
+        self.raw_exp()
     }
 }
 
-/// Rounds to p bits and returns the roundings; infinitely many if there is no value.
-pub(super) fn finish(value: Option<Spare>, p: u32) -> (Float, f64) {
-    value.map_or_else(|| (Float::with_val(p, f64::NAN), f64::INFINITY), |value| value.rounded(p))
-}
-
-/// Computes `e^{−z} I_n(z)` for the exact number z ≥ 0, and a bound of the relative error in units of `2^{−p}`, where p
-/// is the precision of z.
-///
-/// **Source**: `(z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`; the expansion at infinity, for n = 0, 1, if it reaches the precision.
-///
-/// **Accuracy**: within the second value, which is less than 1.1. It is infinite for `z ≥ 2²⁴` with n ≥ 2, for z < 0,
-/// and for z that is not finite.
-pub(super) fn in_scaled_bounded(z: &Float, n: u32) -> (Float, f64) {
-    let p = z.prec();
-    if n <= 1 && z.is_finite() && *z > f64::from(p) + 64.0 {
-        // Term k has 4k roundings, all terms after the first sum to less than 1/8, and the rest is below one rounding:
-        // the total is less than 8p + 512, and 32 bits suffice for that.
-        let long = expansion(&Float::with_val(p + 64, z), i64::from(n));
-        return finish(Some(Spare { long, small: 0.25 }), p);
+impl Spare for Float {
+    /// Sums the series so that later terms have fewer bits.
+    ///
+    /// For p bits, `T_m ≤ (e²y/m²)^m`, so at most `N = q + 2 + 4√y` terms matter to `2^{−q}`; `q = p + 2 log₂ N + 4`.
+    /// Term m has the bits that keep its four roundings (of y, the product, the quotient and the bits) to
+    /// `2^{1−q} S_m/T_m` of itself, for the sum `S_m` so far, and all later terms inherit them:
+    /// `4·2^{1−q} S_m Σ_{k≥m} T_k/T_m`. The ratios of terms decrease, so `T_i T_k ≤ T_m T_{i+k−m}` for `i ≤ m ≤ k`, and
+    /// that is at most `4·2^{1−q} (m + 1)` of the whole. The sum over m is below `5N² 2^{−q}`, with the roundings of the
+    /// sum and the rest: half a rounding.
+    fn hypergeometric(y: &Self, n: u32) -> (Self, f64) {
+        let size = y.to_f64();
+        let most = f64::from(y.prec()) + 100.0 + 4.0 * size.sqrt();
+        let bits = y.prec() + (2.0 * most.log2()).ceil() as u32 + 4;
+        let (mut factor, mut m) = (y.clone(), 0i64);
+        let (mut term, mut sum) = (Float::with_val(bits, 1), Float::with_val(bits, 1));
+        loop {
+            m += 1;
+            term *= &factor;
+            term /= m * (m + i64::from(n));
+            sum += &term;
+            let (Some(top), Some(of_sum)) = (term.get_exp(), sum.get_exp()) else { break };
+            let left = bits as i32 + top - of_sum;
+            if left < 0 && 2.0 * size <= (m * m) as f64 {
+                break;
+            }
+            // Whole words.
+            let left = (left.max(64) as u32).next_multiple_of(64);
+            if left < term.prec() {
+                term.set_prec(left);
+                factor = Float::with_val(left, y);
+            }
+        }
+        (sum, 1.0)
     }
-    let half = z.clone() >> 1u32;
-    let y = Float::with_val(2 * p, half.square_ref());
-    finish(with_power(&half, &y, n, &-z.clone()), p)
-}
 
-/// Computes `(base)ⁿ/n! ₀F₁(; n+1; y) e^{exponent}` with 16 bits more than base, and its roundings there: one each for
-/// the power, n!, the quotient, the exponential and two products.
-fn with_power(base: &Float, y: &Float, n: u32, exponent: &Float) -> Option<Spare> {
-    let bits = base.prec() + GUARD_BITS;
-    let mut value = hypergeometric(y, n, bits)?;
-    if n > 0 {
-        value *= Float::with_val(bits, base.pow(n)) / Float::with_val(bits, Float::factorial(n));
+    /// Computes the exponential, but no number where it would vanish.
+    fn exponential(&self) -> Self {
+        if *self < -1e15 { self.double(f64::NAN) } else { Analytic::exp(self) }
     }
-    value *= Float::with_val(bits, exponent.exp_ref());
-    Some(Spare { long: value, small: SERIES + 6.0 })
 }
 
-/// Computes `e^{−rt} ψ₀` for exact r/2, ξ, η; `None` if a number is not finite.
+/// Returns the argument up to which the series serves; the expansion at infinity serves those beyond it.
+pub(super) fn far<S: Scalar>(like: &S) -> f64 {
+    bits(like) + 64.0
+}
+
+/// Roundings of the expansion, which has fewer than four in term k, and `2p + 128` terms that are below 1/8 together.
+fn expansion_roundings<S: Scalar>(like: &S) -> f64 {
+    8.0 * bits(like) + 512.0
+}
+
+/// Roundings of an exponential, of its argument and of the product with it.
+const EXP: f64 = 68_719_476_736.0;
+
+/// Computes `e^{−z} I_n(z)`, `I_n = (z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`, and its roundings, for `z ≥ 0`. The exponential has
+/// `2³⁴`, y, rounded once, passes on at most z of them, and n factors add two each.
+pub(super) fn in_scaled<S: Spare>(z: &S, n: u32) -> (S, f64) {
+    if n <= 1 && z.to_f64() > far(z) {
+        return (expansion(z, i64::from(n)), expansion_roundings(z));
+    }
+    let half = z.clone() / z.int(2);
+    let (value, roundings) = S::hypergeometric(&half.square(), n);
+    let value = (1..=i64::from(n)).fold(value, |product, k| product * &half / z.int(k));
+    (value * (-z.clone()).exponential(), roundings + 2.0 * f64::from(n) + z.to_f64() + EXP)
+}
+
+/// Computes `e^{−rt} ψ₀` and its roundings, for `ξ ≥ 0`.
 ///
 /// The series serves small `z = r√(ξη)`. Beyond its reach the result is `e^{−λ} · e^{−z} I₀(z)` with
-/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. Each of the ten operations before the exponential adds a
-/// rounding of λ or of z, and both functions amplify these by at most λ and one; the expansion has fewer than 8p + 512.
-/// With `64 + log₂(1 + λ)` bits beyond p the total is far less than one unit of `2^{−p−16}`.
-pub(super) fn damped_start(half: &Float, xi: &Float, eta: &Float) -> Option<Spare> {
-    let p = xi.prec();
-    let square = Float::with_val(2 * half.prec(), half.square_ref());
-    let product = Float::with_val(xi.prec() + eta.prec(), xi * eta);
-    let y = Float::with_val(square.prec() + product.prec(), &square * &product);
-    let near = f64::from(p) + 64.0;
-    if y.is_nan() || y.is_infinite() {
-        return None;
+/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. `y = (r/2)² ξη` has three roundings, and passes on at most `z/2`
+/// times as many; the expansion passes on fewer than it has. Either exponent has at most ten roundings of itself;
+/// beyond `2³¹` there is nothing left of the value.
+pub(super) fn start<S: Spare>(ray: &Ray<S>) -> (S, f64) {
+    let (half, product) = (ray.half(), ray.xi.clone() * &ray.eta);
+    let y = half.square() * &product;
+    let Some(root) = product.try_sqrt().filter(|_| y.is_finite() && !y.is_negative()) else {
+        return (y.double(f64::NAN), f64::INFINITY);
+    };
+    let (z, sum) = (2.0 * y.to_f64().sqrt(), ray.eta.clone() + &ray.xi);
+    if z <= far(&y) {
+        let (value, roundings) = S::hypergeometric(&y, 0);
+        return (value * (-(half * &sum)).exponential(), roundings + 2.0 * z + EXP);
     }
-    if y.to_f64() > 0.25 * near * near {
-        let lag = |bits: u32| {
-            let root = Float::with_val(bits, product.sqrt_ref());
-            let apart = Float::with_val(bits, eta - xi);
-            let both = Float::with_val(bits, eta + xi) + (root.clone() << 1u32);
-            let square = Float::with_val(bits, apart.square_ref());
-            let lag = Float::with_val(bits, half * &square) / both;
-            (root, lag)
-        };
-        let (_, size) = lag(64);
-        let bits = p + 64 + size.get_exp().unwrap_or(0).clamp(0, 64) as u32;
-        let (root, lag) = lag(bits);
-        let z = Float::with_val(bits, half) * 2u32 * root;
-        let value = expansion(&z, 0) * (-lag).exp();
-        return Some(Spare { long: value, small: 1.0 });
-    }
-    // The sum is exact if both are of similar size; otherwise the error is far below a rounding of the exponential.
-    let bits = p + GUARD_BITS + 64;
-    let time = Float::with_val(bits, xi + eta);
-    let damped = -Float::with_val(bits, half * &time);
-    if damped.is_nan() || damped < -1e15 {
-        return None;
-    }
-    let one = Float::with_val(p, 1);
-    with_power(&one, &y, 0, &damped).map(|value| Spare { small: value.small + 1.0, ..value })
+    let lag = half * &(ray.eta.clone() - &ray.xi).square() / (sum + &root + &root);
+    let value = expansion(&(ray.damping.clone() * &root), 0) * (-lag).exponential();
+    (value, 2.0 * expansion_roundings(&y) + EXP)
 }
 
-/// Bound of the error of [`hypergeometric`], in units of `2^{−bits}`.
-const SERIES: f64 = 0.5;
-
-/// Computes `V = ₀F₁(; n+1; y) = Σ_m T_m`, `T_m = y^m/(m!(n+1)_m)`, to this many bits; `None` for y not finite,
-/// negative, or at least `2⁴⁸`.
-///
-/// **Accuracy**: within [`SERIES`] units of `2^{−bits}` relatively. As `T_m ≤ (e²y/m²)^m`, at most `N = q + 2 + 4√y`
-/// terms matter to `2^{−q}`; `q = bits + 2 log₂ N + 4`. Term m has the bits that keep its four roundings (of y, the
-/// product, the quotient and the bits) to `2^{1−q} S_m/T_m` of itself, for the sum `S_m` so far, and all later terms
-/// inherit them: `4·2^{1−q} S_m Σ_{k≥m} T_k/T_m`. The ratios of terms decrease, so `T_i T_k ≤ T_m T_{i+k−m}` for
-/// `i ≤ m ≤ k`, and that is at most `4·2^{1−q} (m + 1) V`. The sum over m is below `5N² 2^{−q} V`, with the roundings of
-/// the sum and the rest.
-fn hypergeometric(y: &Float, n: u32, bits: u32) -> Option<Float> {
-    if !y.is_finite() || y.is_sign_negative() || *y >= 281_474_976_710_656_u64 {
-        return None;
-    }
-    let size = y.to_f64();
-    let most = f64::from(bits) + 100.0 + 4.0 * size.sqrt();
-    let bits = bits + (2.0 * most.log2()).ceil() as u32 + 4;
-    let mut factor = Float::with_val(bits, y);
-    let (mut term, mut sum, mut m) = (Float::with_val(bits, 1), Float::with_val(bits, 1), 0i64);
-    loop {
-        m += 1;
-        term *= &factor;
-        term /= m * (m + i64::from(n));
-        sum += &term;
-        let (Some(top), Some(of_sum)) = (term.get_exp(), sum.get_exp()) else { return Some(sum) };
-        let left = bits as i32 + top - of_sum;
-        if left < 0 && 2.0 * size <= (m * m) as f64 {
-            return Some(sum);
-        }
-        // Precision in whole words.
-        let left = left.max(64) as u32;
-        if left.next_multiple_of(64) < term.prec() {
-            term.set_prec(left.next_multiple_of(64));
-            factor = Float::with_val(term.prec(), y);
-        }
-    }
+/// Returns the ray in longer numbers, with ξ ≥ 0: a ray that arrives now may do so a rounding later.
+pub(super) fn arrived<S: Rounded, L: Rounded>(ray: &Ray<S>, longer: impl Fn(&S) -> L) -> Ray<L> {
+    let ray = ray.map(longer);
+    let xi = if ray.xi.is_negative() { ray.xi.zero() } else { ray.xi };
+    Ray { xi, ..ray }
 }

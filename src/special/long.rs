@@ -1,31 +1,38 @@
 //! Special functions of long numbers; the sums of a ray by the backward three-term recurrence without divisions.
 
 use super::bessel::{RoundedSpecial, by_ratios};
-use super::hypergeometric::{Spare, damped_start, finish, in_scaled_bounded};
-use super::ray::{Ray, RaySums, RoundedSums, bits};
-use crate::number::Float;
+use super::hypergeometric::{arrived, far, in_scaled, start};
+use super::ray::{Ray, RaySums, RoundedSums};
 use crate::number::float::Pow;
+use crate::number::{Float, Scalar};
 
 /// Upper bound on the roundings of [`backward`].
 const SUM_ROUNDINGS: f64 = 2.0;
 
-/// Returns the ray with ξ ≥ 0: rounding can make ξ negative for a ray that has just arrived.
-fn arrived(ray: &Ray<Float>) -> Ray<Float> {
-    let xi = if ray.xi.is_sign_negative() { Float::new(ray.xi.prec()) } else { ray.xi.clone() };
-    Ray { xi, ..ray.clone() }
+/// Returns the number with a word to spare.
+fn longer(x: &Float) -> Float {
+    Float::with_val(x.prec() + 64, x)
+}
+
+/// Rounds a number that had so many roundings in a word more, and returns its roundings now: fewer than `2⁴⁰` are less
+/// than a ten-thousandth. There are infinitely many if there is no value.
+fn finished((value, spare): (Float, f64), bits: u32) -> (Float, f64) {
+    (Float::with_val(bits, &value), if spare < 2f64.powi(40) && !value.is_nan() { 1.000_100_2 } else { f64::INFINITY })
 }
 
 impl RoundedSpecial for Float {
     fn in_scaled_rounded(&self, n: u32) -> (Float, f64) {
-        if n <= 1 || self.to_f64() <= bits(self) + 64.0 {
-            return in_scaled_bounded(self, n);
+        if !Float::is_finite(self) || self.is_sign_negative() {
+            return (self.double(f64::NAN), f64::INFINITY);
         }
-        by_ratios(self, n, in_scaled_bounded(self, 0))
+        if n > 1 && self.to_f64() > far(self) {
+            return by_ratios(self, n, self.in_scaled_rounded(0));
+        }
+        finished(in_scaled(&longer(self), n), self.prec())
     }
 
     fn ray_start_rounded(ray: &Ray<Float>) -> (Float, f64) {
-        let ray = arrived(ray);
-        finish(damped_start(&ray.half(), &ray.xi, &ray.eta), ray.xi.prec())
+        finished(start(&arrived(ray, longer)), ray.xi.prec())
     }
 
     /// Computes the sums by the recurrence without divisions if it applies, otherwise by the ratios.
@@ -34,10 +41,10 @@ impl RoundedSpecial for Float {
         first: [i64; K],
         weight: impl Fn(i64) -> [i64; K],
     ) -> RoundedSums<Float, K> {
-        let ray = arrived(ray);
+        let ray = arrived(ray, Float::clone);
         let terms = ray.terms(first.iter().copied().max().unwrap_or(1));
         if let Some((start, sums)) = backward(&ray, terms, first, &weight) {
-            let (start, start_roundings) = start.rounded(ray.xi.prec());
+            let (start, start_roundings) = finished(start, ray.xi.prec());
             let values = RaySums { start, sums };
             return RoundedSums { values, start_roundings, sum_roundings: SUM_ROUNDINGS, terms, mean: terms as f64 };
         }
@@ -74,7 +81,7 @@ fn backward<const K: usize>(
     terms: i64,
     first: [i64; K],
     weight: impl Fn(i64) -> [i64; K],
-) -> Option<(Spare, [Float; K])> {
+) -> Option<((Float, f64), [Float; K])> {
     let (xi, eta, half) = (&ray.xi, &ray.eta, &ray.half());
     let p = xi.prec();
     let last = first.iter().copied().max().unwrap_or(1);
@@ -94,7 +101,10 @@ fn backward<const K: usize>(
     // One rounding for x or w and one for the quotient, within the τ_n above.
     let (x, w) = (Float::with_val(full + 8, half * xi), Float::with_val(full + 8, half * eta));
     let (by_x, by_w) = (Float::with_val(full + 8, x.recip_ref()), Float::with_val(full + 8, &w / &x));
-    let start = damped_start(half, xi, eta)?;
+    let start = start(&ray.map(longer));
+    if start.0.is_nan() {
+        return None;
+    }
 
     let mut bits = FEWEST_BITS + extra as u32;
     loop {
@@ -104,7 +114,7 @@ fn backward<const K: usize>(
             bits += full - reached + 8;
             continue;
         }
-        let factor = Float::with_val(full, &start.long / &zeroth);
+        let factor = Float::with_val(full, &start.0 / &zeroth);
         let mut k = 0;
         let sums = sums.map(|sum| {
             let power = Float::with_val(full, half.pow(first[k] as u32));
