@@ -28,22 +28,23 @@
 //! `b ξ e^{κ(ξ+η)}` (maximum principle for `u_η = κ(w−u)`, `w_ξ = κ(u−w)` on `0 … ξ`). Between breaks the initial data
 //! have that form, so one number of Chebyshev terms, from [`super::series::terms_for`], suffices for a side for ever.
 
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use super::series::{Basis, at_one, evaluate_all, times_x};
 use crate::number::Rounded;
 
 /// A cell with its incoming data: `e^{κ(ξ−ξ₀)} p` on the side `η = η₀`, `e^{κ(η−η₀)} q` on the side `ξ = ξ₀`.
-#[derive(Debug)]
-pub(super) struct Cell<'a, S> {
+#[derive(Clone, Debug)]
+pub(super) struct Cell<'a, S: Clone> {
     /// `ξ₀`, `η₀`: the lower corner.
     pub(super) corner: (S, S),
     /// `Δξ`, `Δη`.
     pub(super) size: (S, S),
     /// `κΔξ`, `κΔη`.
     pub(super) depth: (S, S),
-    pub(super) p: &'a [S],
-    pub(super) q: &'a [S],
+    pub(super) p: Cow<'a, [S]>,
+    pub(super) q: Cow<'a, [S]>,
     /// Amount to add to `p` and to subtract from `q`: the reflection at the stress-free ground end is about this value.
     pub(super) offset: S,
 }
@@ -143,6 +144,13 @@ pub(super) fn diagonal<S: Rounded>(
 }
 
 impl<S: Rounded> Cell<'_, S> {
+    /// Returns the cell with copies of its incoming data.
+    pub(super) fn kept(&self) -> Cell<'static, S> {
+        let Cell { corner, size, depth, p, q, offset } = self.clone();
+        let (p, q) = (p.into_owned().into(), q.into_owned().into());
+        Cell { corner, size, depth, p, q, offset }
+    }
+
     /// Computes `p` and `q` of `z` at the points `(ξ, η)` of the cell.
     pub(super) fn at(&self, basis: &Basis<S>, points: &[(S, S)], log2_accuracy: f64) -> Vec<(S, S)> {
         let (a, h) = (&self.depth.0, &self.depth.1);

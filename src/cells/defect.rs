@@ -123,7 +123,7 @@ impl Steps {
     pub(super) fn cell<S: RoundedSpecial>(&self, medium: &Medium<S>, cell: &Cell<'_, S>) -> (f64, f64) {
         let y = cell.depth.0.to_f64() * cell.depth.1.to_f64();
         let count = terms(y, self.log2_accuracy).min(medium.basis.powers.len() - 1);
-        let (mut p, mut q) = (sizes(cell.p), sizes(cell.q));
+        let (mut p, mut q) = (sizes(&cell.p), sizes(&cell.q));
         let (of_p, of_q): (f64, f64) = (p.iter().sum(), q.iter().sum());
         let (short_p, short_q) = (p.len(), q.len());
         // The missing part of J^{k+1}, and its value at the end, at most 1/(k+1)! of the data, enter with yᵏ/k! or

@@ -12,11 +12,9 @@
 //! The second formula makes the mean of z vanish, and holds on every characteristic of the flight: the height of the
 //! end is never summed over round trips.
 
-use super::march::MOST_SEPARATED_DAMPING;
-use super::march::{Medium, State};
+use super::march::{MOST_SEPARATED_DAMPING, Medium, State};
 use super::series::{at_one, at_zero, integral, times_x};
-use crate::special::RoundedSpecial;
-use crate::special::{phi1, phi2};
+use crate::special::{RoundedSpecial, phi1, phi2};
 
 /// Motion of the centre of mass in a flight.
 #[derive(Clone, Debug)]

@@ -9,13 +9,13 @@ use super::march::Medium;
 use super::piece::{Checkpoint, Found, Mark, Piece};
 use super::record::Record;
 use super::root::smallest;
-use super::series::{at_one, at_zero, evaluate};
+use super::series::{at_one, at_zero, evaluate, smaller};
 use super::start::{Data, medium};
 use super::strips::{Line, Node, Pool};
 use super::uncertainty::{Uncertainty, within};
 use crate::error::Error;
 use crate::motion::{Course, Ending, Event, Field, Scales, Side, StressPiece, moments, unobserved};
-use crate::number::Estimate;
+use crate::number::{Estimate, Scalar};
 use crate::problem::{Problem, Run};
 use crate::special::{RoundedSpecial, log_mean, log_rest};
 
@@ -44,7 +44,7 @@ use crate::special::{RoundedSpecial, log_mean, log_rest};
 /// # Ok::<(), dalembert::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Damped<S> {
+pub struct Damped<S: Scalar> {
     pub(super) medium: Medium<S>,
     pub(super) data: Data<S>,
     pub(super) scales: Scales<f64>,
@@ -203,17 +203,14 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// Computes the dimensionless `v(x,t)`.
     fn displacement(&self, x: &S, t: &S) -> S {
-        let mut sum = self.record().height(t);
-        if *x == x.ratio(1, 2) {
+        let height = self.record().height(t);
+        let strained = |sum: S, node: &Node<S>| sum + node.strain.clone() * &node.weight;
+        match x {
             // The upper end.
-            return self.record().whole_line(t).iter().fold(sum, |sum, node| sum + node.strain.clone() * &node.weight);
+            _ if *x == x.ratio(1, 2) => self.record().whole_line(t).iter().fold(height, strained),
+            _ if x.is_positive() => self.record().line(t, x).iter().fold(height, strained),
+            _ => height,
         }
-        if x.is_positive() {
-            for node in self.record().line(t, x) {
-                sum = sum + node.strain * &node.weight;
-            }
-        }
-        sum
     }
 
     pub(super) fn contact_pieces(&self) -> impl Iterator<Item = &[Piece<S>]> {
@@ -231,10 +228,8 @@ impl<S: RoundedSpecial> Damped<S> {
             self.medium.basis.integrate(&mut area);
             let push = at_one(&area, &piece.len.zero()) * &piece.len * &self.data.displacement * &units.wave_speed;
             impulse = impulse - push;
-            let least = smallest(&self.medium.basis, &piece.trace, tolerance);
-            let strain = least.map(|least| least * &units.velocity / &units.wave_speed);
-            if let Some(strain) = strain.filter(|strain| *strain < peak) {
-                peak = strain;
+            if let Some(least) = smallest(&self.medium.basis, &piece.trace, tolerance) {
+                peak = smaller(peak, least * &units.velocity / &units.wave_speed);
             }
         }
         (impulse, peak)
@@ -259,40 +254,18 @@ impl<S: RoundedSpecial> Damped<S> {
 
     /// Returns the pieces of the stress: one for each flight, and in contact one between any two arriving rays.
     pub(super) fn pieces_of_stress(&self) -> Vec<StressPiece<S>> {
-        let units = &self.data.units;
+        let (units, zero) = (&self.data.units, self.data.slope.zero());
         let unit = units.velocity.clone() / &units.wave_speed;
-        let mut pieces: Vec<StressPiece<S>> = Vec::new();
-        let mut flying = false;
-        for piece in &self.pieces {
-            let zero = piece.len.zero();
-            let to = piece.to() * &units.time;
-            match pieces.last_mut() {
-                Some(last) if flying && !piece.contact => last.end = to,
-                _ => {
-                    let c: Vec<S> = if piece.contact {
-                        piece.trace.iter().map(|term| term.clone() * &unit).collect()
-                    } else {
-                        Vec::new()
-                    };
-                    let from = piece.from.clone() * &units.time;
-                    if let Some(last) = pieces.last_mut() {
-                        last.end = from.clone();
-                    }
-                    pieces.push(StressPiece {
-                        start: from,
-                        end: to,
-                        strain_start: at_zero(&c, &zero),
-                        strain_end: at_one(&c, &zero),
-                        chebyshev: c,
-                    });
-                }
-            }
-            flying = !piece.contact;
-        }
-        if let Some(last) = pieces.last_mut() {
-            last.end = self.course.end.value().clone();
-        }
-        pieces
+        let parts: Vec<&[Piece<S>]> = self.pieces.chunk_by(|a, b| !a.contact && !b.contact).collect();
+        let start = |part: &&[Piece<S>]| part[0].from.clone() * &units.time;
+        let ends = parts.iter().skip(1).map(start).chain([self.course.end.value().clone()]);
+        let piece = |(part, end): (&&[Piece<S>], S)| {
+            let trace = if part[0].contact { part[0].trace.as_slice() } else { &[] };
+            let chebyshev: Vec<S> = trace.iter().map(|term| term.clone() * &unit).collect();
+            let (strain_start, strain_end) = (at_zero(&chebyshev, &zero), at_one(&chebyshev, &zero));
+            StressPiece { start: start(part), end, strain_start, strain_end, chebyshev }
+        };
+        parts.iter().zip(ends).map(piece).collect()
     }
 
     /// Returns whether the end lies on the ground at a time of the run; `None` outside of it.

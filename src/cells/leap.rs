@@ -34,7 +34,7 @@
 use std::cell::Cell;
 use std::collections::VecDeque;
 
-use super::cell::scale;
+use super::cell::{add_scaled, scale};
 use super::march::{Medium, Segment, State};
 use super::series::{Basis, at_one, at_zero, integral, times_x};
 use crate::special::RoundedSpecial;
@@ -101,9 +101,7 @@ pub(super) struct LeapCount {
 
 fn add<S: RoundedSpecial>(target: &mut [Vec<S>], f: &[Vec<S>], factor: &S) {
     for (target, f) in target.iter_mut().zip(f) {
-        for (t, c) in target.iter_mut().zip(f) {
-            *t = c.clone() * factor + &*t;
-        }
+        add_scaled(target, f, factor);
     }
 }
 
@@ -267,7 +265,8 @@ impl<S: RoundedSpecial> Medium<S> {
             accuracy: self.log2_accuracy.exp2(),
         };
         let (value, rate) = self.scaled(state, &circle, ground);
-        let layers = self.layers(&damping);
+        // Powers of G/2 on the characteristic.
+        let layers = self.powers(damping.to_f64().powi(2) / 14.0);
         // Formula (in), by Horner's rule.
         let gamma = circle.lagged_delta();
         let mut products = vec![(rate, value)];
@@ -332,15 +331,14 @@ impl<S: RoundedSpecial> Medium<S> {
         LeapCount { dropped, order: circle.lag.len(), layers, integrals, powers }
     }
 
-    /// Returns the number of powers of `G/2` on the characteristic that reach the accuracy.
-    fn layers(&self, damping: &S) -> usize {
-        let size = damping.to_f64().powi(2) / 14.0;
-        let (mut log2_term, mut j) = (0.0, 0usize);
-        while log2_term > self.log2_accuracy && j < 1000 {
-            j += 1;
-            log2_term += (size / j as f64).log2();
+    /// Returns the number of terms `sizeᵏ/k!` that reach the accuracy.
+    fn powers(&self, size: f64) -> usize {
+        let (mut log2_term, mut k) = (0.0, 0usize);
+        while log2_term > self.log2_accuracy && k < 1000 {
+            k += 1;
+            log2_term += (size / k as f64).log2();
         }
-        j
+        k
     }
 
     /// Computes `Z` and `Z_s` from `q` and `z(0)`: `Z_s = κZ + ½e^{κs}q`.
@@ -358,7 +356,7 @@ impl<S: RoundedSpecial> Medium<S> {
             circle.drops(&push);
             let first = self.basis.primitive(&push, len, &here);
             let mut sum = first.clone();
-            for _ in 0..self.rounds(&depth) {
+            for _ in 0..self.powers(depth.to_f64()) {
                 circle.drops(&sum);
                 self.basis.integrate(&mut sum);
                 scale(&mut sum, &depth);
@@ -366,24 +364,12 @@ impl<S: RoundedSpecial> Medium<S> {
                     *s = f.clone() + &*s;
                 }
             }
-            for (p, s) in push.iter_mut().zip(&sum) {
-                *p = s.clone() * &self.kappa + &*p;
-            }
+            add_scaled(&mut push, &sum, &self.kappa);
             here = at_one(&sum, &len.zero());
             value.push(sum);
             rate.push(push);
         }
         (value, rate)
-    }
-
-    /// Returns the number of iterations of `Z = Z(0) + J(κZ + …)` that reach the accuracy.
-    fn rounds(&self, depth: &S) -> usize {
-        let (mut log2_term, mut k) = (0.0, 0usize);
-        while log2_term > self.log2_accuracy && k < 1000 {
-            k += 1;
-            log2_term += (depth.to_f64() / k as f64).log2();
-        }
-        k
     }
 
     /// Computes `q` from `Z_s` and `Z(0)`.

@@ -200,7 +200,7 @@ impl<S: Rounded> Medium<S> {
         let mut p = if contact { q.iter().map(|term| -term.clone()).collect() } else { q.clone() };
         let offset = if contact { zero.clone() } else { self.offset.clone() };
         let (corner, size, depths) = cell(&eta, &first.len);
-        visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: offset.clone() });
+        visit(&Cell { corner, size, depth: depths, p: (&p).into(), q: (&q).into(), offset: offset.clone() });
         let mut out = q;
         self.cross((&mut p, &mut out), (&depth, &depth), (&first.decay, &first.decay));
         self.raise(&mut p, &depth, &offset);
@@ -208,14 +208,14 @@ impl<S: Rounded> Medium<S> {
         for segment in &mut state.segments {
             let (corner, size, depths) = cell(&eta, &segment.len);
             let h = depths.1.clone();
-            visit(&Cell { corner, size, depth: depths, p: &p, q: &segment.q, offset: zero.clone() });
+            visit(&Cell { corner, size, depth: depths, p: (&p).into(), q: (&segment.q).into(), offset: zero.clone() });
             self.cross((&mut p, &mut segment.q), (&depth, &h), (&first.decay, &segment.decay));
             eta = eta + &segment.len;
         }
         // The top: likewise a cell and its mirror image.
         let mut q = if self.free_top { p.clone() } else { p.iter().map(|term| -term.clone()).collect() };
         let (corner, size, depths) = cell(&eta, &first.len);
-        visit(&Cell { corner, size, depth: depths, p: &p, q: &q, offset: zero });
+        visit(&Cell { corner, size, depth: depths, p: (&p).into(), q: (&q).into(), offset: zero });
         self.cross((&mut p, &mut q), (&depth, &depth), (&first.decay, &first.decay));
         let wraps = state.segments.front().is_none_or(|next| next.at <= first.at);
         state.round += i64::from(wraps);
@@ -244,8 +244,8 @@ impl<S: Rounded> Medium<S> {
                 corner: (corner.0.clone(), eta.clone()),
                 size: (p.len.clone(), segment.len.clone()),
                 depth: (depth.clone(), h.clone()),
-                p: &up,
-                q: &segment.q,
+                p: (&up).into(),
+                q: (&segment.q).into(),
                 offset: offset.clone(),
             });
             self.cross((&mut up, &mut segment.q), (&depth, &h), (&p.decay, &segment.decay));

@@ -8,16 +8,17 @@ use super::cell::Cell;
 use super::flight::Flight;
 use super::march::Medium;
 use super::piece::{Checkpoint, Piece};
-use super::series::evaluate;
+use super::series::{evaluate, smaller};
 use super::start::Data;
-use super::strips::{Kept, Line, MOST_KEPT, Node, Nodes, Pool, Strips};
+use super::strips::{Line, MOST_KEPT, Node, Nodes, Pool, Strips};
 use super::uncertainty::slack;
 use crate::motion::Side;
+use crate::number::Scalar;
 use crate::special::RoundedSpecial;
 
 /// Data from which the field is reconstructed.
 #[derive(Debug)]
-pub(super) struct Record<'a, S> {
+pub(super) struct Record<'a, S: Scalar> {
     pub(super) medium: &'a Medium<S>,
     pub(super) data: &'a Data<S>,
     pub(super) pieces: &'a [Piece<S>],
@@ -209,11 +210,10 @@ impl<S: RoundedSpecial> Record<'_, S> {
         let from = xi.clone() - &slack - &slack;
         self.sweep(&from, &(xi.clone() + &slack), &mut |(cell, flight)| {
             if best.is_none() || (begun(&cell.corner.0, &xi) && begun(&cell.corner.1, &eta)) {
-                best = Some((Kept::of(cell), flight));
+                best = Some((cell.kept(), flight));
             }
         });
-        let found =
-            best.and_then(|(kept, flight)| self.inside((&kept.cell(), flight), &[(x.clone(), t.clone())]).pop());
+        let found = best.and_then(|(kept, flight)| self.inside((&kept, flight), &[(x.clone(), t.clone())]).pop());
         found.map_or_else(|| (x.zero(), x.zero()), |(rigid, motion, strain)| (rigid + motion, strain))
     }
 
@@ -288,8 +288,4 @@ impl<S: RoundedSpecial> Record<'_, S> {
     pub(super) fn height(&self, t: &S) -> S {
         self.end(t, Side::Left).0
     }
-}
-
-fn smaller<S: RoundedSpecial>(a: S, b: S) -> S {
-    if b < a { b } else { a }
 }

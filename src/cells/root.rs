@@ -1,6 +1,6 @@
 //! The first time at which a smooth function turns negative, with earlier times excluded.
 
-use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, spread};
+use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, smaller, spread};
 use crate::number::Rounded;
 
 /// Smallest part of a segment that is still halved.
@@ -98,9 +98,7 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S], tolerance: f64) ->
     let mut parts = vec![(0.0, c.to_vec())];
     while let Some((log2_width, c)) = parts.pop() {
         for value in [at_zero(&c, &zero), at_one(&c, &zero)] {
-            if value < least {
-                least = value;
-            }
+            least = smaller(least, value);
         }
         let slope = derivative(&c);
         // Largest amount by which the part can fall below the least value found.
@@ -112,10 +110,7 @@ pub(super) fn smallest<S: Rounded>(basis: &Basis<S>, c: &[S], tolerance: f64) ->
         if bend[0].to_f64().abs() >= bound(&bend, 1) {
             let [fall, curve] = [&slope, &bend].map(|c| c.iter().map(|c| -c.clone()).collect::<Vec<_>>());
             if !bend[0].is_negative() && !at_zero(&fall, &zero).is_negative() && at_one(&fall, &zero).is_negative() {
-                let value = evaluate(&c, &descend(&fall, &curve));
-                if value < least {
-                    least = value;
-                }
+                least = smaller(least, evaluate(&c, &descend(&fall, &curve)));
             }
             continue;
         }

@@ -156,6 +156,10 @@ pub(super) fn at_zero<S: Rounded>(c: &[S], zero: &S) -> S {
     c.iter().enumerate().fold(zero.clone(), |sum, (k, term)| if k % 2 == 0 { sum + term } else { sum - term })
 }
 
+pub(super) fn smaller<S: Rounded>(a: S, b: S) -> S {
+    if b < a { b } else { a }
+}
+
 /// Computes `∫₀¹`: an even term of order k has the integral `1/(1 − k²)`.
 pub(super) fn integral<S: Rounded>(c: &[S]) -> S {
     let first = &c[0];

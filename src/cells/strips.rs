@@ -11,40 +11,16 @@ use super::cell::Cell;
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Piece};
+use crate::number::Scalar;
 use crate::special::RoundedSpecial;
 use crate::threads::locked;
 
-/// A cell that owns its incoming data.
-#[derive(Clone, Debug)]
-pub(super) struct Kept<S> {
-    corner: (S, S),
-    size: (S, S),
-    depth: (S, S),
-    p: Vec<S>,
-    q: Vec<S>,
-    offset: S,
-}
-
-impl<S: Clone> Kept<S> {
-    pub(super) fn of(cell: &Cell<'_, S>) -> Self {
-        let Cell { corner, size, depth, p, q, offset } = cell;
-        let (corner, size, depth, offset) = (corner.clone(), size.clone(), depth.clone(), offset.clone());
-        Kept { corner, size, depth, p: p.to_vec(), q: q.to_vec(), offset }
-    }
-
-    pub(super) fn cell(&self) -> Cell<'_, S> {
-        let Kept { corner, size, depth, p, q, offset } = self;
-        let (corner, size, depth, offset) = (corner.clone(), size.clone(), depth.clone(), offset.clone());
-        Cell { corner, size, depth, p, q, offset }
-    }
-}
-
 /// The strips after a checkpoint, one for each piece, up to the last one queried.
 #[derive(Clone, Debug)]
-pub(super) struct Strips<S> {
+pub(super) struct Strips<S: Scalar> {
     /// Index of the checkpoint.
     start: usize,
-    strips: Vec<Vec<Kept<S>>>,
+    strips: Vec<Vec<Cell<'static, S>>>,
     /// Number of coefficients kept.
     pub(super) size: usize,
     /// State after the last strip.
@@ -94,13 +70,13 @@ impl<S: RoundedSpecial> Strips<S> {
     pub(super) fn keep(&mut self, medium: &Medium<S>, flights: &[Flight<S>], piece: &Piece<S>) {
         let mut cells = Vec::with_capacity(self.state.segments.len() + 2);
         self.fly(medium, flights, piece.flight);
-        self.strip(medium, piece, &mut |cell| cells.push(Kept::of(cell)));
+        self.strip(medium, piece, &mut |cell| cells.push(cell.kept()));
         self.size += cells.iter().map(|cell| cell.p.len() + cell.q.len()).sum::<usize>();
         self.strips.push(cells);
     }
 
     pub(super) fn show(&self, strip: usize, visit: &mut dyn FnMut(&Cell<'_, S>)) {
-        self.strips[strip].iter().for_each(|kept| visit(&kept.cell()));
+        self.strips[strip].iter().for_each(visit);
     }
 }
 
@@ -108,7 +84,7 @@ impl<S: RoundedSpecial> Strips<S> {
 /// one time serve all queries about that time, such as those of the solution and of its lists at an event, and a state
 /// after a part of a leap all queries within one round trip.
 #[derive(Debug)]
-pub(super) struct Pool<S> {
+pub(super) struct Pool<S: Scalar> {
     strips: Mutex<Vec<Strips<S>>>,
     lines: Mutex<VecDeque<(S, Nodes<S>)>>,
     leaps: Mutex<VecDeque<(Leap, State<S>)>>,
@@ -149,20 +125,20 @@ const MOST_NODES: usize = 1 << 15;
 /// Maximum number of strips in the cache: two for each core, since a core marches from one checkpoint to the next.
 static MOST: LazyLock<usize> = LazyLock::new(|| 2 * std::thread::available_parallelism().map_or(1, NonZero::get));
 
-impl<S> Default for Pool<S> {
+impl<S: Scalar> Default for Pool<S> {
     fn default() -> Self {
         Pool { strips: Mutex::default(), lines: Mutex::default(), leaps: Mutex::default() }
     }
 }
 
 /// A clone has an empty cache.
-impl<S> Clone for Pool<S> {
+impl<S: Scalar> Clone for Pool<S> {
     fn clone(&self) -> Self {
         Pool::default()
     }
 }
 
-impl<S: Clone + PartialEq> Pool<S> {
+impl<S: Scalar + PartialEq> Pool<S> {
     /// Takes the strips after checkpoint `start` out of the cache, if they are there.
     pub(super) fn take(&self, start: usize) -> Option<Strips<S>> {
         let mut all = locked(&self.strips);

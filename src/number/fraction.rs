@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::radical::square_factor;
 use super::rational::{self, Integer, Rational};
 use super::{Bounded, Estimate, Number, Open, Reads, Scalar, Spelling};
 
@@ -55,23 +56,10 @@ impl Scalar for Rational {
         // √(n/d) = √(n d)/d; squares of small primes move out of the root.
         let (numerator, denominator) = rational::parts(square);
         let (zero, one) = (Integer::from(0), Integer::from(1));
-        let mut radicand = numerator * &denominator;
-        let mut factor = rational::quotient(one.clone(), denominator);
-        for prime in 2..SMALL_FACTOR {
-            let square = Integer::from(prime * prime);
-            if square > radicand {
-                break;
-            }
-            while radicand.clone() % &square == zero {
-                radicand /= &square;
-                factor *= Rational::from(prime);
-            }
-        }
-        if let Some(root) = rational::exact_root(&radicand) {
-            factor *= Rational::from(root);
-            radicand = one.clone();
-        }
-        let (times, over) = rational::parts(&factor);
+        let radicand = numerator * &denominator;
+        let root = square_factor(&radicand, SMALL_FACTOR);
+        let radicand = if root == zero { one.clone() } else { radicand / (root.clone() * &root) };
+        let (times, over) = rational::parts(&rational::quotient(root, denominator));
         let times = if times == one { String::new() } else { times.to_string() };
         let over = if over == one { String::new() } else { format!("/{over}") };
         let root = format!("{times}√{radicand}{over}");

@@ -61,6 +61,11 @@ impl Inside {
         number.map_or(Inside::Lost, |number| Inside::Known(Box::new(number)))
     }
 
+    /// Returns another number, if exact numbers are requested.
+    fn other(&self, number: impl FnOnce() -> Option<Radical>) -> Self {
+        if matches!(self, Inside::Off) { Inside::Off } else { Inside::of(number()) }
+    }
+
     fn map(&self, f: impl FnOnce(&Radical) -> Option<Radical>) -> Self {
         match self {
             Inside::Known(number) => Inside::of(f(number)),

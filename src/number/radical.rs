@@ -247,7 +247,7 @@ impl Radical {
         let whole = self.scaled(&Rational::from(square(&below)))?;
         let content =
             whole.terms.iter().fold(Integer::from(0), |gcd, (_, c)| rational::gcd(rational::parts(c).0, &gcd));
-        let factor = square_factor(&content);
+        let factor = square_factor(&content, SMALL_FACTOR);
         let radicand = whole.scaled(&rational::quotient(Integer::from(1), square(&factor)))?;
         let scale = rational::quotient(factor, below);
         let root = Root { depth: radicand.depth() + 1, radicand: Some(radicand), name: 0 };
@@ -272,13 +272,16 @@ impl Radical {
     }
 }
 
-/// Returns a factor `s` with `s² | n`, for `n > 0`: squares of small primes, and the cofactor if it is a square.
-fn square_factor(n: &Integer) -> Integer {
+/// Returns a factor `s` with `s² | n`, for `n > 0`: squares of primes below a limit, and the cofactor if it is a square.
+pub(super) fn square_factor(n: &Integer, limit: u32) -> Integer {
     let (mut rest, mut factor) = (n.clone(), Integer::from(1));
     let zero = Integer::from(0);
-    for prime in 2..SMALL_FACTOR {
+    for prime in 2..limit {
         let square = Integer::from(prime * prime);
-        while rest != zero && rest.clone() % &square == zero {
+        if square > rest {
+            break;
+        }
+        while rest.clone() % &square == zero {
             rest /= &square;
             factor *= prime;
         }

@@ -8,7 +8,8 @@ fn a_constant_velocity_decays() {
     let (a, h) = (0.3f64, 0.45f64);
     let (mut p, mut q) = (basis.exponential(&-a, 16), basis.exponential(&-h, 16));
     let (p0, q0) = (p.clone(), q.clone());
-    let cell = Cell { corner: (0.0, 0.0), size: (1.0, 1.0), depth: (a, h), p: &p0, q: &q0, offset: 0.0 };
+    let cell =
+        Cell { corner: (0.0, 0.0), size: (1.0, 1.0), depth: (a, h), p: (&p0).into(), q: (&q0).into(), offset: 0.0 };
     let (at_p, at_q) = cell.at(&basis, &[(0.5, 0.25)], -60.0)[0];
     let exact = (-2.0 * (0.5 * a + 0.25 * h)).exp();
     assert!((at_p - exact).abs() < 4e-15 && (at_q - exact).abs() < 4e-15);

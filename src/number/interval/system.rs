@@ -34,19 +34,13 @@ impl Scalar for Interval {
 
     fn int(&self, n: i64) -> Self {
         let bits = self.lo.prec();
-        let inside = match self.inside {
-            Inside::Off => Inside::Off,
-            _ => Inside::of(Radical::rational(Rational::from(n))),
-        };
+        let inside = self.inside.other(|| Radical::rational(Rational::from(n)));
         Interval { lo: down(bits, n), hi: up(bits, n), inside }
     }
 
     fn double(&self, x: f64) -> Self {
         let bits = self.lo.prec();
-        let inside = match self.inside {
-            Inside::Off => Inside::Off,
-            _ => Inside::of(Rational::try_from(x).ok().and_then(Radical::rational)),
-        };
+        let inside = self.inside.other(|| Rational::try_from(x).ok().and_then(Radical::rational));
         Interval::checked(down(bits, x), up(bits, x), inside)
     }
 
@@ -170,7 +164,7 @@ impl Scalar for Interval {
     fn widened(self, by: &Self) -> Self {
         let mut by = by.clone().magnitude();
         by.lo = -by.hi.clone();
-        by.inside = if matches!(self.inside, Inside::Off) { Inside::Off } else { Inside::Lost };
+        by.inside = self.inside.other(|| None);
         self + by
     }
 
@@ -240,12 +234,10 @@ impl Analytic for Interval {
     }
     rising!(exp: exp_ref, exp_m1: exp_m1_ref, ln: ln_ref, ln_1p: ln_1p_ref);
     fn cos(&self) -> Self {
-        let bits = self.lo.prec();
-        self.lipschitz(|x, round| rounded(bits, x.cos_ref(), round))
+        self.lipschitz(|x, round| rounded(x.prec(), x.cos_ref(), round))
     }
     fn sin(&self) -> Self {
-        let bits = self.lo.prec();
-        self.lipschitz(|x, round| rounded(bits, x.sin_ref(), round))
+        self.lipschitz(|x, round| rounded(x.prec(), x.sin_ref(), round))
     }
     fn pi(&self) -> Self {
         let bits = self.lo.prec();

@@ -43,7 +43,7 @@ impl<const N: usize> Wide<N> {
     }
 
     /// Digits that spell every number.
-    const DIGITS: u32 = text::digits_for_bits(64 * N as u32);
+    pub(super) const DIGITS: u32 = text::digits_for_bits(64 * N as u32);
 
     /// The number to so many significant digits. **Accuracy**: *correctly rounded*; beyond `2^{±2²²}` a double times a
     /// power of two.
@@ -56,10 +56,5 @@ impl<const N: usize> Wide<N> {
             format!("{mantissa}·2^{}", self.exponent)
         };
         self.to_rational().map_or_else(beyond, |value| decimal(&value, digits))
-    }
-
-    /// The number to as many digits as tell it from all others.
-    pub(super) fn in_full(&self) -> String {
-        self.in_decimal(Self::DIGITS)
     }
 }

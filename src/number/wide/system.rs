@@ -80,7 +80,7 @@ impl<const N: usize> Scalar for Wide<N> {
     }
 
     fn text(&self) -> String {
-        self.in_full()
+        self.in_decimal(Self::DIGITS)
     }
 
     #[inline]
