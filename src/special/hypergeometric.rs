@@ -4,15 +4,16 @@
 use super::bessel::expansion;
 use super::bits;
 use super::ray::Ray;
+use crate::number::rational::Integer;
 use crate::number::{Analytic, Float, Rounded, Scalar, Wide};
 
 /// A number in which these functions are computed.
 pub(super) trait Spare: Rounded {
-    /// Computes `₀F₁(; n+1; y) = Σ_m T_m`, `T_m = y^m/(m!(n+1)_m)`, for finite `y ≥ 0`, and its roundings.
+    /// Computes `₀F₁(; n+1; y) = Σ_m y^m/(m!(n+1)_m)` for finite `y ≥ 0`, and its roundings.
     fn hypergeometric(y: &Self, n: u32) -> (Self, f64);
 
-    /// Computes `eˣ` within `2³⁴` roundings.
-    fn exponential(&self) -> Self;
+    /// Computes `eˣ`, and its roundings for an argument with ten roundings.
+    fn exponential(&self) -> (Self, f64);
 }
 
 impl<const M: usize> Spare for Wide<M> {
@@ -32,49 +33,49 @@ impl<const M: usize> Spare for Wide<M> {
         }
     }
 
-    fn exponential(&self) -> Self {
-        self.raw_exp()
+    /// Computes the exponential within `2³⁴` roundings; beyond `2³¹` there is nothing left of the value.
+    fn exponential(&self) -> (Self, f64) {
+        (self.raw_exp(), 68_719_476_736.0)
     }
 }
 
 impl Spare for Float {
-    /// Sums the series so that later terms have fewer bits.
+    /// Keeps one sum for each residue of m modulo 8, so that only every eighth step multiplies by a long number, `y⁸`;
+    /// Horner's rule in y combines the sums.
     ///
-    /// For p bits, `T_m ≤ (e²y/m²)^m`, so at most `N = q + 2 + 4√y` terms matter to `2^{−q}`; `q = p + 2 log₂ N + 4`.
-    /// Term m has the bits that keep its four roundings (of y, the product, the quotient and the bits) to
-    /// `2^{1−q} S_m/T_m` of itself, for the sum `S_m` so far, and all later terms inherit them:
-    /// `4·2^{1−q} S_m Σ_{k≥m} T_k/T_m`. The ratios of terms decrease, so `T_i T_k ≤ T_m T_{i+k−m}` for `i ≤ m ≤ k`, and
-    /// that is at most `4·2^{1−q} (m + 1)` of the whole. The sum over m is below `5N² 2^{−q}`, with the roundings of the
-    /// sum and the rest: half a rounding.
+    /// **Source**: concurrent summation (Smith 1989).
+    ///
+    /// All are integers of the unit `u = 2^{−p−32} β^{−7}`, rounded down, `β = max(1,y)`. The ratios of terms decrease, so
+    /// an error e of a term without its last powers of y changes the result by at most `e β⁷` of it. A division adds u,
+    /// and a product with `y⁸` adds u and the error of `y⁸`, fewer than 15u, of the term for y ≥ 1; Horner's rule adds
+    /// 4u in each step. For N terms that is `(3N + 32) β⁷ u`, less than a sixteenth of a rounding up to `N = 2²⁶`.
     fn hypergeometric(y: &Self, n: u32) -> (Self, f64) {
-        let size = y.to_f64();
-        let most = f64::from(y.prec()) + 100.0 + 4.0 * size.sqrt();
-        let bits = y.prec() + (2.0 * most.log2()).ceil() as u32 + 4;
-        let (mut factor, mut m) = (y.clone(), 0i64);
-        let (mut term, mut sum) = (Float::with_val(bits, 1), Float::with_val(bits, 1));
-        loop {
-            m += 1;
-            term *= &factor;
-            term /= m * (m + i64::from(n));
-            sum += &term;
-            let (Some(top), Some(of_sum)) = (term.get_exp(), sum.get_exp()) else { break };
-            let left = bits as i32 + top - of_sum;
-            if left < 0 && 2.0 * size <= (m * m) as f64 {
-                break;
+        let (bits, grown) = (y.prec(), y.get_exp().unwrap_or(0).max(0).unsigned_abs());
+        let scale = (bits + 32 + 7 * grown) as usize;
+        let Some((mantissa, exponent)) = y.to_integer_exp() else { return (y.clone(), f64::INFINITY) };
+        let by = i64::from(exponent) + scale as i64;
+        let size = by.unsigned_abs() as usize;
+        let y = if by < 0 { mantissa >> size } else { mantissa << size };
+        let step = (0..3).fold(y.clone(), |power, _| (power.clone() * &power) >> scale);
+        let mut sums: [Integer; 8] = std::array::from_fn(|_| Integer::from(0));
+        let (mut term, mut m) = (Integer::from(1) << scale, 0u64);
+        while !term.is_zero() {
+            for sum in &mut sums {
+                *sum += &term;
+                m += 1;
+                term /= m * (m + u64::from(n));
             }
-            // Whole words.
-            let left = (left.max(64) as u32).next_multiple_of(64);
-            if left < term.prec() {
-                term.set_prec(left);
-                factor = Float::with_val(left, y);
-            }
+            term *= &step;
+            term >>= scale;
         }
-        (sum, 1.0)
+        let sum = sums.iter().rev().fold(Integer::from(0), |total, sum| ((total * &y) >> scale) + sum);
+        (Float::with_val(bits, &sum) >> scale as u32, 1.0)
     }
 
     /// Computes the exponential, but no number where it would vanish.
-    fn exponential(&self) -> Self {
-        if *self < -1e15 { self.double(f64::NAN) } else { Analytic::exp(self) }
+    fn exponential(&self) -> (Self, f64) {
+        let value = if *self < -1e15 { self.double(f64::NAN) } else { Analytic::exp(self) };
+        (value, 10.0 * self.to_f64().abs() + 2.0)
     }
 }
 
@@ -88,11 +89,8 @@ fn expansion_roundings<S: Scalar>(like: &S) -> f64 {
     8.0 * bits(like) + 512.0
 }
 
-/// Roundings of an exponential, of its argument and of the product with it.
-const EXP: f64 = 68_719_476_736.0;
-
-/// Computes `e^{−z} I_n(z)`, `I_n = (z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`, and its roundings, for `z ≥ 0`. The exponential has
-/// `2³⁴`, y, rounded once, passes on at most z of them, and n factors add two each.
+/// Computes `e^{−z} I_n(z)`, `I_n = (z/2)ⁿ/n! ₀F₁(; n+1; z²/4)`, and its roundings, for `z ≥ 0`. y, rounded once,
+/// passes on at most z of them, and n factors add two each.
 pub(super) fn in_scaled<S: Spare>(z: &S, n: u32) -> (S, f64) {
     if n <= 1 && z.to_f64() > far(z) {
         return (expansion(z, i64::from(n)), expansion_roundings(z));
@@ -100,15 +98,15 @@ pub(super) fn in_scaled<S: Spare>(z: &S, n: u32) -> (S, f64) {
     let half = z.clone() / z.int(2);
     let (value, roundings) = S::hypergeometric(&half.square(), n);
     let value = (1..=i64::from(n)).fold(value, |product, k| product * &half / z.int(k));
-    (value * (-z.clone()).exponential(), roundings + 2.0 * f64::from(n) + z.to_f64() + EXP)
+    let (decay, more) = (-z.clone()).exponential();
+    (value * &decay, roundings + 2.0 * f64::from(n) + z.to_f64() + more)
 }
 
 /// Computes `e^{−rt} ψ₀` and its roundings, for `ξ ≥ 0`.
 ///
 /// The series serves small `z = r√(ξη)`. Beyond its reach the result is `e^{−λ} · e^{−z} I₀(z)` with
 /// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. `y = (r/2)² ξη` has three roundings, and passes on at most `z/2`
-/// times as many; the expansion passes on fewer than it has. Either exponent has at most ten roundings of itself;
-/// beyond `2³¹` there is nothing left of the value.
+/// times as many; the expansion passes on fewer than it has. Either exponent has at most ten roundings of itself.
 pub(super) fn start<S: Spare>(ray: &Ray<S>) -> (S, f64) {
     let (half, product) = (ray.half(), ray.xi.clone() * &ray.eta);
     let y = half.square() * &product;
@@ -118,11 +116,12 @@ pub(super) fn start<S: Spare>(ray: &Ray<S>) -> (S, f64) {
     let (z, sum) = (2.0 * y.to_f64().sqrt(), ray.eta.clone() + &ray.xi);
     if z <= far(&y) {
         let (value, roundings) = S::hypergeometric(&y, 0);
-        return (value * (-(half * &sum)).exponential(), roundings + 2.0 * z + EXP);
+        let (decay, more) = (-(half * &sum)).exponential();
+        return (value * &decay, roundings + 2.0 * z + more);
     }
     let lag = half * &(ray.eta.clone() - &ray.xi).square() / (sum + &root + &root);
-    let value = expansion(&(ray.damping.clone() * &root), 0) * (-lag).exponential();
-    (value, 2.0 * expansion_roundings(&y) + EXP)
+    let (decay, more) = (-lag).exponential();
+    (expansion(&(ray.damping.clone() * &root), 0) * &decay, 2.0 * expansion_roundings(&y) + more)
 }
 
 /// Returns the ray in longer numbers, with ξ ≥ 0: a ray that arrives now may do so a rounding later.

@@ -9,15 +9,16 @@ use crate::number::{Float, Scalar};
 /// Upper bound on the roundings of [`backward`].
 const SUM_ROUNDINGS: f64 = 2.0;
 
-/// Returns the number with a word to spare.
+/// Returns the number with 32 bits to spare.
 fn longer(x: &Float) -> Float {
-    Float::with_val(x.prec() + 64, x)
+    Float::with_val(x.prec() + 32, x)
 }
 
-/// Rounds a number that had so many roundings in a word more, and returns its roundings now: fewer than `2⁴⁰` are less
-/// than a ten-thousandth. There are infinitely many if there is no value.
+/// Rounds a number that had so many roundings in 32 bits more, and returns its roundings now: infinitely many if there
+/// is no value.
 fn finished((value, spare): (Float, f64), bits: u32) -> (Float, f64) {
-    (Float::with_val(bits, &value), if spare < 2f64.powi(40) && !value.is_nan() { 1.000_100_2 } else { f64::INFINITY })
+    let roundings = (1.0 + spare * 2f64.powi(-32)).max(1.000_100_2);
+    (Float::with_val(bits, &value), if value.is_nan() { f64::INFINITY } else { roundings })
 }
 
 impl RoundedSpecial for Float {
