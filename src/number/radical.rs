@@ -272,7 +272,7 @@ impl Radical {
     }
 }
 
-/// Returns a factor `s` with `s² | n`, for `n > 0`: squares of primes below a limit, and the cofactor if it is a square.
+/// Returns a factor `s` with `s² | n`, `n > 0`: squares of primes below a limit, and a cofactor that is a square.
 pub(super) fn square_factor(n: &Integer, limit: u32) -> Integer {
     let (mut rest, mut factor) = (n.clone(), Integer::from(1));
     let zero = Integer::from(0);

@@ -1,5 +1,5 @@
-//! Modified Bessel functions in numbers with a word to spare, in which their own roundings do not count: by their
-//! series, and by the expansion at infinity.
+//! Modified Bessel functions in numbers with bits to spare, in which their own roundings do not count: by their series,
+//! and by the expansion at infinity.
 
 use super::bessel::expansion;
 use super::bits;
@@ -45,10 +45,11 @@ impl Spare for Float {
     ///
     /// **Source**: concurrent summation (Smith 1989).
     ///
-    /// All are integers of the unit `u = 2^{−p−32} β^{−7}`, rounded down, `β = max(1,y)`. The ratios of terms decrease, so
-    /// an error e of a term without its last powers of y changes the result by at most `e β⁷` of it. A division adds u,
-    /// and a product with `y⁸` adds u and the error of `y⁸`, fewer than 15u, of the term for y ≥ 1; Horner's rule adds
-    /// 4u in each step. For N terms that is `(3N + 32) β⁷ u`, less than a sixteenth of a rounding up to `N = 2²⁶`.
+    /// All are integers of the unit `u = 2^{−p−32} β^{−7}`, rounded down, `β = max(1,y)`. The ratios of terms decrease,
+    /// so an error e of a term without its last powers of y changes the result by at most `e β⁷` of itself. A division
+    /// adds u, and a product with `y⁸` adds u and fewer than 15u for the error of `y⁸`, absolutely for y < 1 and
+    /// relatively for y ≥ 1; Horner's rule adds 4u in each step. For N terms that is `(3N + 32) β⁷ u`, less than a
+    /// sixteenth of a rounding up to `N = 2²⁶`, and the result is rounded once.
     fn hypergeometric(y: &Self, n: u32) -> (Self, f64) {
         let (bits, grown) = (y.prec(), y.get_exp().unwrap_or(0).max(0).unsigned_abs());
         let scale = (bits + 32 + 7 * grown) as usize;
@@ -69,7 +70,7 @@ impl Spare for Float {
             term >>= scale;
         }
         let sum = sums.iter().rev().fold(Integer::from(0), |total, sum| ((total * &y) >> scale) + sum);
-        (Float::with_val(bits, &sum) >> scale as u32, 1.0)
+        (Float::with_val(bits, &sum) >> scale as u32, 1.1)
     }
 
     /// Computes the exponential, but no number where it would vanish.
@@ -105,20 +106,21 @@ pub(super) fn in_scaled<S: Spare>(z: &S, n: u32) -> (S, f64) {
 /// Computes `e^{−rt} ψ₀` and its roundings, for `ξ ≥ 0`.
 ///
 /// The series serves small `z = r√(ξη)`. Beyond its reach the result is `e^{−λ} · e^{−z} I₀(z)` with
-/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. `y = (r/2)² ξη` has three roundings, and passes on at most `z/2`
-/// times as many; the expansion passes on fewer than it has. Either exponent has at most ten roundings of itself.
+/// `λ = r(t − √(ξη)) = (r/2)(η − ξ)²/(η + ξ + 2√(ξη))`. `y = (r/2)² ξη` has three roundings, and passes on at most
+/// `z/2` times as many; the expansion passes on fewer than it has. Either exponent has at most ten roundings.
 pub(super) fn start<S: Spare>(ray: &Ray<S>) -> (S, f64) {
     let (half, product) = (ray.half(), ray.xi.clone() * &ray.eta);
     let y = half.square() * &product;
-    let Some(root) = product.try_sqrt().filter(|_| y.is_finite() && !y.is_negative()) else {
+    if !y.is_finite() || y.is_negative() {
         return (y.double(f64::NAN), f64::INFINITY);
-    };
+    }
     let (z, sum) = (2.0 * y.to_f64().sqrt(), ray.eta.clone() + &ray.xi);
     if z <= far(&y) {
         let (value, roundings) = S::hypergeometric(&y, 0);
         let (decay, more) = (-(half * &sum)).exponential();
         return (value * &decay, roundings + 2.0 * z + more);
     }
+    let root = product.sqrt();
     let lag = half * &(ray.eta.clone() - &ray.xi).square() / (sum + &root + &root);
     let (decay, more) = (-lag).exponential();
     (expansion(&(ray.damping.clone() * &root), 0) * &decay, 2.0 * expansion_roundings(&y) + more)
