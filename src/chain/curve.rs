@@ -391,6 +391,14 @@ impl<N: Bounded> Signal<N> {
         }
     }
 
+    /// Returns a bound of the change of a polynomial over its width; zero for a line, which has no width.
+    pub(super) fn variation(&self) -> N {
+        match self {
+            Signal::Line(line) => line.slope.zero(),
+            Signal::Curve(curve) => rough_bound(&curve.terms[1..], &curve.reach()) * curve.reach(),
+        }
+    }
+
     /// Returns the integral between the stored values of two times.
     pub(super) fn integral(&self, from: &N, to: &N) -> N {
         match self {

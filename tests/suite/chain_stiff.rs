@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dalembert::chain::ChainRun;
 use dalembert::number::{Number, Scalar};
-use dalembert::{ChainScene, Estimate, Side};
+use dalembert::{ChainScene, Estimate, EventKind, Numbers, Side};
 
 const TIMES: [f64; 5] = [0.001, 0.25, 0.5, 1.0, 1.875];
 
@@ -116,4 +116,26 @@ fn opposite_pushes_on_a_mass_within_a_rounding_are_within_its_bound() {
     // A wave doubles at the mass, and the impulse of the wave that begins later is smaller by 1e-17.
     let truth = 2e-17;
     assert!(velocity.bound() > truth && velocity.bound() < 1e-14, "{velocity:?}");
+}
+
+/// Bars that strike a mass whose time, m/Z, is less than a rounding of the time at which its waves return.
+///
+/// **Source**: the mass rests at first, so that the forces are 1 and 2, and ends at −1/3; the waves that return move the
+/// ends at −1 and 1.
+#[test]
+fn waves_shorter_than_a_rounding_of_their_time_are_not_lost() {
+    for decade in [3, 15, 16, 17, 18, 20] {
+        let scene = format!(
+            "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = 1\n\
+             [[body]]\nmass = 1e-{decade}\nvelocity = 0\n\
+             [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 2\nvelocity = -1\n[run]\ntime = 3"
+        );
+        let history = ChainScene::parse(&scene).unwrap().chain.solve(Numbers::default()).unwrap();
+        let events = history.listing().unwrap().events.clone();
+        for (node, rate) in [(1, 2.0 / 3.0), (2, 4.0 / 3.0)] {
+            let event = events.iter().find(|event| event.kind == EventKind::Release && event.node == node).unwrap();
+            let (found, bound) = (event.after.to_f64(), event.after.bound().to_f64());
+            assert!((found - rate).abs() <= bound + 1e-15, "{found} ± {bound} at joint {node} for 1e-{decade}");
+        }
+    }
 }
