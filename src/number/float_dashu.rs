@@ -668,7 +668,9 @@ macro_rules! shifts {
             type Output = Float;
             fn $method(self, $by: $type) -> Float {
                 match self.value {
-                    Finite(mantissa, exponent) => round(mantissa, exponent.saturating_add($change), self.bits, Round::Nearest),
+                    Finite(mantissa, exponent) => {
+                        round(mantissa, exponent.saturating_add($change), self.bits, Round::Nearest)
+                    }
                     value => Float { value, ..self },
                 }
             }
