@@ -35,12 +35,13 @@ impl Cause {
 }
 
 /// The causes that concern all columns, with their names.
-pub(super) const GENERAL: [(&str, Cause); 11] = [
+pub(super) const GENERAL: [(&str, Cause); 12] = [
     ("wave_speed", Cause::Value(Parameter::WaveSpeed)),
     ("mass", Cause::Value(Parameter::Density)),
     ("length", Cause::Value(Parameter::Length)),
     ("start_velocity", Cause::Value(Parameter::ImpactSpeed)),
     ("gravity", Cause::Value(Parameter::Gravity)),
+    ("gap", Cause::Value(Parameter::Gap)),
     ("contact_stiffness", Cause::Value(Parameter::Stiffness)),
     ("damping", Cause::Damping),
     ("soft_contact", Cause::SoftContact(None)),

@@ -87,6 +87,8 @@ const BLURRED: f64 = 2.0;
 /// Largest share of ‖e‖₂² that a value of the scene leaves where it explains the data by itself. The trapezoidal rule, by
 /// which columns are integrated, leaves about as much; the errors of a scheme leave more.
 const EXPLAINED: f64 = 4e-4;
+/// Share of a value below which the text of a hint shows none.
+const LEAST_VALUE: f64 = 5e-5;
 /// Share of ‖e‖₂² that such a cause removes to first order.
 const NEARLY_EXPLAINED: f64 = 0.8;
 /// Share of the whole ‖e‖₂² below which a difference between two causes does not count.
@@ -446,7 +448,7 @@ impl CauseFits<'_> {
                 && self.product_over(&all, slope, &self.base).powi(2) >= NEARLY_EXPLAINED * own * base
         };
         let mut fits = self.best_of(self.candidates.iter().filter(is_near));
-        fits.retain(|fit| fit.left <= EXPLAINED * base);
+        fits.retain(|fit| fit.left <= EXPLAINED * base && fit.value.abs() > LEAST_VALUE);
         fits
     }
 

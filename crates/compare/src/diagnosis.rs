@@ -11,8 +11,8 @@ use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
 use super::symptoms::{
-    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, other_body, other_units, turned_axis,
-    unlike_mass, unstable_energy,
+    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, other_body, other_units, other_way,
+    turned_axis, unlike_mass, unstable_energy,
 };
 use dalembert::Error;
 use dalembert::chain::{ChainParameter, ChainValue};
@@ -49,7 +49,9 @@ impl Diagnosis {
 
     fn find(&mut self, reference: &Reference<'_>, agreement: &Agreement) -> Result<(), Error> {
         let (history, columns) = (reference.history, agreement.quantities.as_slice());
-        if let Some(alone) = lost_start(columns).or_else(|| turned_axis(columns)) {
+        if let Some(alone) =
+            lost_start(columns).or_else(|| turned_axis(columns)).or_else(|| other_way(columns, reference))
+        {
             self.hints = vec![alone];
             return Ok(());
         }
@@ -58,7 +60,7 @@ impl Diagnosis {
             return Ok(());
         }
         self.hints = columns.iter().filter(|column| is_empty(column)).map(empty_column).collect();
-        if agreement.grid.times.len() < FEWEST {
+        if agreement.grid.times.len() < FEWEST || columns.iter().all(is_empty) {
             return Ok(());
         }
         // Up to the end of the flight after the first contact.

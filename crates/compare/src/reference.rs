@@ -190,16 +190,17 @@ impl<'a> Reference<'a> {
             let point = grid.points.as_ref().map(|points| &points[k..=k]);
             let limit = |time: f64, side| Ok::<f64, Error>(self.values_at(&[what], point, &[time], side)?[0][0]);
             let limits = |time: f64| Ok::<_, Error>((limit(time, Side::Left)?, limit(time, Side::Right)?));
-            let (left, right) = limits(ray.max(0.0))?;
-            count += usize::from(left != right);
+            let at_ray = limits(ray.max(0.0))?;
+            count += usize::from(at_ray.0 != at_ray.1);
+            let mut candidates = vec![at_ray.0, at_ray.1];
             if let Some(side) = near.sides[k] {
-                // The jump is at the time of the row, or a rounding of it away.
+                let of_side = |(left, right): (f64, f64)| if side == Side::Left { left } else { right };
                 let own = limits(*time)?;
-                let (left, right) = if own.0 == own.1 { (left, right) } else { own };
-                ours[k] = if side == Side::Left { left } else { right };
-                continue;
+                ours[k] = of_side(own);
+                // The jump is at the time of the row, or it may be a rounding of it away.
+                candidates = if own.0 == own.1 { vec![of_side(at_ray)] } else { Vec::new() };
             }
-            for limit in [left, right] {
+            for limit in candidates {
                 if (theirs[k] - limit).abs() < (theirs[k] - ours[k]).abs() {
                     ours[k] = limit;
                 }

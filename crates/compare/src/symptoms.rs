@@ -72,14 +72,33 @@ pub(super) fn turned_axis(columns: &[ComparedColumn]) -> Option<Hint> {
     })
 }
 
-/// Returns the hints at displacements, and at velocities, in another unit: all of them have about the same factor. A
-/// single column has a factor of its own.
+/// Returns the hint at a body that starts the other way: a velocity of the first sample has the other sign, and the
+/// column is not merely turned. An end that touches the ground at the start has the speed of the impact before it.
+pub(super) fn other_way(columns: &[ComparedColumn], reference: &Reference<'_>) -> Option<Hint> {
+    columns.iter().filter(|column| column.what.measure() == Some(Measure::Velocity)).find_map(|column| {
+        let (quantity, theirs, first) = (column.what.name(), *column.theirs.first()?, *column.ours.first()?);
+        let ours = if first == 0.0 { -reference.rod().speed } else { first };
+        let left: f64 = column.ours.iter().zip(&column.theirs).map(|(a, b)| (a + b).powi(2)).sum();
+        let size: f64 = column.ours.iter().map(|a| a * a).sum();
+        let starts_otherwise = ours * theirs < 0.0 && theirs.abs() > LEFT * ours.abs() && left > LEFT * LEFT * size;
+        starts_otherwise.then(|| {
+            let [ours, theirs] = [ours, theirs].map(|value| value.decimal(4));
+            let text =
+                format!("{quantity} is {theirs} in the first row, where the scene has {ours}: which way does it move?");
+            Hint { quantity, ..Hint::new("start_velocity", -1.0, text.replace('-', "−")) }
+        })
+    })
+}
+
+/// Returns the hints at displacements and velocities in another unit: all of them have about the same factor, or all of
+/// each kind. A single column has a factor of its own.
 pub(super) fn other_units(columns: &[ComparedColumn], reference: &Reference<'_>) -> Vec<Hint> {
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let factor = |column: &&ComparedColumn| product(&column.ours, &column.theirs) / product(&column.ours, &column.ours);
-    let hint = |measure: Measure| {
+    let hint = |measures: &[Measure]| {
         let is_zero = |column: &&ComparedColumn| product(&column.ours, &column.ours) == 0.0;
-        let has_measure = |column: &&ComparedColumn| column.what.measure() == Some(measure);
+        let has_measure =
+            |column: &&ComparedColumn| column.what.measure().is_some_and(|measure| measures.contains(&measure));
         let along: Vec<_> = columns.iter().filter(has_measure).filter(|column| !is_zero(column)).collect();
         let mean = along.iter().map(factor).sum::<f64>() / along.len() as f64;
         let is_other = mean.is_finite() && !(1.0 / OTHER_UNIT..=OTHER_UNIT).contains(&mean);
@@ -94,7 +113,11 @@ pub(super) fn other_units(columns: &[ComparedColumn], reference: &Reference<'_>)
             Hint::new("factor", mean, text)
         })
     };
-    [Measure::Length, Measure::Velocity].into_iter().filter_map(hint).collect()
+    let (length, velocity) = (Measure::Length, Measure::Velocity);
+    match hint(&[length, velocity]) {
+        Some(hint) => vec![hint],
+        None => [length, velocity].iter().filter_map(|measure| hint(&[*measure])).collect(),
+    }
 }
 
 /// Returns the hint at the displacements and velocities of another body of the chain in place of those of this one.

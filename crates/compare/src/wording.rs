@@ -52,8 +52,9 @@ impl CauseFits<'_> {
                 (hint.value, hint.error) = (late, error);
                 let (side, steps) = (if late > 0.0 { "late" } else { "early" }, late.abs() / self.model.step);
                 let (by, error, shift) = (late.abs().decimal(4), error.decimal(2), (-late).decimal(4));
+                let gap = gap_instead(late, reference).unwrap_or_default();
                 format!(
-                    "{by} ± {error} {side}, {steps:.2} steps: is it on the same clock? A shift of {shift} undoes it"
+                    "{by} ± {error} {side}, {steps:.2} steps: is it on the same clock{gap}? A shift of {shift} undoes it"
                 )
             }
             Cause::Factor(place) => {
@@ -97,9 +98,19 @@ fn soft_contact((share, error): (f64, f64), node: Option<usize>, reference: &Ref
     )
 }
 
+/// Returns the question whether another gap of the scene makes the impact `late`; `None` for a start without a gap.
+fn gap_instead(late: f64, reference: &Reference<'_>) -> Option<String> {
+    let (gap, rod) = (reference.history.problem().gap()?.to_f64(), reference.rod());
+    let more = late * (rod.speed.powi(2) + 2.0 * rod.gravity * gap).sqrt();
+    Some(format!(", or is the gap {} by {}", if more > 0.0 { "longer" } else { "shorter" }, more.abs().decimal(3)))
+}
+
 /// Returns the questions about the known factors of a quantity that are near `factor`.
 pub(super) fn factor_question(what: Quantity, factor: f64, error: f64, reference: &Reference<'_>) -> String {
-    let is_near = |known: f64| (factor / known - 1.0).abs() < (2.0 * error / factor.abs()).max(0.02);
+    let is_near = |known: f64| {
+        let ratio = factor / known;
+        ratio > 0.0 && ratio.max(1.0 / ratio) - 1.0 < (2.0 * error / factor.abs()).max(0.02)
+    };
     let known = reference.known_factors(what).into_iter().filter(|known| is_near(known.value));
     let known: Vec<&str> = known.map(|known| known.question).collect();
     if known.is_empty() { "which unit?".to_string() } else { known.join(" ") }

@@ -239,3 +239,65 @@ fn velocities_at_whole_steps_are_not_between_two() {
         assert!(found.iter().all(|hint| hint["kind"] != "half_step"), "{found:#?}");
     }
 }
+
+/// The columns of the exact motion of a scene at `times`, the limits from later times.
+fn exact(text: &str, columns: &[Quantity], times: &[f64]) -> Vec<(&'static str, Vec<f64>)> {
+    let values = scene(text).problem.doubles().unwrap().columns(columns, times, Some(Side::Right)).unwrap();
+    let names = columns.iter().map(|column| column.name()).zip(values);
+    std::iter::once(("t", times.to_vec())).chain(names).collect()
+}
+
+const ENDS: [Quantity; 2] = [Quantity::EndDisplacement, Quantity::EndVelocity];
+
+/// A row with a side has the value at its time, though a jump follows within the rounding of the written times.
+#[test]
+fn rows_with_a_side_keep_their_value_before_a_jump() {
+    // The end lands at 3 + √2; 4.4 may be any time from 4.35 to 4.45.
+    let times: Vec<f64> = (0..=44).map(|k| f64::from(k) / 10.0).collect();
+    let mut data = exact("paper-weak", &ENDS, &times);
+    data.push(("side", vec![1.0; times.len()]));
+    let report = compare_columns(&scene("paper-weak"), &data, &Options::default());
+    for column in report["quantities"].as_array().unwrap() {
+        assert_eq!(column["linf"]["absolute"], 0.0, "{column}");
+    }
+}
+
+/// A gap that is not that of the scene is named, or asked for beside the shift in time that it causes.
+#[test]
+fn a_gap_is_named() {
+    let text = |gap: &str| {
+        format!(
+            "rod = {{ length = 0.5, modulus = 210e9, density = 7850, area = 1e-4 }}\n\
+             impact = {{ speed = 2, gap = {gap} }}\ngravity.acceleration = 9.81\nrun.time = 1.5e-3"
+        )
+    };
+    let times: Vec<f64> = (0..=300).map(|k| f64::from(k) * 5e-6).collect();
+    let of = |columns: &[Quantity]| {
+        let data = exact(&text("1.2e-3"), columns, &times);
+        hints(&compare_columns(&scene(&text("1e-3")), &data, &Options::default())).swap_remove(0)
+    };
+    let gap = of(&ENDS[..1]);
+    assert!(gap["kind"] == "gap" && (number(&gap, "value") - 0.2).abs() < 1e-3, "{gap}");
+    // Velocities tell the shift of their jumps as well as the gap.
+    let shift = of(&ENDS);
+    assert!(shift["text"].as_str().unwrap().contains("or is the gap longer by 0.000199"), "{shift}");
+}
+
+/// Displacements and velocities in millimetres, a body that starts the other way, and columns of zeros have one hint.
+#[test]
+fn data_in_another_unit_of_another_start_or_of_zeros_have_one_hint() {
+    let text = BAR.scene(END);
+    let times: Vec<f64> = (0..=200).map(|k| f64::from(k) / 50.0).collect();
+    let mut data = exact(&text, &ENDS, &times);
+    data[1..].iter_mut().flat_map(|(_, values)| values).for_each(|value| *value *= 1000.0);
+    let up = vec![
+        ("t", times.clone()),
+        ("u_end", times.iter().map(|t| 10.0 * t - 5.0 * t * t).collect()),
+        ("v_end", times.iter().map(|t| 10.0 - 10.0 * t).collect()),
+    ];
+    let zeros = vec![("t", times.clone()), ("force", vec![0.0; times.len()])];
+    for (data, kind, value) in [(data, "factor", 1000.0), (up, "start_velocity", -1.0), (zeros, "empty", 0.0)] {
+        let found = hints(&compare_columns(&scene(&text), &data, &Options::default()));
+        assert_eq!((kinds(&found), number(&found[0], "value").round()), (vec![kind], value), "{found:#?}");
+    }
+}
