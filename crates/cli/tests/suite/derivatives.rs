@@ -270,7 +270,7 @@ fn exact_against_quotients(cases: u32, least: [u32; 3]) {
 
 #[test]
 fn fractions_against_difference_quotients() {
-    exact_against_quotients(60, [40, 5, 40]);
+    exact_against_quotients(100, [40, 5, 40]);
 }
 
 #[test]
