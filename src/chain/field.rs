@@ -9,7 +9,7 @@ use super::run::ChainRun;
 use super::start::Bar;
 use super::wave::{Limit, Piece, Wave, order};
 use crate::error::Error;
-use crate::motion::{Field, Side, Stretch};
+use crate::motion::{Field, Side, Stretch, maps};
 use crate::number::{Bounded, Open, is_exact_zero};
 use crate::threads::locked;
 
@@ -28,18 +28,7 @@ pub struct BodySums<N> {
     pub potential: N,
 }
 
-impl<N> BodySums<N> {
-    /// Converts the sums to other numbers.
-    pub fn map<T>(self, f: impl Fn(N) -> T) -> BodySums<T> {
-        BodySums {
-            displacement: f(self.displacement),
-            velocity: f(self.velocity),
-            kinetic: f(self.kinetic),
-            strain: f(self.strain),
-            potential: f(self.potential),
-        }
-    }
-}
+maps!(pub BodySums { displacement, velocity, kinetic, strain, potential });
 
 /// The latest sums, each with its body and time: several quantities are made of the same ones. A clone has none.
 #[derive(Debug)]

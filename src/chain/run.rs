@@ -9,7 +9,7 @@ use super::peak::highest;
 use super::start::Bar;
 use super::wave::{Limit, Wave, either, indices_at, may_jump, smooth_value};
 use crate::error::Error;
-use crate::motion::{Ending, EventKind, Side};
+use crate::motion::{Ending, EventKind, Side, maps};
 use crate::number::{Bounded, Open, is_exact_zero};
 
 /// An impact or a release at a node of a chain.
@@ -74,34 +74,9 @@ pub struct ForcePiece<N> {
     pub series: Vec<N>,
 }
 
-impl<N> ChainEvent<N> {
-    /// Converts the event to other numbers.
-    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainEvent<T> {
-        let ChainEvent { kind, node, t, before, after } = self;
-        ChainEvent { kind, node, t: f(t), before: f(before), after: f(after) }
-    }
-}
-
-impl<N> Touch<N> {
-    /// Converts the touch to other numbers.
-    pub fn map<T>(self, f: impl Fn(N) -> T) -> Touch<T> {
-        Touch { node: self.node, t: f(self.t), before: f(self.before), after: f(self.after) }
-    }
-}
-
-impl<N> ChainContact<N> {
-    /// Converts the contact to other numbers.
-    pub fn map<T>(self, f: impl Fn(N) -> T) -> ChainContact<T> {
-        ChainContact {
-            node: self.node,
-            impact: f(self.impact),
-            release: self.release.map(&f),
-            impulse: f(self.impulse),
-            peak: f(self.peak),
-            peak_time: f(self.peak_time),
-        }
-    }
-}
+maps!(pub ChainEvent { t, before, after } keeps kind, node);
+maps!(pub Touch { t, before, after } keeps node);
+maps!(pub ChainContact { impact, impulse, peak, peak_time } maps release keeps node);
 
 impl<N> ForcePiece<N> {
     /// Converts the piece to other numbers.
