@@ -172,8 +172,15 @@ impl Compare {
                 self.compare_bars(chain, &limits, &destinations)?
             }
             None => {
+                // The columns of a chain of one body may have its number.
+                let chain = if let AnyScene::Chain(scene) = &scene { Some(scene.chain.clone()) } else { None };
                 let scene = scene.into_rod(&self.scene, self.body.number())?;
-                let sources = self.data.iter().map(|path| Source::open(path)).collect::<Result<Vec<_>, _>>()?;
+                let named = |source: Source| match &chain {
+                    Some(chain) => Bar { chain, body: 0 }.source(source, &self.options),
+                    None => source,
+                };
+                let sources = self.data.iter().map(|path| Ok::<_, Failure>(named(Source::open(path)?)));
+                let sources = sources.collect::<Result<Vec<_>, _>>()?;
                 vec![self.compare_rod((None, scene.title.clone()), scene, sources, &limits)?]
             }
         };

@@ -202,3 +202,11 @@ fn displacements_in_another_unit_are_named() {
         assert!(found[0].0.starts_with("u_end, u_top × 1000: is it in thousandths of the unit"), "{found:?}");
     }
 }
+
+#[test]
+fn columns_of_the_only_body_may_have_its_number() {
+    let folder = Folder::new();
+    let rows = "--bare --times 0..0.6:11 --quantity t,u_top.1,force.bottom -o pile.csv";
+    folder.run(&format!("reference mpm-py-pile {rows}")).text(0);
+    agree(&norms(&folder.json("compare mpm-py-pile pile.csv")), &[("u_top", 0.0), ("force", 0.0)]);
+}
