@@ -6,7 +6,6 @@ use crate::problem::Parameter;
 
 /// Error of the library: what was found, where, and what was expected.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs, reason = "the message of each variant says what its fields are")]
 #[non_exhaustive]
 pub enum Error {
     /// A problem that cannot be built.
@@ -14,72 +13,146 @@ pub enum Error {
     Problem(#[from] ProblemError),
     /// A time or a point that is no number.
     #[error("{quantity}: {error}")]
-    Spelling { quantity: &'static str, error: crate::number::NumberError },
+    Spelling {
+        /// The time or the point.
+        quantity: &'static str,
+        /// The error of its text.
+        error: crate::number::NumberError,
+    },
     /// A fraction cannot hold a square root.
     #[error(
         "exact fractions cannot hold the {quantity} √({square}), expected a square, or digits in place of fractions"
     )]
-    Irrational { quantity: &'static str, square: String },
+    Irrational {
+        /// The quantity that needs the root.
+        quantity: &'static str,
+        /// The number under the root.
+        square: String,
+    },
     /// A question about a time that the history does not reach.
     #[error("found time {found}, expected one between 0 and {end}, where this history ends")]
-    TimeOutside { found: String, end: String },
+    TimeOutside {
+        /// The time.
+        found: String,
+        /// The end of the history.
+        end: String,
+    },
     /// A question about a time after the end of a history that ends for a reason of its own.
     #[error("found time {found}, expected times up to t = {end}: {ending}")]
-    BeyondEnd { found: String, end: String, ending: String },
+    BeyondEnd {
+        /// The time.
+        found: String,
+        /// The end of the history.
+        end: String,
+        /// The reason why it is the end, as the history's ending prints it.
+        ending: String,
+    },
     /// A question about a time after the last one that fractions reach.
     #[error("found time {found}, expected an earlier one, or digits where fractions end: {ending}")]
-    BeyondExactness { found: String, ending: String },
+    BeyondExactness {
+        /// The time.
+        found: String,
+        /// The event before which exactness ends, as the history's ending prints it.
+        ending: String,
+    },
     /// A question about a time that the march has gone past and forgotten.
     #[error("found time {found}, expected one from {start} on: what was before is forgotten")]
-    TimeForgotten { found: String, start: String },
+    TimeForgotten {
+        /// The time.
+        found: String,
+        /// The first time that is still known.
+        start: String,
+    },
     /// A question about a point outside of the rod.
     #[error("found point {found}, expected one between 0 and {length}, the rod's length")]
-    PointOutside { found: String, length: String },
+    PointOutside {
+        /// The point.
+        found: String,
+        /// The length of the rod.
+        length: String,
+    },
     /// A quantity that has no value at a time.
     #[error("found {quantity} asked at times, expected a quantity over time, such as u_end")]
-    NotOverTime { quantity: &'static str },
+    NotOverTime {
+        /// Its name.
+        quantity: &'static str,
+    },
     /// The history has more pieces than the limit allows.
     #[error(
         "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time, for fewer impacts \
          of a rod, or for a greater run.pieces of a chain"
     )]
-    TooManyPieces { limit: usize, time: f64 },
+    TooManyPieces {
+        /// The limit.
+        limit: usize,
+        /// The time at which it was passed.
+        time: f64,
+    },
     /// Damping so strong that a first contact without a closed form takes too many cells.
     #[error(
         "found r t₁ = {found} with a start or a top that has no closed form, expected at most {most}: cells must not \
          be wider than the waves reach; a uniform start on the ground under a free top has no such limit"
     )]
-    DampingTooStrong { found: f64, most: f64 },
+    DampingTooStrong {
+        /// `r t₁`.
+        found: f64,
+        /// The most that is marched.
+        most: f64,
+    },
     /// A damped scene has no exact fractions.
     #[error(
         "found damping = {damping} in fractions, expected an undamped rod: Bessel functions are no fractions; ask for \
         digits"
     )]
-    DampedExact { damping: String },
+    DampedExact {
+        /// The damping.
+        damping: String,
+    },
     /// An accuracy outside of its range.
     #[error("found accuracy {found:?}, expected one between 1e-15 and 0.1 for doubles; digits give more")]
-    Accuracy { found: f64 },
+    Accuracy {
+        /// The number that was asked for.
+        found: f64,
+    },
     /// No digits, or absurdly many.
     #[error("found {found} digits asked for, expected 1 to {most}")]
-    Digits { found: u32, most: u32 },
+    Digits {
+        /// The number that was asked for.
+        found: u32,
+        /// The most that is given.
+        most: u32,
+    },
     /// Comparisons of enclosures stay open.
     #[error(
         "{digits} digits are not proved with {bits} bits: two events cannot be told apart, or a landing from a graze; \
          expected a run that ends before them"
     )]
-    Undecided { digits: u32, bits: u32 },
+    Undecided {
+        /// The number that was asked for.
+        digits: u32,
+        /// The number of bits that was tried.
+        bits: u32,
+    },
     /// Digits that the greatest number of bits does not settle.
     #[error(
         "{digits} digits are not settled with {bits} bits; expected a shorter run, fewer digits, or certified ones, \
         which come with exact roots"
     )]
-    Unsettled { digits: u32, bits: u32 },
+    Unsettled {
+        /// The number that was asked for.
+        digits: u32,
+        /// The number of bits that was tried.
+        bits: u32,
+    },
     /// The rays of a damped rod.
     #[error("found the rays of a damped rod asked for, expected an undamped one: only there jumps travel unchanged")]
     NoRays,
     /// A grid for averages or projections.
     #[error("found {found}, expected a grid of two points or more that increase")]
-    Grid { found: String },
+    Grid {
+        /// The points, in words.
+        found: String,
+    },
     /// A body of a chain, or a spring or a mass in one, in a build without the feature `chain`.
     #[error(
         "found a body of a chain, or a chain with springs or masses, expected a single rod or rigid joints: this build \
@@ -101,12 +174,20 @@ pub enum Error {
          its velocity and stress are no lines between rays"
     )]
     Curved,
-    /// A contact, counted from 0, that the history does not have.
+    /// A contact that the history does not have.
     #[error("found contact number {} asked for, expected one of the {found} contacts of the history", contact + 1)]
-    NoContact { contact: usize, found: usize },
-    /// A number of a contact, counted from 0, that lasts to the end of the history.
+    NoContact {
+        /// Its index, from 0.
+        contact: usize,
+        /// The number of contacts.
+        found: usize,
+    },
+    /// A number of a contact that lasts to the end of the history.
     #[error("contact number {} lasts to the end of the history", contact + 1)]
-    ContactLasts { contact: usize },
+    ContactLasts {
+        /// Its index, from 0.
+        contact: usize,
+    },
     /// A start or a top for which the first contact has no closed form.
     #[error(
         "found a gap, a start that is not uniform, or a fixed top; expected a uniform start on the ground under a free \
@@ -115,7 +196,12 @@ pub enum Error {
     NoClosedForm,
     /// A derivative that there is not, or not in these numbers.
     #[error("found the derivative by {parameter} asked for, expected {expected}")]
-    Derivative { parameter: Parameter, expected: &'static str },
+    Derivative {
+        /// The value by which it was to be taken.
+        parameter: Parameter,
+        /// A problem or numbers that have it, in words.
+        expected: &'static str,
+    },
     /// The observer of a run ended it.
     #[error("interrupted")]
     Interrupted,
@@ -124,7 +210,12 @@ pub enum Error {
     Open(#[from] crate::number::Open),
     /// A question that this many bits do not settle.
     #[error("with {bits} bits it is not decided {what}; expected more bits")]
-    NotDecided { what: &'static str, bits: u32 },
+    NotDecided {
+        /// The question that is open.
+        what: &'static str,
+        /// The bits of the enclosures.
+        bits: u32,
+    },
 }
 
 impl Error {

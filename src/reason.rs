@@ -7,7 +7,6 @@ use crate::number::Scalar;
 /// The reason why nothing follows the end of a history, or why it is not known what follows. Times, speeds and heights
 /// are in the units of the problem.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs, reason = "the message of each variant says what its fields are")]
 pub enum Reason {
     /// The first contact has no bounce.
     #[error(transparent)]
@@ -20,39 +19,74 @@ pub enum Reason {
         "the end {} two whole round trips, which repeat for ever",
         if *.contact { "stays on the ground for" } else { "does not come down in" }
     )]
-    Repeats { contact: bool },
+    Repeats {
+        /// Whether on the ground.
+        contact: bool,
+    },
     /// The ground end swings above the ground, from a time on, without ever reaching it.
     #[error(
         "from t = {} on the ground end swings by at most {swing:.3e}, ever less, about a height that is never \
          below {height:.3e}",
         short(.from)
     )]
-    StaysAbove { from: f64, swing: f64, height: f64 },
+    StaysAbove {
+        /// The first time at which it holds.
+        from: f64,
+        /// A bound of the swing.
+        swing: f64,
+        /// A height that the middle of its swing never falls below.
+        height: f64,
+    },
     /// The waves pull less, from a time on, than the rod presses with at rest.
     #[error(
         "from t = {} on the waves pull with at most {part:.3} of what the rod presses with at rest, and they \
          never grow",
         short(.from)
     )]
-    StaysPressed { from: f64, part: f64 },
+    StaysPressed {
+        /// The first time at which it holds.
+        from: f64,
+        /// A bound of the pull, as a part of that pressure.
+        part: f64,
+    },
     /// No part of the rod moves faster, from a time on, than the accuracy resolves.
     #[error("from t = {} on nothing moves faster than {speed:.1e}, which is within the accuracy{state}", short(.from))]
-    Still { from: f64, speed: f64, state: StillState },
+    Still {
+        /// The first time at which it holds.
+        from: f64,
+        /// A bound of all velocities.
+        speed: f64,
+        /// The state that follows.
+        state: StillState,
+    },
     /// The next touch is not told from a miss.
     #[error(
         "within a round trip comes a touch that {bits} bits do not tell from a miss; either way v(0,t) is the same \
          up to {spread:.1e} for one round trip, and up to three times more after each one more"
     )]
-    Touch { bits: u32, spread: f64 },
+    Touch {
+        /// Bits of the numbers.
+        bits: u32,
+        /// Bound of the difference of `v(0,t)` in the round trip that follows.
+        spread: f64,
+    },
     /// The order of the next events of a chain is open.
     #[error("{bits} bits do not decide the order of the next events")]
-    Order { bits: u32 },
+    Order {
+        /// Bits of the numbers.
+        bits: u32,
+    },
     /// The motion takes more than is computed of it.
     #[error(
         "after {cells} cells the motion is followed no farther: the rod carries {rays} rays, two for each bounce \
          that has not faded"
     )]
-    Effort { cells: u64, rays: usize },
+    Effort {
+        /// Cells that were crossed.
+        cells: u64,
+        /// Rays that the rod carries.
+        rays: usize,
+    },
     /// Digits beyond those that the motion after a damped first contact is computed to.
     #[error("beyond {0} digits only the first contact is computed, not the flight after it")]
     MostDigits(u32),
@@ -77,7 +111,6 @@ pub enum StillState {
 
 /// The reason why the stress of a first contact never becomes tensile.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs, reason = "the message of each variant says what its fields are")]
 pub enum NoBounceReason {
     /// Neither speed nor gravity.
     #[error("neither speed nor gravity: nothing moves")]
@@ -88,18 +121,27 @@ pub enum NoBounceReason {
          others together could pull, and it outgrows them from there",
         if *.margin < 1000.0 { format!("{margin:.3}") } else { "more than 1000".into() }
     )]
-    Overdamped { damping_ratio: f64, margin: f64 },
+    Overdamped {
+        /// `R = r t₁`.
+        damping_ratio: f64,
+        /// Ratio at `t₁` of the pressure of the lowest mode to the greatest pull of all others.
+        margin: f64,
+    },
     /// The transient can no longer lift what the static stress holds down.
     #[error(
         "from t = {trips} t₁ on the transient stays below {part:.4} of the static stress gL/c², and the rod \
          settles under its weight"
     )]
-    SettlesUnderWeight { trips: i64, part: f64 },
+    SettlesUnderWeight {
+        /// The first round trip at which it holds.
+        trips: i64,
+        /// A bound of the transient, as a part of the static stress `gL/c²`.
+        part: f64,
+    },
 }
 
 /// The reason why neither a bounce nor its absence could be shown.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs, reason = "the message of each variant says what its fields are")]
 pub enum Doubt {
     /// An impact speed below zero, or a parameter that is not finite.
     #[error("an impact speed below zero, or a number that is not finite")]
@@ -127,7 +169,14 @@ pub enum Doubt {
         "r t₁ = {damping_ratio} is just below π: no bounce within the limit of {cells} round trips; without \
          gravity it comes at about {expected:.4e} t₁"
     )]
-    Late { damping_ratio: f64, cells: i64, expected: f64 },
+    Late {
+        /// `R = r t₁`.
+        damping_ratio: f64,
+        /// Cells that are searched.
+        cells: i64,
+        /// About when it would come without gravity, in round trips.
+        expected: f64,
+    },
     /// No bounce in so many cells, which is all that are searched.
     #[error("no bounce in {0} round trips, which is the limit")]
     NoneFound(i64),
@@ -135,7 +184,6 @@ pub enum Doubt {
 
 /// A warning that comes with an answer. Times are in the units of the problem.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[allow(missing_docs, reason = "the message of each variant says what its fields are")]
 pub enum Warning {
     /// The bound does not tell whether something happens at the ground; later bounds hold either way.
     #[error(
@@ -143,23 +191,42 @@ pub enum Warning {
          later bounds include",
         .time.decimal(12)
     )]
-    NotTold { time: f64, what: Near, differ: f64 },
+    NotTold {
+        /// The time.
+        time: f64,
+        /// The event that may happen.
+        what: Near,
+        /// Bound of the difference of velocities after it.
+        differ: f64,
+    },
     /// A time that was asked for is not told from that of an event or a ray; its values cover both sides.
     #[error("t = {time} is not told from the time of an event or a ray: its values cover both sides")]
-    TimeNotTold { time: f64 },
+    TimeNotTold {
+        /// The time.
+        time: f64,
+    },
     /// The bound of the error no longer tells events apart.
     #[error("from t = {from} on the bound of the error no longer tells events apart")]
-    EventsOverlap { from: f64 },
+    EventsOverlap {
+        /// The first time at which it holds.
+        from: f64,
+    },
     /// Events are not determined in the numbers that were asked for.
     #[error("from t = {} on, the events are not determined in this precision: ask for more digits", short(.from))]
-    NotDetermined { from: f64 },
+    NotDetermined {
+        /// The first time at which it holds.
+        from: f64,
+    },
     /// Two events, or an event and a ray, coincide within their error bounds and are taken for one.
     #[error(
         "from t = {} on, events and rays that coincide within their error bounds are taken for one; later bounds hold if \
          they do",
         short(.from)
     )]
-    Coincidence { from: f64 },
+    Coincidence {
+        /// The first time at which it holds.
+        from: f64,
+    },
     /// Hops that are not told apart from contact, or touches from flight; the peak of a contact leaves out what lasts
     /// no longer.
     #[error(
@@ -167,10 +234,20 @@ pub enum Warning {
         .from.decimal(9),
         if *.landings == 1 { "landing" } else { "landings" }
     )]
-    HopsUnresolved { from: f64, longest: f64, landings: usize },
+    HopsUnresolved {
+        /// The first time at which it holds.
+        from: f64,
+        /// Upper bound on their duration.
+        longest: f64,
+        /// Number of landings that they may belong to.
+        landings: usize,
+    },
     /// Digits of a damped rod in more bits than its runs are proved in.
     #[error("these digits rest on an estimated bound: runs of a damped rod are proved in up to {most} bits")]
-    NotProved { most: u32 },
+    NotProved {
+        /// The greatest number of bits.
+        most: u32,
+    },
     /// A fall from `drop_height` that the damping would not let become so fast.
     #[error(
         "the speed at impact, √(2 g drop_height) = {}, takes no account of drag; with this damping no fall is \
@@ -178,7 +255,12 @@ pub enum Warning {
         .speed.decimal(3),
         .terminal.decimal(3)
     )]
-    DragNeglected { speed: f64, terminal: f64 },
+    DragNeglected {
+        /// `μ = √(2 g drop_height)`.
+        speed: f64,
+        /// `g/2r`.
+        terminal: f64,
+    },
     /// Damping that acts on the flights more than gravity does.
     #[error(
         "the damping 2r v_t acts on the whole rod, in flight as drag: {}; damping of the material, which leaves \
@@ -200,15 +282,22 @@ pub enum Warning {
     },
     /// Derivatives by difference quotients or a cubic, which have no bound.
     #[error("the errors of the derivatives by {parameter} are estimates, no bounds")]
-    EstimatedErrors { parameter: String },
-    /// Strains of a material that the theory does not hold for, in a chain of several bodies with the number of the bar,
-    /// from 1, the lowest.
+    EstimatedErrors {
+        /// The value that was changed.
+        parameter: String,
+    },
+    /// Strains of a material that the theory does not hold for.
     #[error(
         "the strain{} reaches {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
          the material and of velocities, such as GPa in place of Pa",
         .body.map(|body| format!(" of body {body}")).unwrap_or_default(), .strain.decimal(3)
     )]
-    StrainAboveOne { strain: f64, body: Option<usize> },
+    StrainAboveOne {
+        /// The greatest `|v_x|` that is known.
+        strain: f64,
+        /// The number of the bar in a chain of several bodies, from 1, the lowest.
+        body: Option<usize>,
+    },
 }
 
 /// An event that the bound of an error does not decide.
