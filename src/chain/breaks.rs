@@ -6,7 +6,7 @@ use super::interface::Moment;
 use super::node::{Occurrence, Source};
 use super::step::refs;
 use super::wave::Wave;
-use crate::number::Bounded;
+use crate::number::{Bounded, is_exact_zero};
 
 /// Roundings of the natural speed up to which a signal may change within a piece that is passed as a break.
 const HIDDEN: i64 = 64;
@@ -39,20 +39,29 @@ impl<N: Bounded> Cluster<N> {
         for j in 0..self.interfaces.len() {
             let mut passed: Vec<(Moment<N>, usize, N)> = Vec::new();
             for side in 0..2 {
-                for count in 0.. {
+                let mut begun: Option<Moment<N>> = None;
+                loop {
                     let input = &mut self.interfaces[j].sides[side];
                     let Some(next) = input.next.clone() else { break };
                     if self.reached.at.below(&next.at) == Ok(true) && !next.meets(&self.reached) {
                         break;
                     }
-                    // A piece that is shorter than its time is known is passed as one break, whatever it does.
-                    let hidden = if count > 0 { input.signal.variation() } else { self.norm.zero() };
+                    // Breaks whose times agree are passed as one, although the signal may change between them.
+                    let hidden = match &begun {
+                        Some(begun) => {
+                            let apart = (next.at.clone() - &begun.at).magnitude();
+                            input.signal.variation(&(apart + &next.late + &begun.late))
+                        }
+                        None => self.norm.zero(),
+                    };
+                    begun = Some(next.clone());
                     let old = input.signal.value_at(&self.reached.at);
                     input.advance(waves, side);
                     let new = input.signal.value_at(&self.reached.at);
                     let apart = (next.at.clone() - &self.reached.at).magnitude() + &next.late;
                     spread = greater(spread, apart);
-                    if (self.speed.clone() * &self.rounding * hidden.int(HIDDEN)).below(&hidden) == Ok(true) {
+                    let allowed = self.speed.clone() * &self.rounding * hidden.int(HIDDEN);
+                    if !is_exact_zero(&hidden) && hidden.below(&allowed) != Ok(true) {
                         self.doubts();
                         all.push((next.clone(), j, side, hidden));
                     }

@@ -391,10 +391,10 @@ impl<N: Bounded> Signal<N> {
         }
     }
 
-    /// Returns a bound of the change of a polynomial over its width; zero for a line, which has no width.
-    pub(super) fn variation(&self) -> N {
+    /// Returns a bound of the change over the whole piece: of a line, which has no width of its own, over `width`.
+    pub(super) fn variation(&self, width: &N) -> N {
         match self {
-            Signal::Line(line) => line.slope.zero(),
+            Signal::Line(line) => line.slope.magnitude() * width,
             Signal::Curve(curve) => rough_bound(&curve.terms[1..], &curve.reach()) * curve.reach(),
         }
     }

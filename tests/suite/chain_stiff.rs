@@ -139,3 +139,20 @@ fn waves_shorter_than_a_rounding_of_their_time_are_not_lost() {
         }
     }
 }
+
+/// A load that rises and falls within a rounding of its time is a doubt of doubles beside a mass: what happens meanwhile
+/// is not known. The same load over a longer time is none.
+#[test]
+fn a_load_that_rises_and_falls_within_a_rounding_is_a_doubt() {
+    let doubt = |middle: &str, last: &str| {
+        let scene = format!(
+            "[[body]]\nmass = 1\nvelocity = 0\n\
+             [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = 0\njoint = \"bonded\"\n\
+             [ends]\nbottom = \"free\"\n\
+             top = {{ force = [[0, 0], [\"0.5\", 0], [\"{middle}\", 1], [\"{last}\", 0]] }}\n[run]\ntime = 2"
+        );
+        run(&scene).undetermined_from()
+    };
+    assert!(doubt("0.50000000000000001", "0.50000000000000002").is_some_and(|t| (t - 0.5).abs() < 1e-9));
+    assert_eq!(doubt("0.6", "0.7"), None);
+}
