@@ -6,6 +6,7 @@ use super::column::{ChainColumn, ChainQuantity};
 use super::definition::Chain;
 use super::field::BodySums;
 use super::history::ChainListing;
+use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainRun, ForcePiece};
 use super::wave::Limit;
 use crate::error::Error;
@@ -31,6 +32,8 @@ pub(super) trait Answers: fmt::Debug + Send + Sync {
     /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits. A jump
     /// that agrees with an event to 19 digits within the bounds of both is at the event.
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
+    /// Returns numbers that are asked for together.
+    fn rows(&self, numbers: ChainNumbers<'_>) -> Result<NumberRows<Value>, Error>;
     /// Returns the field at a point; where a ray is not told from it, the bounds cover both limits.
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error>;
     fn ending(&self) -> &Ending;
@@ -55,6 +58,52 @@ impl Instant<'_> {
     }
 }
 
+impl<N: Bounded> ChainRun<N> {
+    /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits.
+    pub(super) fn value_within(&self, column: ChainColumn, time: &N, limit: Limit) -> Result<N, Error> {
+        let ChainColumn { quantity, place } = column;
+        let end = |is_top: bool| self.field_within(place, &self.end_point(place, is_top), time, limit);
+        let sums = || self.sums(place, time);
+        Ok(match quantity {
+            ChainQuantity::EndDisplacement => end(false)?.displacement,
+            ChainQuantity::EndVelocity => end(false)?.velocity,
+            ChainQuantity::TopDisplacement => end(true)?.displacement,
+            ChainQuantity::TopVelocity => end(true)?.velocity,
+            ChainQuantity::Centre => sums()?.displacement,
+            ChainQuantity::CentreVelocity => sums()?.velocity,
+            ChainQuantity::Kinetic => sums()?.kinetic,
+            ChainQuantity::StrainEnergy => sums()?.strain,
+            ChainQuantity::Energy => {
+                let BodySums { kinetic, strain, potential, .. } = sums()?;
+                kinetic + strain + potential
+            }
+            ChainQuantity::Force => self.force_within(place, time, limit)?,
+            ChainQuantity::Gap => self.gap(place, time)?,
+            ChainQuantity::SpringEnergy => self.spring_energies_within(place, time, limit)?[0].clone(),
+            ChainQuantity::Dissipated => self.spring_energies_within(place, time, limit)?[1].clone(),
+            ChainQuantity::ChainEnergy => {
+                let mut sum = time.zero();
+                for body in 0..self.bars.len() {
+                    let BodySums { kinetic, strain, potential, .. } = self.sums(body, time)?;
+                    sum = sum + kinetic + strain + potential;
+                }
+                for node in 0..self.nodes.len() {
+                    let [stored, lost] = self.spring_energies_within(node, time, limit)?;
+                    sum = sum + stored + lost;
+                }
+                sum
+            }
+            ChainQuantity::ChainMomentum => {
+                let mut sum = time.zero();
+                for (body, bar) in self.bars.iter().enumerate() {
+                    sum = sum + bar.mass() * self.sums(body, time)?.velocity;
+                }
+                sum
+            }
+        })
+    }
+}
+
 impl<N: IntoValue> Answers for ChainRun<N> {
     fn listing(&self) -> ChainListing {
         let value = N::into;
@@ -76,49 +125,13 @@ impl<N: IntoValue> Answers for ChainRun<N> {
     }
 
     fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
-        let ChainColumn { quantity, place } = column;
         let limit = Limit { side, is_event: matches!(time, Instant::Event(_)) };
-        let time = time.in_run(self)?;
-        let end = |is_top: bool| self.field_within(place, &self.end_point(place, is_top), &time, limit);
-        let sums = || self.sums(place, &time);
-        let found = match quantity {
-            ChainQuantity::EndDisplacement => end(false)?.displacement,
-            ChainQuantity::EndVelocity => end(false)?.velocity,
-            ChainQuantity::TopDisplacement => end(true)?.displacement,
-            ChainQuantity::TopVelocity => end(true)?.velocity,
-            ChainQuantity::Centre => sums()?.displacement,
-            ChainQuantity::CentreVelocity => sums()?.velocity,
-            ChainQuantity::Kinetic => sums()?.kinetic,
-            ChainQuantity::StrainEnergy => sums()?.strain,
-            ChainQuantity::Energy => {
-                let BodySums { kinetic, strain, potential, .. } = sums()?;
-                kinetic + strain + potential
-            }
-            ChainQuantity::Force => self.force_within(place, &time, limit)?,
-            ChainQuantity::Gap => self.gap(place, &time)?,
-            ChainQuantity::SpringEnergy => self.spring_energies_within(place, &time, limit)?[0].clone(),
-            ChainQuantity::Dissipated => self.spring_energies_within(place, &time, limit)?[1].clone(),
-            ChainQuantity::ChainEnergy => {
-                let mut sum = time.zero();
-                for body in 0..self.bars.len() {
-                    let BodySums { kinetic, strain, potential, .. } = self.sums(body, &time)?;
-                    sum = sum + kinetic + strain + potential;
-                }
-                for node in 0..self.nodes.len() {
-                    let [stored, lost] = self.spring_energies_within(node, &time, limit)?;
-                    sum = sum + stored + lost;
-                }
-                sum
-            }
-            ChainQuantity::ChainMomentum => {
-                let mut sum = time.zero();
-                for (body, bar) in self.bars.iter().enumerate() {
-                    sum = sum + bar.mass() * self.sums(body, &time)?.velocity;
-                }
-                sum
-            }
-        };
-        Ok(found.into())
+        self.value_within(column, &time.in_run(self)?, limit).map(N::into)
+    }
+
+    fn rows(&self, numbers: ChainNumbers<'_>) -> Result<NumberRows<Value>, Error> {
+        let row = |row: Vec<Option<N>>| row.into_iter().map(|number| number.map(N::into)).collect();
+        Ok(numbers.of(self)?.into_iter().map(row).collect())
     }
 
     fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {

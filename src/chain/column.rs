@@ -301,6 +301,14 @@ impl ChainQuery {
         column.or_else(contact)
     }
 
+    /// Returns the name of the quantity, which [`ChainQuery::read`] reads.
+    pub fn name(self, chain: &Chain) -> String {
+        match self {
+            ChainQuery::Column(column) => column.name(chain),
+            ChainQuery::Contact(node, quantity) => format!("{quantity}.{}", node_name(node, chain)),
+        }
+    }
+
     /// Returns the names of all quantities of `chain`.
     pub fn names(chain: &Chain) -> Vec<String> {
         let columns = ChainColumn::all(chain).into_iter().map(|column| column.name(chain));

@@ -1,20 +1,23 @@
 //! A solved chain: answers as [`Value`]s, in numbers that are long enough for each of them.
 
 use std::fmt;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::answers::{Answers, Instant, run};
 use super::body::Body;
 use super::column::{ChainColumn, ChainContactQuantity};
 use super::definition::Chain;
+use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainContact, ChainEvent, ForcePiece, Touch};
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
 use crate::number::{Number, Open, Scalar, Value, bits_for_digits};
+use crate::problem::Parameter;
 use crate::quantity::Measure;
 use crate::reason::Warning;
 use crate::solve::chain::{EXACT_PIECES, rungs};
 use crate::solve::{DEFAULT_ACCURACY, Numbers, Observer, Rung};
+use crate::threads::locked;
 
 /// Events, contacts and forces of a chain.
 #[derive(Clone, Debug)]
@@ -155,6 +158,8 @@ pub struct ChainHistory {
     agreeing: Vec<OnceLock<bool>>,
     scales: Scales,
     listed: OnceLock<Result<Listed, Error>>,
+    /// The values by which derivatives have errors that are estimates.
+    estimated: Mutex<Vec<Parameter>>,
 }
 
 /// Events, contacts and forces.
@@ -193,7 +198,8 @@ impl Chain {
         let attempts: Vec<_> = attempts.collect();
         let agreeing = attempts.iter().map(|_| OnceLock::new()).collect();
         let (scales, listed) = (self.scales(), OnceLock::new());
-        let history = ChainHistory { chain: self.clone(), numbers, observe, attempts, agreeing, scales, listed };
+        let (chain, estimated) = (self.clone(), Mutex::default());
+        let history = ChainHistory { chain, numbers, observe, attempts, agreeing, scales, listed, estimated };
         history.attempt(0).map(|_| ()).or_else(|error| match error {
             Error::Irrational { .. } if history.attempts.len() > 1 => Ok(()),
             error => Err(error),
@@ -242,6 +248,22 @@ impl ChainHistory {
     /// Returns the chain.
     pub fn chain(&self) -> &Chain {
         &self.chain
+    }
+
+    pub(crate) fn numbers(&self) -> Numbers {
+        self.numbers
+    }
+
+    pub(crate) fn observer(&self) -> &Observer {
+        &self.observe
+    }
+
+    /// Keeps for [`ChainHistory::warnings`] that the errors of derivatives are estimates.
+    pub(crate) fn note_estimates(&self, by: Parameter) {
+        let mut estimated = locked(&self.estimated);
+        if !estimated.contains(&by) {
+            estimated.push(by);
+        }
     }
 
     /// Returns events, contacts and forces.
@@ -395,13 +417,35 @@ impl ChainHistory {
         Ok(field.map(|value| self.printed(value)))
     }
 
+    /// Returns numbers that are asked for together, in the numbers of the attempt that settles them.
+    pub(crate) fn rows(&self, numbers: ChainNumbers<'_>) -> Result<NumberRows<Value>, Error> {
+        self.decide();
+        let measures = numbers.measures();
+        let digits = numbers.times().iter().chain(numbers.points()).map(Number::written_digits).max().unwrap_or(0);
+        self.settled(
+            digits,
+            |run| run.rows(numbers),
+            |rows| {
+                let cells = rows.iter().flat_map(|row| row.iter().zip(&measures));
+                cells.filter_map(|(value, measure)| Some((value.as_ref()?, *measure))).collect()
+            },
+        )
+    }
+
     /// Returns the number of wave pieces of the first attempt that reaches its end.
     pub fn pieces(&self) -> usize {
         self.reached().map_or(0, |run| run.pieces())
     }
 
-    /// Returns the warning of events that even the last attempt does not tell apart.
-    pub fn warning(&self) -> Option<Warning> {
+    /// Returns the warnings: of events that even the last attempt does not tell apart, of strains above one, and of
+    /// derivatives whose errors are estimates.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let estimated = locked(&self.estimated);
+        let estimated = estimated.iter().map(|by| Warning::EstimatedErrors { parameter: by.to_string() });
+        self.coincidence().into_iter().chain(self.chain.strain_warning()).chain(estimated).collect()
+    }
+
+    fn coincidence(&self) -> Option<Warning> {
         let runs = || self.attempts.iter().filter_map(|(_, attempt)| attempt.get()?.as_deref().ok());
         let doubtful = runs().all(|run| !is_whole(run));
         let from = runs()
@@ -473,7 +517,9 @@ impl ChainHistory {
             let excess = |(value, measure): Judged<'_>| {
                 let (size, scale) = (value.to_f64().abs(), self.scales.of(measure));
                 let is_faint = size.log2() <= value.log2_error();
-                value.log2_error() - size.max(if is_faint { scale } else { FAINT * scale }).log2() - tolerance
+                let excess = value.log2_error() - size.max(if is_faint { scale } else { FAINT * scale }).log2();
+                // A number without a bound is unknown, whatever its size; a maximum would pass over it.
+                if excess.is_nan() { f64::INFINITY } else { excess - tolerance }
             };
             let worst = numbers(&answer).into_iter().map(excess).fold(f64::NEG_INFINITY, f64::max);
             if whole && worst <= 0.0 || self.attempts.len() == 1 {
@@ -488,7 +534,7 @@ impl ChainHistory {
     }
 
     /// Returns a number of the requested system, with its digits.
-    fn printed(&self, value: Value) -> Value {
+    pub(crate) fn printed(&self, value: Value) -> Value {
         match self.numbers {
             Numbers::Double(_) => value.to_double(),
             Numbers::Exact => value,

@@ -18,7 +18,7 @@
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
 //! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
 //! (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
-//! chain), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
+//! chain), `numbers` (numbers that are asked for together), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
 //! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
 //! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes
 //! that act on each other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of
@@ -42,6 +42,7 @@ mod law;
 mod march;
 mod node;
 mod norm;
+mod numbers;
 mod onset;
 mod parameter;
 mod peak;
@@ -59,6 +60,7 @@ pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing};
+pub use numbers::ChainNumbers;
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 pub(crate) use varied::Varied;

@@ -185,17 +185,20 @@ impl ChainParameter {
 
     /// Returns the scale of a step from zero in `chain`.
     pub(crate) fn scale_of_zero(self, chain: &Chain) -> f64 {
-        let scales = chain.scales();
-        let scale = |measure| scales.of(measure);
-        let natural = match self.value {
+        let scale = |measure| chain.scale(measure);
+        natural(match self.value {
             ChainValue::Velocity => scale(Measure::Velocity),
             ChainValue::Gap => scale(Measure::Length),
             ChainValue::Stiffness => scale(Measure::Force) / scale(Measure::Length),
             ChainValue::Damping => scale(Measure::Force) / scale(Measure::Velocity),
             _ => 1.0,
-        };
-        if natural.is_finite() && natural > 0.0 { natural } else { 1.0 }
+        })
     }
+}
+
+/// Returns a scale that is positive and finite, or one.
+fn natural(scale: f64) -> f64 {
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
 }
 
 impl Chain {
@@ -281,6 +284,22 @@ impl Chain {
                 ChainParameter::of(parameter).and_then(|value| self.value(value)).ok_or_else(|| self.has_no(parameter))
             }
         }
+    }
+
+    /// Returns whether a value is zero or more, so that zero has greater values only.
+    pub(crate) fn is_non_negative(&self, by: Parameter) -> bool {
+        ChainParameter::of(by).is_none_or(ChainParameter::is_non_negative)
+    }
+
+    /// Returns the scale of a step from zero of a value.
+    pub(crate) fn scale_from_zero(&self, by: Parameter) -> f64 {
+        let gravity = || natural(self.scale(Measure::Velocity) / self.scale(Measure::Time));
+        ChainParameter::of(by).map_or_else(gravity, |parameter| parameter.scale_of_zero(self))
+    }
+
+    /// Returns the largest number of a measure that the chain can be expected to have.
+    pub(crate) fn scale(&self, measure: Measure) -> f64 {
+        self.scales().of(measure)
     }
 
     /// Returns the refusal of a value that the chain does not have.

@@ -39,6 +39,11 @@ impl Side {
     pub fn name(self) -> &'static str {
         self.into()
     }
+
+    /// Returns the other side.
+    pub(crate) fn other(self) -> Self {
+        if self == Side::Left { Side::Right } else { Side::Left }
+    }
 }
 
 /// Kind of an event at the ground end.

@@ -18,4 +18,5 @@ pub use definition::{Material, Problem, Profile, Run, Speed, Start, Top};
 pub use parameter::Parameter;
 pub use parameters::{Dimensionless, Parameters};
 
+pub(crate) use vary::stepped;
 pub use written::Written;

@@ -11,6 +11,26 @@ use crate::number::{Number, Rational, Scalar};
 static ALL_DIFFERENTIABLE: LazyLock<String> =
     LazyLock::new(|| Parameter::all_differentiable().map(Parameter::name).collect::<Vec<_>>().join(", "));
 
+fn times(number: &Number, factor: &Rational) -> Option<Number> {
+    Number::of_rational(&(number.to_rational() * factor))
+}
+
+/// Returns a number that is greater by the part `step` of its size, or by `step` times a scale where it is zero; `None`
+/// where zero has no smaller values, or the number has too many digits.
+pub(crate) fn stepped(
+    number: &Number,
+    step: &Rational,
+    only_grows: bool,
+    scale_of_zero: impl FnOnce() -> Number,
+) -> Option<Number> {
+    match number.is_zero() {
+        false if number.to_f64() < 0.0 => times(number, &(Rational::from(1) - step)),
+        false => times(number, &(Rational::from(1) + step)),
+        true if *step > Rational::default() || !only_grows => times(&scale_of_zero(), step),
+        true => None,
+    }
+}
+
 impl Parameter {
     /// The step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
     fn step_to(self, problem: &Problem, value: f64) -> Option<Rational> {
@@ -116,15 +136,8 @@ impl Parameter {
     /// value.
     pub(crate) fn moved(self, problem: &Problem, step: &Rational) -> Option<Problem> {
         let factor = Rational::from(1) + step;
-        let by = |number: &Number, factor: &Rational| Number::of_rational(&(number.to_rational() * factor));
-        let grow = |number: &mut Number| by(number, &factor).map(|grown| *number = grown);
-        let next = |number: &Number| match number.is_zero() {
-            false if number.to_f64() < 0.0 => by(number, &(Rational::from(1) - step)),
-            false => by(number, &factor),
-            true if *step > Rational::default() || !self.only_grows(problem) => by(&self.scale_of_zero(problem), step),
-            // Zero has values on one side only.
-            true => None,
-        };
+        let grow = |number: &mut Number| times(number, &factor).map(|grown| *number = grown);
+        let next = |number: &Number| stepped(number, step, self.only_grows(problem), || self.scale_of_zero(problem));
         let mut moved = problem.clone();
         match (self, &mut moved.start) {
             (Parameter::OfChain(parameter), _) => {
@@ -139,7 +152,7 @@ impl Parameter {
             }
             // The speed that a fall from a height gives stays as it is.
             (Parameter::Gravity, Start::Uniform(Speed::DropHeight(height))) => {
-                *height = by(height, &(Rational::from(1) / &factor))?;
+                *height = times(height, &(Rational::from(1) / &factor))?;
             }
             _ => {}
         }

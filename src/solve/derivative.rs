@@ -5,7 +5,7 @@ use super::plan::{Plan, Rung};
 use super::question::{Observer, Want};
 use crate::error::Error;
 use crate::motion::{Motion, Side};
-use crate::number::{Estimate, Number, Scalar};
+use crate::number::{Dual, Estimate, Float, Number, Rational, Scalar};
 use crate::problem::{Parameter, Problem};
 use crate::quantity::{self, Measure, Quantity, UnitSystem, Units};
 
@@ -88,7 +88,61 @@ pub(super) fn is_settled(found: &Estimate<f64>, natural: f64) -> bool {
     found.bound() <= WANTED * (found.value().abs() + natural)
 }
 
-/// A request for derivatives.
+/// A problem or a chain, with the values that derivatives are taken by.
+pub(super) trait Varying: Sized + Sync {
+    /// Returns a value.
+    ///
+    /// **Errors**: it has no such value.
+    fn value_in<S: Scalar>(&self, by: Parameter, precision: &S::Precision) -> Result<S, Error>;
+    /// Returns it with a value greater by the part `step` of its size, or by `step` times [`Varying::scale_of_zero`]
+    /// where the value is zero; `None` if there is none.
+    fn moved(&self, by: Parameter, step: &Rational) -> Option<Self>;
+    /// Returns whether a value is zero and has no smaller values.
+    fn only_grows(&self, by: Parameter) -> bool;
+    /// Returns the scale of a step from zero.
+    fn scale_of_zero(&self, by: Parameter) -> Number;
+    /// Returns the power of the value that [`Varying::moved`] moves.
+    fn power(&self, by: Parameter) -> i64;
+}
+
+impl Varying for Problem {
+    fn value_in<S: Scalar>(&self, by: Parameter, precision: &S::Precision) -> Result<S, Error> {
+        by.value_in(self, precision)
+    }
+    fn moved(&self, by: Parameter, step: &Rational) -> Option<Self> {
+        by.moved(self, step)
+    }
+    fn only_grows(&self, by: Parameter) -> bool {
+        by.only_grows(self)
+    }
+    fn scale_of_zero(&self, by: Parameter) -> Number {
+        by.scale_of_zero(self)
+    }
+    fn power(&self, by: Parameter) -> i64 {
+        by.power(self)
+    }
+}
+
+/// A request for derivatives of numbers of a problem or a chain.
+pub(super) trait Request: Sync {
+    /// A problem or a chain.
+    type Of: Varying;
+
+    fn of(&self) -> &Self::Of;
+    fn by(&self) -> Parameter;
+    /// Returns whether a number is missing if the rod is too short for its point: then only one side exists.
+    fn is_stretched(&self) -> bool;
+    /// Returns the numbers of another problem or chain to twice as many digits as `exponent`, and the natural scale of
+    /// each column.
+    fn long_rows(&self, of: &Self::Of, exponent: u32) -> Result<(Rows<Estimate<Float>>, Vec<f64>), Error>;
+    /// Returns the numbers in fractions.
+    fn exact_rows(&self) -> Result<Rows<Rational>, Error>;
+    /// Returns the numbers in fractions with their rates, for a growing value or, with the sign −1, a shrinking one; and
+    /// whether first order settles them.
+    fn rated_rows(&self, value: &Rational, sign: i64) -> Result<(Rows<Dual<Rational>>, bool), Error>;
+}
+
+/// A request for derivatives of numbers of a rod.
 pub struct Asked<'a> {
     pub(super) problem: &'a Problem,
     pub(super) plan: &'a Plan,
@@ -168,11 +222,6 @@ impl<'a> Asked<'a> {
                 _ => quantity.natural_scale(motion, &units).unwrap_or(1.0),
             })
             .collect()
-    }
-
-    /// Returns whether a number is missing if the rod is too short for its point: then only one side exists.
-    pub(super) fn is_stretched(&self) -> bool {
-        self.by == Parameter::Length && self.at.is_some_and(|at| !at.points.is_empty())
     }
 }
 

@@ -8,14 +8,10 @@
 //! squared: the error of a one-sided quotient shrinks with the step; otherwise the function has a kink, a root or a
 //! jump.
 
-use super::derivative::{Asked, Derivative, Derivatives, NoDerivative, Rows, at, of_each};
-use super::plan::Plan;
-use super::question::{Numbers, Question};
-use super::typed::TypedHistory;
+use super::derivative::{Derivative, Derivatives, NoDerivative, Request, Rows, Varying, at, of_each};
 use crate::error::Error;
-use crate::motion::Motion;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
-use crate::problem::{Parameter, Problem};
+use crate::problem::Parameter;
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
@@ -34,12 +30,12 @@ const WEAKEST: u32 = 6;
 const CURVATURE: u32 = 4;
 
 /// Computes the derivatives that are `asked` for, to about this many digits of their natural size.
-pub(super) fn of(asked: &Asked<'_>, digits: u32) -> Result<Derivatives<Long>, Error> {
+pub(super) fn of(asked: &impl Request, digits: u32) -> Result<Derivatives<Long>, Error> {
     if digits > MOST_DIGITS {
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });
     }
-    let zero = asked.by.value_in::<f64>(asked.problem, &())? == 0.0;
-    let first = if zero && asked.by == Parameter::Gravity { WEAKEST } else { digits + CURVATURE };
+    let zero = asked.of().value_in::<f64>(asked.by(), &())? == 0.0;
+    let first = if zero && asked.by() == Parameter::Gravity { WEAKEST } else { digits + CURVATURE };
     let wanted = part(first - CURVATURE.min(first / 2));
     let mut before = None;
     let mut level = Level::of(asked, first, zero)?;
@@ -76,25 +72,27 @@ struct Level {
 
 impl Level {
     /// Makes the runs with the step `10^−exponent`.
-    fn of(asked: &Asked<'_>, exponent: u32, zero: bool) -> Result<Self, Error> {
-        let by: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
-        let step = by.to_rational();
-        let problems = [-(step.clone() + &step), step].map(|step| asked.by.moved(asked.problem, &step));
+    fn of(asked: &impl Request, exponent: u32, zero: bool) -> Result<Self, Error> {
+        let (of, by) = (asked.of(), asked.by());
+        let part: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
+        let step = part.to_rational();
+        let others = [-(step.clone() + &step), step].map(|step| of.moved(by, &step));
         let bits = bits_for_digits(2 * exponent) + SPARE_BITS;
+        let rows = |of| Ok::<_, Error>(widened(asked.long_rows(of, exponent)?, bits));
         let run = |k: usize| match k {
-            0 => rows(asked, asked.problem, exponent, bits).map(Some),
-            k => problems[k - 1].as_ref().map(|problem| rows(asked, problem, exponent, bits)).transpose(),
+            0 => rows(of).map(Some),
+            k => others[k - 1].as_ref().map(rows).transpose(),
         };
         let mut runs = Threads::default().all(3, run)?.into_iter();
         let mut next = || runs.next().flatten();
         let (base, scales) = next().unwrap_or_default();
         let moved = [next(), next()].map(|run| run.map(|(rows, _)| rows));
         let value = match zero {
-            true => Long::from_number(&asked.by.scale_of_zero(asked.problem), &bits),
-            false => asked.by.value_in::<Long>(asked.problem, &bits)?.magnitude(),
+            true => Long::from_number(&of.scale_of_zero(by), &bits),
+            false => of.value_in::<Long>(by, &bits)?.magnitude(),
         };
-        let step = value.clone() * Long::from_number(&by, &bits) / value.int(asked.by.power(asked.problem));
-        Ok(Level { base, scales, moved, step, part: part(exponent), one_sided: asked.is_stretched() })
+        let step = value.clone() * Long::from_number(&part, &bits) / value.int(of.power(by));
+        Ok(Level { base, scales, moved, step, part: self::part(exponent), one_sided: asked.is_stretched() })
     }
 
     /// Returns the quotients on both sides of an existing number; `None` on a side without a problem.
@@ -221,18 +219,13 @@ fn reach(x: &Long) -> f64 {
     size(x) + bound(x)
 }
 
-/// Returns the numbers of a run, in numbers of this many bits, and the scale of each column.
-fn rows(asked: &Asked<'_>, problem: &Problem, exponent: u32, bits: u32) -> Result<(Rows<Long>, Vec<f64>), Error> {
-    let question = Question { want: asked.want.clone(), numbers: Numbers::Digits(2 * exponent) };
-    let plan = Plan::of(problem, &question)?;
-    let history = TypedHistory::<Float>::solve(problem, &plan, asked.observe.clone())?;
-    let query = |motion: &dyn Motion<Long>| asked.scaled(problem, motion);
-    let (mut rows, scales) = history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())?;
+/// Returns the numbers of a run in numbers of this many bits, and the scale of each column.
+fn widened((mut rows, scales): (Rows<Long>, Vec<f64>), bits: u32) -> (Rows<Long>, Vec<f64>) {
     let zero = Long::from_number(&Number::from(0), &bits);
     for number in rows.iter_mut().flatten().flatten() {
         let error = (number.log2_error() + f64::from(bits)).exp2();
         // The left operand determines the precision.
         *number = Estimate::new(zero.value().clone() + number.value(), error + size(number));
     }
-    Ok((rows, scales))
+    (rows, scales)
 }

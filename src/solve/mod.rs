@@ -12,10 +12,11 @@
 //! 6. `ladder`: the attempt that settles the answer.
 //! 7. `typed`, `history`, `solution`: the answer in one number system, in values, and its end.
 //! 8. `derivative` chooses among `rates` (exact), `interpolated` (four runs in doubles) and `differences` (long
-//!    numbers); `typed_derivatives` and `sensitivity` answer.
+//!    numbers); `typed_derivatives`, `chain_derivatives` and `sensitivity` answer.
 
 mod asked;
 pub(crate) mod chain;
+mod chain_derivatives;
 mod converted;
 mod derivative;
 mod differences;

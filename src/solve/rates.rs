@@ -1,13 +1,17 @@
 //! Derivatives of undamped rods and chains from their histories in numbers `a + b ε`: in fractions for a growing and a
 //! shrinking value; in doubles, if no threshold is met, for a growing one.
 
-use super::derivative::{Asked, At, Derivative, Derivatives, NoDerivative, Rows, at, is_settled, of_each};
+use super::derivative::{
+    Asked, At, Derivative, Derivatives, NoDerivative, Request, Rows, Varying, at, is_settled, of_each,
+};
 use super::ladder::Engined;
-use super::plan::{Engine, Rung};
+use super::plan::{Engine, Plan, Rung};
+use super::question::{Numbers, Question};
+use super::typed::TypedHistory;
 use super::{chain, long};
 use crate::error::Error;
 use crate::lattice::{Scaled, Undamped};
-use crate::motion::{AtStart, Datum, Motion, Side};
+use crate::motion::{AtStart, Datum, Motion};
 use crate::number::{Bounded, DOUBLE_DIGITS, Dual, Estimate, Float, Number, Rational, Reads, Scalar};
 use crate::problem::{Parameter, Parameters, Problem};
 use crate::quantity::{Quantity, UnitSystem, Units};
@@ -16,7 +20,7 @@ use crate::reason::Warning;
 type OneSide = Result<Rational, NoDerivative>;
 
 /// Computes the derivatives in fractions that are `asked` for; fails for damping and for a gravity or length of zero.
-pub(super) fn in_fractions(asked: &Asked<'_>) -> Result<Derivatives<Rational>, Error> {
+pub(super) fn in_fractions(asked: &impl Request) -> Result<Derivatives<Rational>, Error> {
     let (rates, settled) = on_both_sides(asked)?;
     let quotients = if settled { None } else { Some(long::quotients(asked, DOUBLE_DIGITS)?) };
     Ok(of_each(&rates, |place, sides| {
@@ -35,29 +39,61 @@ fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
     }
 }
 
-/// Returns the rates from the left and from the right, and whether first order settles them all.
-fn on_both_sides(asked: &Asked<'_>) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
-    let value = asked.by.value_in::<Rational>(asked.problem, &())?;
-    let zero = value.vanishes() == Ok(true);
-    if zero && matches!(asked.by, Parameter::Gravity | Parameter::Length) || asked.by == Parameter::Damping {
-        let expected = "digits or doubles: a rod without it is another problem in fractions";
-        return Err(Error::Derivative { parameter: asked.by, expected });
+impl Request for Asked<'_> {
+    type Of = Problem;
+
+    fn of(&self) -> &Problem {
+        self.problem
     }
-    let problem = &*asked.plan.reaching(asked.problem);
-    let ladder = asked.ladder(problem);
-    let base = match asked.plan.engine {
-        Engine::Chain => asked.values(problem, &*chain::engine::<Rational>(ladder, (Rung::Fractions, &()))?)?,
-        _ => asked.values(problem, &ladder.lattice::<Rational>(&())?)?,
-    };
-    let (right, mut settled) = with_rates(asked, problem, &value, 1)?;
-    let left = match asked.by.only_grows(problem) {
+
+    fn by(&self) -> Parameter {
+        self.by
+    }
+
+    fn is_stretched(&self) -> bool {
+        self.by == Parameter::Length && self.at.is_some_and(|at| !at.points.is_empty())
+    }
+
+    fn long_rows(&self, problem: &Problem, exponent: u32) -> Result<(Rows<Estimate<Float>>, Vec<f64>), Error> {
+        let question = Question { want: self.want.clone(), numbers: Numbers::Digits(2 * exponent) };
+        let plan = Plan::of(problem, &question)?;
+        let history = TypedHistory::<Float>::solve(problem, &plan, self.observe.clone())?;
+        let query = |motion: &dyn Motion<_>| self.scaled(problem, motion);
+        history.ask(query, |(rows, _)| rows.iter().flatten().flatten().collect())
+    }
+
+    fn exact_rows(&self) -> Result<Rows<Rational>, Error> {
+        let problem = &*self.plan.reaching(self.problem);
+        let ladder = self.ladder(problem);
+        match self.plan.engine {
+            Engine::Chain => self.values(problem, &*chain::engine::<Rational>(ladder, (Rung::Fractions, &()))?),
+            _ => self.values(problem, &ladder.lattice::<Rational>(&())?),
+        }
+    }
+
+    fn rated_rows(&self, value: &Rational, sign: i64) -> Result<(Rows<Dual<Rational>>, bool), Error> {
+        let zero = value.vanishes() == Ok(true);
+        if zero && matches!(self.by, Parameter::Gravity | Parameter::Length) || self.by == Parameter::Damping {
+            let expected = "digits or doubles: a rod without it is another problem in fractions";
+            return Err(Error::Derivative { parameter: self.by, expected });
+        }
+        with_rates(self, &self.plan.reaching(self.problem), value, sign)
+    }
+}
+
+/// Returns the rates from the left and from the right, and whether first order settles them all.
+fn on_both_sides(asked: &impl Request) -> Result<(Rows<[OneSide; 2]>, bool), Error> {
+    let value = asked.of().value_in::<Rational>(asked.by(), &())?;
+    let (right, mut settled) = asked.rated_rows(&value, 1)?;
+    let left = match asked.of().only_grows(asked.by()) {
         true => None,
         false => {
-            let (left, both) = with_rates(asked, problem, &value, -1)?;
+            let (left, both) = asked.rated_rows(&value, -1)?;
             settled &= both;
             Some(left)
         }
     };
+    let base = asked.exact_rows()?;
     let rates = of_each(&base, |place, number| {
         let right = side(&right, number, place);
         let there = |rows: &&Rows<Dual<Rational>>| !asked.is_stretched() || at(rows, place).is_some();
@@ -174,8 +210,7 @@ fn with_rates<S: Bounded>(
     let found = rows(asked)?;
     let mut settled = true;
     if let Some(at) = asked.at.filter(|_| value.bits().is_none()) {
-        let side = if at.side == Side::Left { Side::Right } else { Side::Left };
-        let other = rows(&Asked { at: Some(At { side, ..at }), want: asked.want.clone(), ..*asked })?;
+        let other = rows(&Asked { at: Some(At { side: at.side.other(), ..at }), want: asked.want.clone(), ..*asked })?;
         let mut pairs = found.iter().flatten().zip(other.iter().flatten());
         settled = pairs.all(|pair| matches!(pair, (Some(a), Some(b)) if a.alike(b)));
     }

@@ -93,7 +93,7 @@ fn joints_that_act_at_nearly_one_time_are_told_apart() {
             for asked in [Numbers::default(), Numbers::Digits(40), Numbers::Certified(40)] {
                 let history = chain.solve(asked).unwrap();
                 let found = by_joint(history.listing().unwrap().as_ref().clone());
-                assert!(history.warning().is_none(), "{asked}, 1e-{e}: {chain:?}");
+                assert!(history.warnings().is_empty(), "{asked}, 1e-{e}: {chain:?}");
                 let order = |listing: &ChainListing| -> Vec<String> {
                     let events = listing.events.iter();
                     events.map(|event| format!("{} of {} at {:.9}", event.kind, event.node, event.t.to_f64())).collect()

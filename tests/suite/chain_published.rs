@@ -36,7 +36,7 @@ fn every_chain_is_read_solved_and_explained() {
         assert!(builtin.source.lines().all(|line| line.chars().count() <= 120), "{}", builtin.name);
         assert!(scene.effects().iter().all(|effect| !effect.because.is_empty()), "{}", builtin.name);
         let (history, listing) = doubles(builtin.name);
-        assert!(history.warning().is_none(), "{}: {:?}", builtin.name, history.warning());
+        assert!(history.warnings().is_empty(), "{}: {:?}", builtin.name, history.warnings());
         assert!(scene.chain.strain_warning().is_none(), "{}", builtin.name);
         // Each number is within 1e-9 of the scale.
         for contact in &listing.contacts {
@@ -136,7 +136,7 @@ fn values_settle_in_every_number_system() {
         assert_eq!(listing.contacts.len(), 1, "{numbers:?}");
         let force = ChainColumn::read("force.1", history.chain()).unwrap();
         let force = history.value(force, &time, Side::Right).unwrap();
-        assert!((force.to_f64() - 0.1).abs() < 1e-15 && history.warning().is_none(), "{numbers:?}: {force}");
+        assert!((force.to_f64() - 0.1).abs() < 1e-15 && history.warnings().is_empty(), "{numbers:?}: {force}");
     }
     let (steel, listing) = solved("code-aster-sdnl111-a", Numbers::Digits(40));
     let release = listing.contacts[0].release.as_ref().unwrap().to_string();
@@ -144,7 +144,7 @@ fn values_settle_in_every_number_system() {
     let square = release.parse::<Number>().unwrap().to_rational();
     let off = Scalar::square(&square) - "624e-9".parse::<Number>().unwrap().to_rational();
     assert!(Scalar::to_f64(&off).abs() < 1e-45, "{release}");
-    assert!(steel.warning().is_none());
+    assert!(steel.warnings().is_empty());
 }
 
 /// Checks that numbers of so many digits that their ratios are no short fractions lose none of them.

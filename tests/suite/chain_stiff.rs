@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dalembert::chain::ChainRun;
+use dalembert::chain::{ChainColumn, ChainRun};
 use dalembert::number::{Number, Scalar};
 use dalembert::{ChainScene, Estimate, EventKind, Numbers, Side};
 
@@ -155,4 +155,18 @@ fn a_load_that_rises_and_falls_within_a_rounding_is_a_doubt() {
     };
     assert!(doubt("0.50000000000000001", "0.50000000000000002").is_some_and(|t| (t - 0.5).abs() < 1e-9));
     assert_eq!(doubt("0.6", "0.7"), None);
+}
+
+/// The same load on a bar: doubles have no bound of its slope, and longer numbers answer. The impulse of 1e-17 pulls or
+/// pushes the centre of a mass of one from t = 1/2 on.
+#[test]
+fn a_number_without_a_bound_in_doubles_comes_from_longer_numbers() {
+    let scene = "[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n[ends]\nbottom = \"free\"\n\
+        top = { force = [[0, 0], [\"0.5\", 0], [\"0.50000000000000001\", 1], [\"0.50000000000000002\", 0]] }\n\
+        [run]\ntime = 2";
+    let chain = ChainScene::parse(scene).unwrap().chain;
+    let history = chain.solve(Numbers::default()).unwrap();
+    let rate = ChainColumn::read("h_rate.1", &chain).unwrap();
+    let found = history.value(rate, &"0.7".parse().unwrap(), Side::Right).unwrap();
+    assert!((found.to_f64().abs() - 1e-17).abs() < 1e-26 && found.bound().to_f64() < 1e-24, "{found}");
 }

@@ -37,7 +37,7 @@ fn a_cradle_of_masses_that_touch_follows_its_modes() {
         assert!(is_decided_by_doubles(&chain), "gap {gap}");
         for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
             let history = chain.solve(numbers).unwrap();
-            assert!(history.warning().is_none(), "{numbers}");
+            assert!(history.warnings().is_empty(), "{numbers}");
             let found = events(&history);
             let begun = gap.parse::<f64>().unwrap();
             let kinds: Vec<(usize, EventKind)> = found.iter().map(|(node, kind, _)| (*node, *kind)).collect();
@@ -92,7 +92,7 @@ fn a_stack_that_touches_its_springs_is_loaded_at_once() {
         };
         for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
             let history = chain.solve(numbers).unwrap();
-            assert!(history.warning().is_none(), "{numbers}");
+            assert!(history.warnings().is_empty(), "{numbers}");
             let found = events(&history);
             assert_eq!(found[..2], [(0, EventKind::Impact, 0.0), (1, EventKind::Impact, 0.0)]);
             let (node, kind, t) = found[2];
@@ -124,7 +124,7 @@ fn bodies_that_fly_together_do_not_touch_each_other() {
     assert!(is_decided_by_doubles(&chain));
     for numbers in [Numbers::Double(None), Numbers::Certified(20)] {
         let history = chain.solve(numbers).unwrap();
-        assert!(history.warning().is_none(), "{numbers}");
+        assert!(history.warnings().is_empty(), "{numbers}");
         // 1 − t/3 − t²/4 = 0.
         let landing = (10f64.sqrt() - 1.0) * 2.0 / 3.0;
         let first = &events(&history)[0];
@@ -220,7 +220,7 @@ time = 4
     assert!(is_decided_by_doubles(&chain));
     let proved = chain.with_until(number("3/2")).unwrap().solve(Numbers::Certified(15)).unwrap();
     let found = chain.solve(Numbers::Double(None)).unwrap();
-    assert!(found.warning().is_none() && proved.warning().is_none());
+    assert!(found.warnings().is_empty() && proved.warnings().is_empty());
     let [found, proved] = [events(&found), events(&proved)];
     assert!(proved.len() > 7, "{proved:?}");
     for ((node, kind, t), (other_node, other_kind, other)) in found.iter().zip(&proved) {
@@ -246,7 +246,7 @@ fn contacts_at_rest_are_decided_by_breaks_that_leave_zero() {
         let chain = ChainScene::parse(scene).unwrap().chain;
         assert!(is_decided_by_doubles(&chain), "{scene}");
         let history = chain.solve(numbers).unwrap();
-        assert!(history.warning().is_none(), "{numbers}: {scene}");
+        assert!(history.warnings().is_empty(), "{numbers}: {scene}");
         let found = events(&history);
         let is_struck = |(node, kind, t): &(usize, EventKind, f64)| {
             *node == 1 && *kind == EventKind::Impact && (t - at).abs() < 1e-15

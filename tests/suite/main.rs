@@ -10,6 +10,7 @@ mod certified_first_contact;
 mod certified_undamped;
 mod chain_bodies;
 mod chain_coincidences;
+mod chain_derivatives;
 mod chain_masses;
 mod chain_published;
 mod chain_soft;

@@ -2,7 +2,8 @@
 //!
 //! - [`paper`]: the formulas of the paper as printed, by quadrature or in fractions.
 //! - [`modal`]: the first contact as a sum over the modes of the rod, with a proved bound.
-//! - `routes`: every way to one number of a problem, among them finite differences; [`RouteQuestion`] asks for it.
+//! - `routes`: every way to one number of a problem, among them finite differences; [`RouteQuestion`] asks for it, and
+//!   [`ChainQuestion`] for one of a whole chain.
 //! - [`check`]: the catalogue of hard cases and of the paper's claims, each answered by every route that can.
 //! - [`cost`]: the time that accuracy costs on each route, and the time that each effect of a scene costs.
 //! - [`published`]: values that others have published of a scene, beside those of its history.
@@ -30,4 +31,4 @@ pub mod regimes;
 mod routes;
 
 pub use error::VerifyError;
-pub use routes::{RouteQuestion, Truth};
+pub use routes::{ChainQuestion, RouteQuestion, Truth};

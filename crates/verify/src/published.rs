@@ -76,7 +76,7 @@ impl PublishedScene {
                     ours: chain_value(&history, target)?,
                 });
             }
-            published.warnings.extend(history.warning());
+            published.warnings.extend(history.warnings());
         }
         Ok(published)
     }

@@ -4,20 +4,22 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::failure::Failure;
 use crate::file::{Destination, Format, write_all};
-use crate::output::{Cell, Column, Dataset, HistoryPart, SERIES, json_bytes, rows_bytes};
+use crate::output::{
+    Cell, Column, Dataset, HistoryPart, SERIES, add_derivatives, derivative_table, json_bytes, rows_bytes, table_digits,
+};
 use crate::progress::Progress;
 use crate::source::nearest;
 use crate::terminal;
-use dalembert::ChainScene;
-use dalembert::chain::{ChainHistory, ChainListing, ForcePiece, ForeseenPieces};
+use dalembert::chain::{ChainHistory, ChainListing, ChainNumbers, ForcePiece, ForeseenPieces};
 use dalembert::number::Value;
+use dalembert::problem::Parameter;
 use dalembert::quantity::Measure;
-use dalembert::solve::Numbers;
+use dalembert::solve::{Derivatives, Numbers};
+use dalembert::{ChainScene, Error};
 
 /// Prints what an answer does not decide.
 pub(super) fn note(history: &ChainHistory) -> Result<(), Failure> {
-    history.warning().into_iter().for_each(terminal::note);
-    history.chain().strain_warning().into_iter().for_each(terminal::warn);
+    history.warnings().into_iter().for_each(terminal::warn);
     let ending = history.ending()?;
     if ending.is_open() {
         terminal::note(ending);
@@ -130,28 +132,86 @@ fn forces(scene: &ChainScene, pieces: &[Vec<ForcePiece<Value>>]) -> Dataset {
 /// Builds a table of a listing.
 type MakeTable = fn(&ChainScene, &ChainListing) -> Dataset;
 
-/// Runs `solve`: events, touches, contacts and forces; `csv` is the part in a CSV.
-pub(crate) fn solve(
+/// The requested parts of a history.
+pub(super) struct Parts<'a> {
+    /// The part in a CSV.
+    pub(super) csv: HistoryPart,
+    /// The values by which derivatives of events and contacts are taken.
+    pub(super) derivatives: &'a [Parameter],
+    /// Whether a row of a table stays on one line.
+    pub(super) wide: bool,
+}
+
+/// Names of the numbers of an event and of a contact whose derivatives are printed.
+const EVENT: [&str; 3] = ["t", "gap_rate_before", "gap_rate_after"];
+const CONTACT: [&str; 4] = ["impact", "release", "impulse", "peak_force"];
+
+/// Derivatives of events and contacts by a value.
+struct ListDerivatives {
+    by: Parameter,
+    events: Derivatives<Value>,
+    contacts: Derivatives<Value>,
+}
+
+impl ListDerivatives {
+    fn new(history: &ChainHistory, by: Parameter) -> Result<Self, Error> {
+        let [events, contacts] = [ChainNumbers::Events, ChainNumbers::Contacts];
+        Ok(ListDerivatives {
+            by,
+            events: history.derivatives(by, events)?,
+            contacts: history.derivatives(by, contacts)?,
+        })
+    }
+
+    /// Returns the tables for a person.
+    fn tables(&self, scene: &ChainScene, listing: &ChainListing, style: (u32, bool)) -> String {
+        let label = |what: &str, node: usize, word: &str, time: &Value| {
+            format!("{what} of {} {word} {}", scene.chain.node_name(node), time.to_digits(table_digits(style.0)))
+        };
+        let events = listing.events.iter().map(|event| label(event.kind.name(), event.node, "at", &event.t));
+        let contacts = listing.contacts.iter().map(|contact| label("contact", contact.node, "from", &contact.impact));
+        let symbols: Vec<(usize, &str)> = EVENT.into_iter().enumerate().collect();
+        let events = derivative_table(("derivatives", events.collect()), &symbols, (self.by, &self.events), style);
+        // The beginning and the end of a contact are events, in the table above.
+        let symbols: Vec<(usize, &str)> = CONTACT.into_iter().enumerate().skip(2).collect();
+        events + &derivative_table(("derivatives", contacts.collect()), &symbols, (self.by, &self.contacts), style)
+    }
+}
+
+/// Runs `solve`: events, touches, contacts and forces.
+pub(super) fn solve(
     scene: &ChainScene,
     numbers: Numbers,
-    csv: HistoryPart,
+    Parts { csv, derivatives, wide }: &Parts<'_>,
     destinations: &[Destination],
 ) -> Result<(), Failure> {
     let progress = Progress::of_chain();
     let history = scene.chain.solve_observed(numbers, progress.observer())?;
     let listing = history.listing()?;
     let is_asked = |format: Format| destinations.iter().any(|destination| destination.format == format);
-    let all_forces = is_asked(Format::Json) || csv == HistoryPart::Forces;
+    let all_forces = is_asked(Format::Json) || *csv == HistoryPart::Forces;
     // A table has the forces that are lines.
     let pieces: Vec<_> = match all_forces {
         true => (0..=scene.chain.bodies().len()).map(|node| history.force_pieces(node)).collect::<Result<_, _>>()?,
         false => listing.forces.clone(),
     };
+    let by = |by: &Parameter| ListDerivatives::new(&history, *by);
+    let derivatives = derivatives.iter().map(by).collect::<Result<Vec<_>, _>>()?;
     drop(progress);
     note(&history)?;
     let digits = digits(numbers);
     let whole = |data: Dataset| Dataset { digits, ..data };
     let part = |make: MakeTable| whole(make(scene, &listing));
+    let events = || {
+        let mut data = part(events);
+        derivatives.iter().for_each(|found| add_derivatives(&mut data, EVENT, (found.by, &found.events)));
+        data
+    };
+    let contacts = || {
+        let mut data = part(contacts);
+        derivatives.iter().for_each(|found| add_derivatives(&mut data, CONTACT, (found.by, &found.contacts)));
+        data
+    };
     let ending = listing.ending.at(&listing.end.to_string());
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
@@ -160,30 +220,35 @@ pub(crate) fn solve(
             "bodies": bodies(scene),
             "number": numbers.to_string(),
             "units": units_json(scene),
-            "events": part(events).json(),
+            "events": events().json(),
             "touches": part(touches).json(),
-            "contacts": part(contacts).json(),
+            "contacts": contacts().json(),
             "forces": whole(forces(scene, &pieces)).json(),
             "end": listing.end,
             "ending": ending,
             "warnings": warnings(&history),
         }))),
         Format::Csv => {
-            let data = match csv {
-                HistoryPart::Events => part(events),
-                HistoryPart::Contacts => part(contacts),
+            let data = match *csv {
+                HistoryPart::Events => events(),
+                HistoryPart::Contacts => contacts(),
                 HistoryPart::Stress | HistoryPart::Forces => whole(forces(scene, &pieces)),
             };
             rows_bytes(&data, Format::Csv)
         }
         _ => {
             let mut text = scene.title.as_ref().map_or_else(String::new, |title| format!("{title}\n\n"));
-            let parts = [("events", part(events)), ("touches", part(touches)), ("contacts", part(contacts))];
+            let parts = [("events", events()), ("touches", part(touches)), ("contacts", contacts())];
             let lines = ("forces", whole(forces(scene, &listing.forces)));
             for (name, data) in parts.into_iter().chain([lines]) {
                 if !data.rows.is_empty() {
                     text += &format!("{name}\n{}\n\n", data.table().trim_end());
                 }
+            }
+            if !derivatives.is_empty() {
+                text.pop();
+                text.extend(derivatives.iter().map(|found| found.tables(scene, &listing, (digits, *wide))));
+                text.push('\n');
             }
             let units = unit_line(scene, &[Measure::Force, Measure::Impulse]);
             Ok(format!("{text}{ending}\n{units}").into_bytes())
@@ -201,7 +266,7 @@ fn bodies(scene: &ChainScene) -> Json {
 }
 
 pub(super) fn warnings(history: &ChainHistory) -> Vec<String> {
-    history.warning().into_iter().chain(history.chain().strain_warning()).map(|warning| warning.to_string()).collect()
+    history.warnings().iter().map(ToString::to_string).collect()
 }
 
 /// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.

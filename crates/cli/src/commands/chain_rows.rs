@@ -3,13 +3,14 @@
 use super::chain::{digits, note, unit_line, unknown_quantity, warnings};
 use super::sample::SampleArgs;
 use crate::failure::{Failure, cannot};
-use crate::file::Destination;
-use crate::output::{Cell, Column, Header, Layout, RowWriter};
+use crate::file::{Destination, Format};
+use crate::output::{Cell, Column, Header, Layout, RowWriter, derivative_rows, derivative_table};
 use crate::progress::Progress;
-use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory};
+use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainNumbers};
 use dalembert::number::{List, Scalar, Value};
+use dalembert::problem::Parameter;
 use dalembert::quantity::{Measure, Needs, Quantity, SLICE, Units};
-use dalembert::solve::Numbers;
+use dalembert::solve::{Derivatives, Numbers};
 use dalembert::{ChainScene, Error, Estimate, Number, Side};
 
 /// Rows that are kept at once.
@@ -260,6 +261,40 @@ impl ChainRows<'_> {
         Ok(())
     }
 
+    /// Returns the derivatives of the columns by each parameter.
+    fn derivatives(
+        &self,
+        history: &ChainHistory,
+        columns: &[RowColumn],
+        points: &[Number],
+    ) -> Result<Vec<Derivatives<Value>>, Failure> {
+        let (Some(times), Some(side), false) = (&self.times, self.side, self.args.derivatives.is_empty()) else {
+            return Ok(Vec::new());
+        };
+        let times = &times.numbers().ok_or_else(|| too_long("times"))?[..];
+        let whole = |column: &RowColumn| if let RowColumn::Whole(column) = column { Some(*column) } else { None };
+        let whole: Vec<ChainColumn> = columns.iter().filter_map(whole).collect();
+        let body = |column: &RowColumn| if let RowColumn::Point { body, .. } = column { Some(*body) } else { None };
+        let mut bodies: Vec<usize> = columns.iter().filter_map(body).collect();
+        bodies.dedup();
+        let numbers = match self.is_field() {
+            true => ChainNumbers::Fields { bodies: &bodies, points, times, side },
+            false => ChainNumbers::Columns { columns: &whole, times, side },
+        };
+        let place = |column: &RowColumn| match column {
+            RowColumn::Point { quantity, body } => {
+                let body = bodies.iter().position(|known| known == body)?;
+                Some(3 * body + SLICE[3..].iter().position(|known| known == quantity)?)
+            }
+            column => columns.iter().position(|known| known == column),
+        };
+        let derivatives = |by: &Parameter| -> Result<Derivatives<Value>, Failure> {
+            let rows = history.derivatives(*by, numbers)?.into_iter();
+            Ok(rows.map(|row| columns.iter().map(|column| row[place(column)?].clone()).collect()).collect())
+        };
+        self.args.derivatives.iter().map(derivatives).collect()
+    }
+
     /// Solves the chain, and writes the rows.
     pub(super) fn write(&self, destinations: &[Destination]) -> Result<(), Failure> {
         let ChainRows { scene, numbers, .. } = self;
@@ -274,16 +309,29 @@ impl ChainRows<'_> {
         let history = run.solve_observed(*numbers, progress.observer())?;
         let times = self.row_times(&history)?;
         progress.set_stage("values of the answer");
-        let heads: Vec<Column> = columns.iter().map(|column| column.head(scene)).collect();
+        let derived: Vec<RowColumn> =
+            columns.iter().filter(|column| !matches!(column, RowColumn::Key(_))).copied().collect();
+        let names = || derived.iter().map(|column| column.name(chain));
+        let derivatives = self.derivatives(&history, &derived, &points)?;
+        let by = || self.args.derivatives.iter().copied().zip(&derivatives);
+        let (derived_heads, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
+            by().flat_map(|(by, rows)| derivative_rows(by, names().zip(names()), rows)).unzip();
+        let heads: Vec<Column> = columns.iter().map(|column| column.head(scene)).chain(derived_heads).collect();
         let bounds = (self.args.uncertainty, self.args.bare);
-        let writer = |destination: &Destination| RowWriter::new(destination.format, &heads, bounds, digits(*numbers));
+        let writer = |destination: &Destination| {
+            // A table has derivatives below it.
+            let count = if destination.format == Format::Table { columns.len() } else { heads.len() };
+            RowWriter::new(destination.format, &heads[..count], bounds, digits(*numbers))
+        };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
         let places: Vec<Option<&Number>> = if self.is_field() { points.iter().map(Some).collect() } else { vec![None] };
         let all: Vec<(&RowTime, Option<&Number>)> =
             times.iter().flat_map(|time| places.iter().map(move |place| (time, *place))).collect();
-        for part in all.chunks(CHUNK) {
-            let mut cells = vec![Vec::new(); heads.len()];
+        for (k, part) in all.chunks(CHUNK).enumerate() {
+            let mut cells = vec![Vec::new(); columns.len()];
             part.iter().try_for_each(|row| self.add(&history, &columns, *row, &mut cells))?;
+            let rows = k * CHUNK..k * CHUNK + part.len();
+            cells.extend(derived_cells.iter().map(|column| column[rows.clone()].to_vec()));
             writers.iter_mut().try_for_each(|writer| writer.push(&cells)).map_err(cannot("keep the rows"))?;
         }
         drop(progress);
@@ -295,7 +343,15 @@ impl ChainRows<'_> {
         };
         let last = latest.as_ref().unwrap_or(chain.until()).to_f64();
         let header = Header::of_chain((scene, last), *numbers, warnings(&history), ends);
-        let below = format!("\n{}", unit_line(scene, &measures));
+        let label = |(row, point): &(&RowTime, Option<&Number>)| {
+            let time = format!("t = {}", row.time);
+            point.map_or_else(|| time.clone(), |point| format!("{time}   x = {point}"))
+        };
+        let labels: Vec<String> = if derivatives.is_empty() { Vec::new() } else { all.iter().map(label).collect() };
+        let symbols: Vec<(usize, String)> = names().enumerate().collect();
+        let style = (digits(*numbers), self.args.wide);
+        let tables = by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, style));
+        let below = format!("\n{}{}", tables.collect::<String>(), unit_line(scene, &measures));
         let keys = columns.iter().take_while(|column| matches!(column, RowColumn::Key(_))).count();
         let layout = Layout { below, keys: (!self.args.wide).then_some(keys) };
         writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))

@@ -90,7 +90,7 @@ pub(super) struct SampleArgs {
     side: Option<SideArg>,
     /// Derivatives of the values by values of the scene, as with solve; time and point stay where they are
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = Parameter::differentiable)]
-    derivatives: Vec<Parameter>,
+    pub(super) derivatives: Vec<Parameter>,
     /// Add the bound of the error of each value, in a column NAME_uncertainty beside each column
     #[arg(long)]
     pub(super) uncertainty: bool,
@@ -155,9 +155,7 @@ impl SampleArgs {
         }
         let quantities = self.quantities(&scene, points.is_some(), is_golden)?;
         let side = self.side(is_golden);
-        if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
-            return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
-        }
+        self.check_derivatives(&times, side)?;
         let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
             None => Question::run(numbers),
             Some((Some(first), _)) if first.to_f64() < 0.0 => {
@@ -172,6 +170,14 @@ impl SampleArgs {
         };
         let rows = Rows { args: self, scene: &scene, times, points, quantities, side };
         rows.write(solve(&scene, &question)?, &destinations)
+    }
+
+    /// Refuses derivatives without times or with both limits.
+    fn check_derivatives(&self, times: &Option<List>, side: Option<Side>) -> Result<(), Failure> {
+        if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
+            return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
+        }
+        Ok(())
     }
 
     /// Returns whether the quantities are those of a rod, and not of the joints and bodies of a chain.
@@ -200,13 +206,13 @@ impl SampleArgs {
 
     /// Writes values of a scene with several bodies.
     fn chain(&self, scene: &ChainScene, is_golden: bool) -> Result<(), Failure> {
-        let is_along = self.field != Slice::default();
-        let refused = [(is_along, "--field"), (!self.derivatives.is_empty(), "--derivatives")];
-        if let Some((_, option)) = refused.iter().find(|(given, _)| *given) {
-            return Err(failure!("found {option} with a chain of bodies, expected it with one of them, --body N"));
+        if self.field != Slice::default() {
+            return Err(failure!("found --field with a chain of bodies, expected it with one of them, --body N"));
         }
         let (numbers, times) = (self.scene.numbers.numbers_to(scene.accuracy), self.times()?);
-        let rows = ChainRows { args: self, scene, numbers, times, side: self.side(is_golden) };
+        let side = self.side(is_golden);
+        self.check_derivatives(&times, side)?;
+        let rows = ChainRows { args: self, scene, numbers, times, side };
         rows.write(&self.destinations(is_golden)?)
     }
 
@@ -322,8 +328,9 @@ impl Rows<'_> {
         let derived: Vec<Quantity> = self.quantities.iter().filter(|quantity| !is_key(quantity)).copied().collect();
         let derivatives = self.derivatives(&history, &derived)?;
         let by = || self.args.derivatives.iter().copied().zip(&derivatives);
+        let named = || derived.iter().map(|quantity| (quantity, quantity.symbol()));
         let (derived_columns, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
-            by().flat_map(|(by, rows)| derivative_rows(by, &derived, rows)).unzip();
+            by().flat_map(|(by, rows)| derivative_rows(by, named(), rows)).unzip();
         let columns = self.quantities.iter().map(|quantity| Column::from_quantity(*quantity, &info.units));
         let columns: Vec<Column> = columns.chain(derived_columns).collect();
         let bounds = (self.args.uncertainty, self.args.bare);
@@ -347,7 +354,9 @@ impl Rows<'_> {
         if destinations.iter().any(|destination| destination.format == Format::Table) {
             let symbols: Vec<_> = derived.iter().map(|quantity| quantity.symbol()).enumerate().collect();
             let labels = self.labels(&cells, &info);
-            tables.extend(by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, &info)));
+            tables.extend(
+                by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, (info.digits, info.wide))),
+            );
         }
         let info = RunInfo { warnings: history.warnings(), ..info };
         if !destinations.iter().any(Destination::is_printed_table) {

@@ -66,13 +66,16 @@ impl Solve {
         if self.coefficients && self.part != Some(HistoryPart::Stress) {
             return Err(failure!("found --coefficients, expected it with --part stress only"));
         }
-        if self.part == Some(HistoryPart::Stress) && !self.derivatives.is_empty() {
-            return Err(failure!("found --derivatives with --part stress, expected them of events or contacts"));
+        if let Some(part @ (HistoryPart::Stress | HistoryPart::Forces)) = self.part
+            && !self.derivatives.is_empty()
+        {
+            let part: &str = if part == HistoryPart::Stress { "stress" } else { "forces" };
+            return Err(failure!("found --derivatives with --part {part}, expected them of events or contacts"));
         }
         let mut scene = match self.scene.body.read_any(&self.scene.scene)? {
             AnyScene::Rod(scene) => *scene,
             // A chain of one body is a rod to what a whole chain does not have.
-            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.of_a_rod().is_some() => scene.body(0)?,
+            AnyScene::Chain(scene) if scene.chain.bodies().len() == 1 && self.is_of_rod() => scene.body(0)?,
             AnyScene::Chain(scene) => return self.chain(*scene, &destinations),
         };
         if self.part == Some(HistoryPart::Forces) {
@@ -127,11 +130,15 @@ impl Solve {
         let refused = [
             (self.impacts.is_some(), "--impacts"),
             (self.part == Some(HistoryPart::Stress), "--part stress"),
-            (!self.derivatives.is_empty(), "--derivatives"),
             (self.coefficients, "--coefficients"),
             (self.legend, "--legend"),
         ];
         refused.iter().find(|(given, _)| *given).map(|(_, option)| *option)
+    }
+
+    /// Returns whether a chain of one body is answered as a rod.
+    fn is_of_rod(&self) -> bool {
+        self.of_a_rod().is_some() || !self.derivatives.is_empty()
     }
 
     /// Solves a scene with several bodies.
@@ -143,7 +150,9 @@ impl Solve {
             scene.chain = scene.chain.with_until(to.clone())?;
         }
         let numbers = self.scene.numbers.numbers_to(scene.accuracy);
-        chain::solve(&scene, numbers, self.part.unwrap_or_default(), destinations)
+        let parts =
+            chain::Parts { csv: self.part.unwrap_or_default(), derivatives: &self.derivatives, wide: self.wide };
+        chain::solve(&scene, numbers, &parts, destinations)
     }
 }
 

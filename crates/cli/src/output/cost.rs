@@ -40,8 +40,8 @@ fn error(row: &CostRow) -> String {
 /// Returns the quantity and its time: `t_b`, or `h(t) at t = 1.5`.
 fn quantity_text(table: &CostTable) -> String {
     match &table.time {
-        Some(time) => format!("{} at t = {time}", table.quantity.symbol()),
-        None => table.quantity.symbol().into(),
+        Some(time) => format!("{} at t = {time}", table.symbol),
+        None => table.symbol.clone(),
     }
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
         header: json!({
             "schema": 1,
             "title": title,
-            "quantity": cost.quantity.name(),
+            "quantity": cost.quantity,
             "unit": cost.unit,
             "time": cost.time.as_ref().map(Number::to_f64),
             "truth": truth,

@@ -1,17 +1,21 @@
 //! Derivatives of events, contacts and values: columns beside them in data, tables of their own for a person.
 
+use std::fmt::Display;
+
 use super::column::Column;
 use super::dataset::{Cell, Dataset};
-use super::run_info::RunInfo;
-use super::table::TextTable;
+use super::table::{TextTable, table_digits};
 use dalembert::Value;
 use dalembert::problem::Parameter;
-use dalembert::quantity::Quantity;
 use dalembert::solve::{Derivative, Derivatives};
 
-/// Adds columns of derivatives of `quantities` to `data`, whose rows are of the same list.
-pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows): (Parameter, &Derivatives<Value>)) {
-    for (k, quantity) in quantities.iter().enumerate() {
+/// Adds columns of derivatives of the numbers of these names to `data`, whose rows are of the same list.
+pub(crate) fn add_derivatives(
+    data: &mut Dataset,
+    names: impl IntoIterator<Item = impl Display>,
+    (by, rows): (Parameter, &Derivatives<Value>),
+) {
+    for (k, quantity) in names.into_iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
         let (name, key) = (format!("{quantity}_by_{by}"), format!("derivatives/{quantity}/{by}"));
         let column = Column::data(name.clone()).keyed(key.clone());
@@ -36,14 +40,14 @@ pub(super) fn add_columns(data: &mut Dataset, quantities: &[Quantity], (by, rows
     }
 }
 
-/// Returns the columns of the derivatives of `quantities` by one value, with their cells.
+/// Returns the columns of the derivatives by one value of numbers with these names and symbols, with their cells.
 pub(crate) fn derivative_rows(
     by: Parameter,
-    quantities: &[Quantity],
+    numbers: impl IntoIterator<Item = (impl Display, impl Display)>,
     rows: &Derivatives<Value>,
 ) -> Vec<(Column, Vec<Cell>)> {
     let mut columns = Vec::new();
-    for (k, quantity) in quantities.iter().enumerate() {
+    for (k, (quantity, symbol)) in numbers.into_iter().enumerate() {
         let cells = || rows.iter().map(|row| row.get(k).and_then(Option::as_ref));
         // Most derivatives are the same from both sides.
         let differ = cells().flatten().any(|cell| cell.value().is_none());
@@ -57,7 +61,7 @@ pub(crate) fn derivative_rows(
                 },
                 (_, _) => Cell::number(None::<Value>),
             };
-            let (symbol, meaning) = (format!("∂ {}", quantity.symbol()), format!("derivative of {quantity} by {by}"));
+            let (symbol, meaning) = (format!("∂ {symbol}"), format!("derivative of {quantity} by {by}"));
             let name = Column::new(format!("{quantity}_by_{by}{suffix}"));
             let column = Column { symbol: symbol.into(), meaning: meaning.into(), ..name };
             columns.push((column, cells().map(cell).collect()));
@@ -67,12 +71,12 @@ pub(crate) fn derivative_rows(
 }
 
 /// Returns a table of the derivatives by one value. Each label names a row, which is two rows where the sides differ;
-/// `quantities` are places in a row with their symbols.
+/// `quantities` are places in a row with their symbols. `wide` keeps each row on one line.
 pub(crate) fn derivative_table(
     (head, labels): (&str, Vec<String>),
-    quantities: &[(usize, &str)],
+    quantities: &[(usize, impl Display)],
     (by, rows): (Parameter, &Derivatives<Value>),
-    info: &RunInfo,
+    (digits, wide): (u32, bool),
 ) -> String {
     if rows.is_empty() {
         return String::new();
@@ -91,7 +95,7 @@ pub(crate) fn derivative_table(
             let mut line = vec![label.clone(), (*word).into()];
             line.extend(cells.iter().zip(&greatest).map(
                 |(cell, greatest)| match cell.map(|cell| cell.sides()[*side]) {
-                    Some(Ok(value)) => info.text_beside(value, *greatest),
+                    Some(Ok(value)) => value.to_digits_beside(table_digits(digits), *greatest),
                     Some(Err(why)) => why.to_string(),
                     None => "–".into(),
                 },
@@ -99,6 +103,6 @@ pub(crate) fn derivative_table(
             lines.push(line);
         }
     }
-    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!info.wide).then_some(2) };
+    let table = TextTable { head: &head, rows: lines, words: 2, keys: (!wide).then_some(2) };
     format!("\nby {by}:\n{}\n", table.format())
 }

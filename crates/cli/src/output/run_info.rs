@@ -36,11 +36,6 @@ impl RunInfo {
         value.to_digits(table_digits(self.digits))
     }
 
-    /// Returns the number in a column with numbers up to `greatest`.
-    pub(crate) fn text_beside(&self, value: &Value, greatest: f64) -> String {
-        value.to_digits_beside(table_digits(self.digits), greatest)
-    }
-
     /// Returns a line of prose, wrapped where it is wider than the page.
     pub(super) fn line(&self, text: &str) -> String {
         if self.wide { format!("{text}\n") } else { wrapped(text, terminal::width(), "    ") + "\n" }

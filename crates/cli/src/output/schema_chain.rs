@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 
-use super::schema_types::{NumberSchema, UncertaintySchema};
+use super::schema_types::{DerivativeSchema, NumberSchema, UncertaintySchema};
 use dalembert_compare::SchemaVersion;
 
 /// Output of solve for a whole chain
@@ -54,6 +54,9 @@ struct EventSchema {
     gap_rate_before: NumberSchema,
     /// The same rate just after.
     gap_rate_after: NumberSchema,
+    /// Derivatives by quantity and value.
+    #[schemars(skip_serializing_if = "BTreeMap::is_empty")]
+    derivatives: BTreeMap<String, BTreeMap<String, DerivativeSchema>>,
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }
 
@@ -85,6 +88,9 @@ struct ContactSchema {
     peak_force: NumberSchema,
     /// The first time of the greatest force; null where the force is the same, within its bound, over a plateau.
     peak_time: Option<NumberSchema>,
+    /// Derivatives by quantity and value.
+    #[schemars(skip_serializing_if = "BTreeMap::is_empty")]
+    derivatives: BTreeMap<String, BTreeMap<String, DerivativeSchema>>,
     uncertainty: BTreeMap<String, UncertaintySchema>,
 }
 

@@ -41,7 +41,7 @@ pub(super) enum UncertaintySchema {
 /// side has none.
 #[derive(JsonSchema)]
 #[schemars(rename = "derivative", untagged)]
-enum DerivativeSchema {
+pub(super) enum DerivativeSchema {
     Both(NumberSchema),
     Sides {
         #[schemars(skip_serializing_if = "Option::is_none")]

@@ -8,7 +8,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::column::Column;
 use super::dataset::{Cell, Dataset};
-use super::derivatives::{add_columns, derivative_table};
+use super::derivatives::{add_derivatives, derivative_table};
 use super::outline::sparkline;
 use super::run_info::{ExactUntil, RunInfo};
 use super::schema_types::{BoundSchema, ContactRow, EventRow, FlightRow, NumberSchema, StressRow};
@@ -158,8 +158,8 @@ impl HistoryTables {
 
     /// Adds the derivatives of events and contacts by a value of the scene.
     pub(crate) fn add_derivatives(&mut self, by: Parameter, events: Derivatives<Value>, contacts: Derivatives<Value>) {
-        add_columns(&mut self.events, Table::Events.quantities(), (by, &events));
-        add_columns(&mut self.contacts, Table::Contacts.quantities(), (by, &contacts));
+        add_derivatives(&mut self.events, Table::Events.quantities(), (by, &events));
+        add_derivatives(&mut self.contacts, Table::Contacts.quantities(), (by, &contacts));
         self.derivatives.push(HistoryDerivatives { by, events, contacts });
     }
 
@@ -276,7 +276,7 @@ impl HistoryTables {
             listed.map(|(k, quantity)| (k, quantity.symbol())).collect()
         };
         let table = |labels: Vec<String>, symbols: &[(usize, &str)], by: Parameter, rows: &Derivatives<Value>| {
-            derivative_table(("derivatives", labels), symbols, (by, rows), info)
+            derivative_table(("derivatives", labels), symbols, (by, rows), (info.digits, info.wide))
         };
         let mut out = String::new();
         for HistoryDerivatives { by, events, contacts } in &self.derivatives {

@@ -33,7 +33,7 @@ impl Dataset {
 }
 
 /// Returns the significant digits of a number in a table, where a long number has `digits`, or 0.
-pub(super) fn table_digits(digits: u32) -> u32 {
+pub(crate) fn table_digits(digits: u32) -> u32 {
     if digits == 0 { TABLE_DIGITS } else { digits }
 }
 

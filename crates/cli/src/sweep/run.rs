@@ -82,8 +82,7 @@ impl PointNumber {
                 value => value,
             },
         };
-        let warnings = history.warning().into_iter().chain(history.chain().strain_warning());
-        PointNumber::noted(value.map(Ok), warnings.map(|warning| warning.to_string()))
+        PointNumber::noted(value.map(Ok), history.warnings().iter().map(ToString::to_string))
     }
 
     /// Returns a number with notes on it.

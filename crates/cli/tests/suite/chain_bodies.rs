@@ -169,6 +169,36 @@ fn whole_chains_are_swept() {
     }
 }
 
+/// OpenFOAM's bars meet after gap/v = 10 gap, and f = v Z₁Z₂/(Z₁ + Z₂) with Z = 7/10 and 1, v = 1/10; the wave in the
+/// lower bar has passed x = 9 at t = 1/5.
+#[test]
+fn derivatives_of_a_whole_chain() {
+    let scene = "openfoam-7-1-2 --exact";
+    let found = json(&format!("solve {scene} --derivatives joint.1.gap,body.1.velocity"));
+    for event in found["events"].as_array().unwrap() {
+        assert_eq!(event["derivatives"]["t"]["joint.1.gap"], "10", "{event:#}");
+    }
+    let contact = &found["contacts"][0]["derivatives"];
+    assert_eq!(
+        (&contact["peak_force"]["body.1.velocity"], &contact["impulse"]["joint.1.gap"]),
+        (&"7/17".into(), &"0".into())
+    );
+    let table = run(&format!("solve {scene} --derivatives joint.1.gap"));
+    assert!(table.contains("by joint.1.gap:\n") && table.contains(" impact of joint 1 at 1/10 "), "{table}");
+    let csv = |arguments: &str| run(&format!("{arguments} --format csv"));
+    let contacts = csv(&format!("solve {scene} --part contacts --derivatives body.1.velocity"));
+    assert!(contacts.contains("peak_force_by_body.1.velocity"), "{contacts}");
+    let rows =
+        csv(&format!("sample {scene} --bare --times 1/5 --quantity force.1 --derivatives body.1.velocity,joint.1.gap"));
+    assert_eq!(rows, "t,side,force.1,force.1_by_body.1.velocity,force.1_by_joint.1.gap\n1/5,right,7/170,7/17,0\n");
+    // Behind the front v₁ = v Z₁/(Z₁ + Z₂) and v_x = −f/EA = −f/49.
+    let rows = csv(&format!(
+        "sample {scene} --bare --times 1/5 --points 9 --quantity strain.1,v.1 --derivatives body.1.velocity"
+    ));
+    let last = rows.lines().last().unwrap();
+    assert_eq!(last, "1/5,right,9,-1/1190,7/170,-1/119,7/17", "{rows}");
+}
+
 #[test]
 fn bodies_that_are_not_there_are_refused() {
     for (arguments, part) in [
@@ -178,6 +208,11 @@ fn bodies_that_are_not_there_are_refused() {
             "that has this value",
         ),
         ("sweep openfoam-7-1-2 --vary gravity.acceleration=1 --quantity peak_force", "expected one of them"),
+        ("solve openfoam-7-1-2 --derivatives length", "found the value rod.length"),
+        ("solve openfoam-7-1-2 --derivatives body.3.length", "found the value body.3.length"),
+        ("solve openfoam-7-1-2 --derivatives joint.1.gap --part forces", "expected them of events or contacts"),
+        ("sample openfoam-7-1-2 --derivatives joint.1.gap --quantity force.1", "expected them with times"),
+        ("solve openfoam-7-1-2 --certified --derivatives joint.1.gap", "digits that need not be proved"),
         ("solve openfoam-7-1-2 --body 3", "expected a body from 1, the lowest, to 2"),
         ("solve openfoam-7-1-2 --body 0", "expected a body from 1, the lowest, to 2"),
         ("solve paper-weak --body 2", "expected 1"),

@@ -57,6 +57,33 @@ fn schema() {
     assert!(out.starts_with("route,setting,error,seconds,spread_seconds,runs,chosen\n"), "{out}");
 }
 
+/// A whole chain: in fractions, in long numbers and proved; with a mass, without fractions.
+#[test]
+fn a_whole_chain_is_measured() {
+    for (args, quantity, truth, fractions) in [
+        ("openfoam-7-1-2", "release.1", 27.0 / 70.0, true),
+        ("openfoam-7-1-2 --quantity force.1 --time 1/5", "force.1", 7.0 / 170.0, true),
+        // Saint-Venant's mass m = 6 pushes with e^(−t/6) up to t = 2.
+        ("saint-venant-mass --quantity force.1 --time 1/2", "force.1", (-1.0f64 / 12.0).exp(), false),
+    ] {
+        let found = json(&format!("{args} --seconds 0.5"));
+        assert_eq!(found["quantity"], quantity, "{args}");
+        assert!((found["truth"].as_f64().unwrap() - truth).abs() < 1e-15, "{found:#}");
+        let rows = found["rows"].as_array().unwrap();
+        let setting = |name: &str| rows.iter().find(|row| row["setting"] == name);
+        assert_eq!(setting("double").unwrap()["chosen"], true);
+        assert_eq!(setting("fractions").is_some(), fractions, "{args}");
+        assert!(setting("50 digits").unwrap()["log10_error"].as_f64().is_none_or(|error| error < -50.0), "{found:#}");
+    }
+    for (args, said) in [
+        ("openfoam-7-1-2 --quantity force.9", "did you mean force.1?"),
+        ("openfoam-7-1-2 --quantity release.1 --time 1", "release.1 is not asked at a time"),
+        ("openfoam-7-1-2 --effects", "expected it with one of them, --body N"),
+    ] {
+        refused(&format!("cost {args}"), &[said]);
+    }
+}
+
 /// The end of the rod is on the ground after three quarters of a round trip; in the fall before, v(0,t) = gap − μt −
 /// gt²/2.
 #[test]

@@ -95,6 +95,7 @@ fn every_output_is_what_the_schema_says() {
         }
     }
     check("chain", "solve openfoam-7-1-2 --exact");
+    check("chain", "solve openfoam-7-1-2 --exact --derivatives joint.1.gap,body.1.length");
     check("chain", "solve saint-venant-mass");
     check("reference", "sample openfoam-7-1-2 --exact --times 1/5 --quantity force.1");
     // At the second landing of the first, and at the touch of the second, the sides differ or there is none.

@@ -2,7 +2,7 @@
 
 use super::family::{Family, OmissionReason};
 use crate::error::VerifyError;
-use crate::routes::{Route, RouteQuestion};
+use crate::routes::{Question, Route, RouteQuestion};
 use dalembert::Ending;
 use dalembert::problem::Run;
 use dalembert::quantity::Quantity;
@@ -31,15 +31,14 @@ const LONG: [u32; 4] = [50, 100, 300, 1000];
 
 /// Returns the ladders of all routes that can answer, and the reasons of the others.
 pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Vec<(Family, OmissionReason)>) {
+    let numbers = plan.numbers;
     let (mut ladders, mut left_out) = (Vec::new(), Vec::new());
     let mut take = |family: Family, ladder: Result<Ladder, OmissionReason>| match ladder {
         Ok(ladder) => ladders.push(ladder),
         Err(why) => left_out.push((family, why)),
     };
     if plan.engine == Engine::Chain {
-        let others = [Family::ClosedForm, Family::Lattice, Family::Cells, Family::Modes, Family::Differences];
-        let left_out = others.map(|family| (family, OmissionReason::InChain)).into();
-        return (vec![by_plan(Family::Chain, question, plan.numbers), enclosures(plan, false)], left_out);
+        return of_chain(question, numbers);
     }
     let first = covered_by_first_contact(question);
     take(Family::ClosedForm, first.clone().map(|()| closed_form()));
@@ -82,8 +81,20 @@ pub(super) fn ladders(question: &RouteQuestion, plan: &Plan) -> (Vec<Ladder>, Ve
     take(Family::Printed, whole.map(|()| in_doubles(Family::Printed, [1e-2, 3.0], printed)));
     let differences = (0..7).map(|k| 8 << (2 * k)).map(|count| (format!("{count} cells"), Route::Differences(count)));
     take(Family::Differences, Ok(in_doubles(Family::Differences, [1e-4, 16.0], differences)));
-    take(Family::Enclosures, Ok(enclosures(plan, first.is_ok())));
+    take(Family::Enclosures, Ok(enclosures(numbers, first.is_ok())));
     (ladders, left_out)
+}
+
+/// Returns the ladders of a question about a chain, and the reasons of the other routes.
+pub(super) fn of_chain(question: &impl Question, numbers: Numbers) -> (Vec<Ladder>, Vec<(Family, OmissionReason)>) {
+    let others = [Family::ClosedForm, Family::Lattice, Family::Cells, Family::Modes, Family::Differences];
+    let left_out = others.map(|family| (family, OmissionReason::InChain)).into();
+    let proved = enclosures(numbers, false);
+    match numbers {
+        // The ladder of the proofs has the choice of the plan.
+        Numbers::Certified(_) => (vec![proved], left_out),
+        numbers => (vec![by_plan(Family::Chain, question, numbers), proved], left_out),
+    }
 }
 
 /// Returns settings in doubles: the first takes `first` seconds, each other `growth` times as long as the one before.
@@ -120,16 +131,18 @@ fn closed_form() -> Ladder {
 }
 
 /// Returns the setting of the plan, and others of the same engine.
-fn by_plan(family: Family, question: &RouteQuestion, system: Numbers) -> Ladder {
+fn by_plan(family: Family, question: &impl Question, system: Numbers) -> Ladder {
     let (route, setting) = (Route::Planned(system), system.to_string());
     let digits = match system {
         Numbers::Digits(digits) | Numbers::ExactThenDigits(digits) => digits + 8,
         _ => DOUBLE,
     };
     let mut ladder = vec![Candidate { family, route, setting, digits, expected: 0.0, chosen: true }];
-    let fractions = Route::Lattice(Numbers::Exact);
-    if family == Family::Lattice && fractions.run(question, f64::INFINITY).is_ok() {
-        ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), fractions)]));
+    if let Some(exact) = question.exact_route().filter(|_| matches!(family, Family::Lattice | Family::Chain))
+        && system != Numbers::Exact
+        && question.answer(exact, f64::INFINITY).is_ok()
+    {
+        ladder.extend(in_doubles(family, [30.0, 1.0], [("fractions".into(), exact)]));
     }
     // Cells cost about the cube of their digits, of which the plan takes eight more than asked; the lattice costs
     // hardly more in long numbers.
@@ -141,8 +154,8 @@ fn by_plan(family: Family, question: &RouteQuestion, system: Numbers) -> Ladder 
 }
 
 /// Returns settings in enclosures. The cells prove several contacts of a damped rod in some twentieth of a second.
-fn enclosures(plan: &Plan, first_contact: bool) -> Ladder {
-    let chosen = match plan.numbers {
+fn enclosures(numbers: Numbers, first_contact: bool) -> Ladder {
+    let chosen = match numbers {
         Numbers::Certified(digits) => Some(digits),
         _ => None,
     };

@@ -10,4 +10,4 @@ mod work_precision;
 pub use effects::{EffectCost, effects};
 pub use family::{Family, OmissionReason};
 pub use timing::Timing;
-pub use work_precision::{CostRow, CostTable, Omission, work_precision};
+pub use work_precision::{CostRow, CostTable, Omission, chain_work_precision, work_precision};

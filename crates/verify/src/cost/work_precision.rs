@@ -3,14 +3,13 @@
 use std::time::{Duration, Instant};
 
 use super::family::{Family, OmissionReason};
-use super::ladder::{Candidate, Ladder, ladders};
+use super::ladder::{Candidate, Ladder, ladders, of_chain};
 use super::timing::{Timing, check_budget, repeat};
 use crate::error::VerifyError;
-use crate::routes::{Route, RouteQuestion, Truth};
+use crate::routes::{ChainQuestion, Question, Route, RouteQuestion, Truth};
 use dalembert::Value;
 use dalembert::number::Number;
-use dalembert::quantity::Quantity;
-use dalembert::solve::Plan;
+use dalembert::solve::{Numbers, Plan};
 
 /// A route at a setting, with its time and its error.
 #[derive(Clone, Debug)]
@@ -50,8 +49,10 @@ pub struct Omission {
 /// One quantity by every route.
 #[derive(Clone, Debug)]
 pub struct CostTable {
-    /// The quantity.
-    pub quantity: Quantity,
+    /// The name of the quantity.
+    pub quantity: String,
+    /// Its symbol.
+    pub symbol: String,
     /// Its unit; empty where there is none or none is known.
     pub unit: &'static str,
     /// The time at which it is asked.
@@ -80,12 +81,50 @@ pub fn work_precision(
     question: &RouteQuestion,
     plan: &Plan,
     seconds: f64,
+    observe: impl FnMut(f64, &str),
+) -> Result<CostTable, VerifyError> {
+    let (quantity, time) = (question.query.quantity, question.query.time.clone());
+    let head = CostHead {
+        quantity: quantity.name().into(),
+        symbol: quantity.symbol().into(),
+        unit: quantity.unit(&question.units),
+        time,
+    };
+    measured(question, head, || ladders(question, plan), seconds, observe)
+}
+
+/// Measures `question` about a whole chain in the numbers that it can have, as [`work_precision`] does; `unit` is that
+/// of its quantity.
+pub fn chain_work_precision(
+    question: &ChainQuestion,
+    (numbers, unit): (Numbers, &'static str),
+    seconds: f64,
+    observe: impl FnMut(f64, &str),
+) -> Result<CostTable, VerifyError> {
+    let (quantity, time) = (question.name(), question.time.clone());
+    let head = CostHead { symbol: quantity.clone(), quantity, unit, time };
+    measured(question, head, || of_chain(question, numbers), seconds, observe)
+}
+
+/// The quantity of a table.
+struct CostHead {
+    quantity: String,
+    symbol: String,
+    unit: &'static str,
+    time: Option<Number>,
+}
+
+fn measured(
+    question: &impl Question,
+    CostHead { quantity, symbol, unit, time }: CostHead,
+    ladders: impl FnOnce() -> (Vec<Ladder>, Vec<(Family, OmissionReason)>),
+    seconds: f64,
     mut observe: impl FnMut(f64, &str),
 ) -> Result<CostTable, VerifyError> {
     check_budget(seconds)?;
     let start = Instant::now();
     let spent = || start.elapsed().as_secs_f64();
-    let (all, without) = ladders(question, plan);
+    let (all, without) = ladders();
     let count: usize = all.iter().map(Vec::len).sum();
     let slot = SHARE * seconds / count.max(1) as f64;
     let mut left_out: Vec<Omission> =
@@ -127,20 +166,13 @@ pub fn work_precision(
     // Settings stay in the order of their ladder.
     rows.sort_by_key(|row| (row.family as u8, row.ladder));
     left_out.sort_by_key(|item| item.family as u8);
-    Ok(CostTable {
-        quantity: question.query.quantity,
-        unit: question.query.quantity.unit(&question.units),
-        time: question.query.time.clone(),
-        truth,
-        rows,
-        left_out,
-    })
+    Ok(CostTable { quantity, symbol, unit, time, truth, rows, left_out })
 }
 
 /// Computes the truth to more digits than every row of `measured` has. Rows without a truth are `left_out`, down to
 /// doubles. `observe` receives the digits.
 fn truth(
-    question: &RouteQuestion,
+    question: &impl Question,
     measured: &mut Vec<Measured>,
     left_out: &mut Vec<Omission>,
     mut observe: impl FnMut(u32),
@@ -174,15 +206,15 @@ impl Measured {
 
 /// Answers `question` by `route`, in the seconds that are `left`, and repeats the run for about as many seconds as
 /// `slot`.
-fn measure(question: &RouteQuestion, route: Route, slot: f64, left: f64) -> Result<(Value, Timing), VerifyError> {
+fn measure(question: &impl Question, route: Route, slot: f64, left: f64) -> Result<(Value, Timing), VerifyError> {
     let began = Instant::now();
     // A run that can stop itself leaves most of the time to others.
-    let value = route.run(question, left / 4.0)?;
+    let value = question.answer(route, left / 4.0)?;
     let once = began.elapsed().as_secs_f64();
     let left = (left - once).max(0.0);
     // Three samples at least, where that is little of what is left.
     let room = slot.max((4.0 * once).min(left / 8.0)).min(left);
-    Ok((value, repeat(once, Duration::from_secs_f64(room), || route.run(question, left))))
+    Ok((value, repeat(once, Duration::from_secs_f64(room), || question.answer(route, left))))
 }
 
 impl Candidate {

@@ -1,5 +1,6 @@
 //! Routes to one number of a problem: each computes it in its own way, in its own numbers.
 
+mod chain;
 mod differences;
 mod method;
 mod question;
@@ -7,8 +8,9 @@ mod route;
 mod truth;
 mod value;
 
+pub use chain::ChainQuestion;
 pub use question::RouteQuestion;
-pub(crate) use question::Transform;
+pub(crate) use question::{Question, Transform};
 pub(crate) use route::{Route, run_engine, run_planned};
 pub use truth::Truth;
 pub(crate) use value::shown;

@@ -1,6 +1,6 @@
 //! The truth that answers are compared with: a number that the catalogue spells, or one that the best route computes.
 
-use super::question::RouteQuestion;
+use super::question::Question;
 use super::route::Route;
 use super::value::{encloses, log10_distance, log10_radius};
 use crate::error::VerifyError;
@@ -33,15 +33,9 @@ impl Truth {
 
     /// Computes the answer to `question` with at least `digits` decimal digits: a fraction where the undamped run stays
     /// in fractions, else an enclosure where there is one, else twice in long numbers by the planned engine.
-    pub(crate) fn compute(question: &RouteQuestion, digits: u32) -> Result<Self, VerifyError> {
-        let run = |route: Route| route.run(question, f64::INFINITY);
-        let exact = match question.problem.chain() {
-            Some(_) => Route::Planned(Numbers::Exact),
-            None => Route::Lattice(Numbers::Exact),
-        };
-        if question.problem.damping().is_none()
-            && let Ok(value) = run(exact)
-        {
+    pub(crate) fn compute(question: &impl Question, digits: u32) -> Result<Self, VerifyError> {
+        let run = |route: Route| question.answer(route, f64::INFINITY);
+        if let Some(Ok(value)) = question.exact_route().map(run) {
             return Ok(Truth { value, log10_half_width: f64::NEG_INFINITY, proved: true });
         }
         if let Ok(value) = run(Route::Planned(Numbers::Certified(digits)))

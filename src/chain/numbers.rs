@@ -1,0 +1,151 @@
+//! Numbers of a chain that are asked for together.
+
+use super::column::ChainColumn;
+use super::definition::Chain;
+use super::run::ChainRun;
+use super::wave::Limit;
+use crate::error::Error;
+use crate::motion::{Ending, Side};
+use crate::number::{Bounded, Number};
+use crate::quantity::Measure;
+
+/// Numbers by row and column; `None` for one that is missing.
+pub(crate) type NumberRows<N> = Vec<Vec<Option<N>>>;
+
+/// Numbers of a chain by row and column.
+#[derive(Clone, Copy, Debug)]
+pub enum ChainNumbers<'a> {
+    /// The time of each event, and the rates of the gap before and after it.
+    Events,
+    /// Impact, release, impulse and greatest force of each contact.
+    Contacts,
+    /// Quantities over time, a row for each time.
+    Columns {
+        /// The quantities.
+        columns: &'a [ChainColumn],
+        /// The times.
+        times: &'a [Number],
+        /// Limit at a jump.
+        side: Side,
+    },
+    /// Displacement, velocity and strain of each body, a row for each time and, within it, each point.
+    Fields {
+        /// The indices of the bodies, from 0.
+        bodies: &'a [usize],
+        /// Points, from the lower end of each body.
+        points: &'a [Number],
+        /// The times.
+        times: &'a [Number],
+        /// Limit on a ray.
+        side: Side,
+    },
+}
+
+impl ChainNumbers<'_> {
+    /// Returns the measure of each column.
+    pub fn measures(&self) -> Vec<Measure> {
+        match self {
+            ChainNumbers::Events => vec![Measure::Time, Measure::Velocity, Measure::Velocity],
+            ChainNumbers::Contacts => vec![Measure::Time, Measure::Time, Measure::Impulse, Measure::Force],
+            ChainNumbers::Columns { columns, .. } => columns.iter().map(|column| column.quantity.measure()).collect(),
+            ChainNumbers::Fields { bodies, .. } => {
+                [Measure::Length, Measure::Velocity, Measure::Strain].repeat(bodies.len())
+            }
+        }
+    }
+
+    /// Returns the times; none for numbers of a list.
+    pub(crate) fn times(&self) -> &[Number] {
+        match self {
+            ChainNumbers::Events | ChainNumbers::Contacts => &[],
+            ChainNumbers::Columns { times, .. } | ChainNumbers::Fields { times, .. } => times,
+        }
+    }
+
+    /// Returns the points; none for numbers without one.
+    pub(crate) fn points(&self) -> &[Number] {
+        if let ChainNumbers::Fields { points, .. } = self { points } else { &[] }
+    }
+
+    /// Returns the same numbers with the limit from the other side.
+    pub(crate) fn with_other_side(self) -> Self {
+        match self {
+            ChainNumbers::Columns { columns, times, side } => {
+                ChainNumbers::Columns { columns, times, side: side.other() }
+            }
+            ChainNumbers::Fields { bodies, points, times, side } => {
+                ChainNumbers::Fields { bodies, points, times, side: side.other() }
+            }
+            list => list,
+        }
+    }
+
+    /// Checks that `chain` has the times, points, bodies and columns.
+    ///
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::PointOutside`]; a body or a node that there is not, by the point or
+    /// the column that it has.
+    pub(crate) fn check(&self, chain: &Chain) -> Result<(), Error> {
+        let is_outside = |time: &&Number| time.to_f64() < 0.0 || time.compare(chain.until()).is_gt();
+        if let Some(time) = self.times().iter().find(is_outside) {
+            return Err(Error::TimeOutside { found: time.to_string(), end: chain.until().to_string() });
+        }
+        let ChainNumbers::Fields { bodies, points, .. } = self else { return Ok(()) };
+        for body in bodies.iter().filter_map(|body| chain.bodies().get(*body)) {
+            let is_outside = |point: &&Number| point.to_f64() < 0.0 || point.compare(body.length()).is_gt();
+            if let Some(point) = points.iter().find(is_outside) {
+                return Err(Error::PointOutside { found: point.to_string(), length: body.length().to_string() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the numbers of a run; `None` for one that is missing, as the end of a contact that lasts, or a number
+    /// beyond the end of the run or of a body.
+    pub(crate) fn of<N: Bounded>(&self, run: &ChainRun<N>) -> Result<NumberRows<N>, Error> {
+        let lift = |list: &[Number]| -> Vec<N> {
+            list.iter().map(|number| N::spelling(number, &run.end().precision())).collect()
+        };
+        let missing = |count: usize, found: Result<Vec<N>, Error>| match found {
+            Ok(found) => Ok(found.into_iter().map(Some).collect()),
+            Err(Error::TimeOutside { .. } | Error::PointOutside { .. }) => Ok(vec![None; count]),
+            Err(error) => Err(error),
+        };
+        match *self {
+            ChainNumbers::Events => {
+                let row = |event: &super::ChainEvent<N>| {
+                    [&event.t, &event.before, &event.after].map(|number| Some(number.clone())).into()
+                };
+                Ok(run.events().iter().map(row).collect())
+            }
+            ChainNumbers::Contacts => {
+                let row = |contact: super::ChainContact<N>| {
+                    let is_settled = contact.release.is_some() || *run.ending() == Ending::Time;
+                    let settled = |number: N| Some(number).filter(|_| is_settled);
+                    vec![Some(contact.impact), contact.release, settled(contact.impulse), settled(contact.peak)]
+                };
+                Ok(run.contacts().into_iter().map(row).collect())
+            }
+            ChainNumbers::Columns { columns, times, side } => {
+                let value = |column: &ChainColumn, time: &N| run.value_within(*column, time, Limit::at(side));
+                let row = |time: N| missing(columns.len(), columns.iter().map(|column| value(column, &time)).collect());
+                lift(times).into_iter().map(row).collect()
+            }
+            ChainNumbers::Fields { bodies, points, times, side } => {
+                let points = lift(points);
+                let fields = |time: &N, point: &N| {
+                    let field = |body: &usize| {
+                        let field = run.field_within(*body, point, time, Limit::at(side));
+                        missing(3, field.map(|field| vec![field.displacement, field.velocity, field.strain]))
+                    };
+                    Ok(bodies.iter().map(field).collect::<Result<Vec<_>, Error>>()?.concat())
+                };
+                let times = lift(times);
+                times
+                    .iter()
+                    .flat_map(|time| points.iter().map(move |point| (time, point)))
+                    .map(|(t, x)| fields(t, x))
+                    .collect()
+            }
+        }
+    }
+}
