@@ -14,6 +14,7 @@ array([ 0. , -0.5])
 """
 
 from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
+from ._chain import Chain, ChainHistory
 from ._compare import Comparison, compare
 from ._history import History
 from ._problem import Problem, __version__, scenes
@@ -21,7 +22,7 @@ from ._solve import reference, solve, write_reference
 from ._sweep import Sweep, sweep
 
 __all__ = [
-    "Centre", "Comparison", "Derivatives", "Energy", "Field", "GroundEnd", "History", "Problem", "Sweep", "TopEnd",
+    "Centre", "Chain", "ChainHistory", "Comparison", "Derivatives", "Energy", "Field", "GroundEnd", "History", "Problem", "Sweep", "TopEnd",
     "compare", "reference", "scenes", "solve", "sweep", "write_reference",
 ]
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
 from fractions import Fraction
 from html import escape
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Sequence, get_args
+from typing import TYPE_CHECKING, Any, Iterable, Literal, Mapping, Sequence, get_args
 
 import numpy as np
 
 from . import _core
 from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
-from ._numbers import Array, Frozen, MaskedArray, Names, Numbers, Side, doubles, objects, unmasked
+from ._arrays import READ, Answers, shaped, short
+from ._numbers import Array, MaskedArray, Names, Numbers, Side
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -29,22 +29,7 @@ TableName = Literal["events", "contacts", "flights", "stress_history"]
 _TABLES = get_args(TableName)
 
 
-def _fraction(text: str) -> Fraction:
-    # int() refuses texts of more than 4300 digits, and Decimal does not.
-    return Fraction(*(int(Decimal(whole)) for whole in text.split("/")))
-
-
-_READ: dict[str, Callable[[Any], Any]] = {
-    "double": float,
-    "exact": _fraction,
-    "digits": Decimal,
-    "certified": lambda ends: tuple(map(Decimal, ends)),
-}
-
-_SIDES = np.array(["left", "both", "right"])
-
-
-class History(Frozen):
+class History(Answers):
     """The motion of a rod: events, contacts, and the value of every quantity at any time from 0 to `end`.
 
     Attributes
@@ -101,7 +86,7 @@ class History(Frozen):
         names = ("time", "velocity", "length", "wave_speed", "gravity")
         self.__dict__.update(
             _compiled=compiled, problem=problem, _question=question, _in_words=facts["question"], _tables={},
-            numbers=facts["numbers"], end=_READ[facts["numbers"]](facts["end"]), ending=facts["ending"],
+            numbers=facts["numbers"], end=READ[facts["numbers"]](facts["end"]), ending=facts["ending"],
             engine=facts["engine"], scales=MappingProxyType(dict(zip(names, facts["scales"]))),
         )  # fmt: skip
 
@@ -119,11 +104,11 @@ class History(Frozen):
     def _lines(self, most: int) -> tuple[str, list[str]]:
         """Describe the history, and the first contacts in a line each."""
         found = self.contacts
-        head = f"to t = {_short(self.end)}, {self._in_words}, {len(found)} contact{'s' if len(found) != 1 else ''}"
+        head = f"to t = {short(self.end)}, {self._in_words}, {len(found)} contact{'s' if len(found) != 1 else ''}"
         keys = [("impact", "from"), ("release", "to"), ("impulse", "impulse"), ("peak_strain", "peak strain")]
         lines = []
         for row in found[:most]:
-            start, end, impulse, peak = (f"{word} {_short(row[key])}" for key, word in keys)
+            start, end, impulse, peak = (f"{word} {short(row[key])}" for key, word in keys)
             lines.append(f"contact {start} {end}, {impulse}, {peak}")
         return head, lines + ([f"… {len(found) - most} more"] if len(found) > most else [])
 
@@ -134,7 +119,7 @@ class History(Frozen):
     def _repr_html_(self) -> str:
         head, _ = self._lines(0)
         names = [name for name in self.contacts.dtype.names or ()]
-        rows = ([_short(row[name]) for name in names] for row in self.contacts[:10])
+        rows = ([short(row[name]) for name in names] for row in self.contacts[:10])
         table = _html("th", names) + "".join(_html("td", row) for row in rows)
         notes = [f"ends: {self.ending}", *self.warnings]
         title = f"<b>{escape(self.problem.title)}</b><br>" if self.problem.title else ""
@@ -162,31 +147,6 @@ class History(Frozen):
             reasons = {(row, column["name"]): why for column in columns for row, why in column["missing"]}
             self._tables[table] = self._structured(columns, "values", others), reasons
         return self._tables[table][0]
-
-    def _structured(
-        self, columns: list[_core.Listed], key: Literal["values", "bounds"], others: Mapping[str, Array] = {}
-    ) -> MaskedArray:
-        """Return a structured array of columns, which cannot be written to."""
-        values = {column["name"]: self._array(column["name"], column[key]) for column in columns} | dict(others)
-        rows = len(next(iter(values.values())))
-        data = np.empty(rows, [(name, column.dtype) for name, column in values.items()])
-        mask = np.zeros(rows, [(name, bool) for name in values])
-        for name, column in values.items():
-            data[name] = column
-        for listed in columns:
-            mask[listed["name"]][[row for row, _ in listed["missing"]]] = True
-        table = np.ma.MaskedArray(data, mask)
-        table.flags.writeable = np.ma.getmask(table).flags.writeable = False
-        return table
-
-    def _array(self, name: str, raw: Any) -> Array:
-        """Return a column of the compiled part as an array."""
-        if name == "side":
-            raw = _SIDES[raw.astype(int) + 1]
-        elif not isinstance(raw, np.ndarray):
-            read = _READ[self.numbers]
-            raw = np.fromiter((None if value is None else read(value) for value in raw), dtype=object)
-        return np.asarray(raw)
 
     @property
     def events(self) -> MaskedArray:
@@ -320,15 +280,6 @@ class History(Frozen):
         """
         return self._derivatives(self._compiled.derivatives_at(by, self._places(t), names, self._places(x), side))
 
-    def _derivatives(self, sides: list[list[_core.Listed]]) -> Derivatives:
-        left, right = (self._structured(side, "values") for side in sides)
-        left_error, right_error = (self._structured(side, "bounds") for side in sides)
-        reasons = {
-            (name, row, column["name"]): why
-            for name, side in zip(("left", "right"), sides) for column in side for row, why in column["missing"]
-        }  # fmt: skip
-        return Derivatives(left, right, left_error, right_error, reasons)
-
     def to_svg(self) -> str:
         """Draw the sheet of ``dalembert plot``: field, stress, motion and energy.
 
@@ -432,14 +383,6 @@ class History(Frozen):
 
         return draw(self, quantities, ax, start, end)
 
-    def _places(self, values: Numbers) -> Any:
-        """Return times or points in one row: doubles for a history in doubles, otherwise a list of numbers."""
-        values = unmasked(values)
-        array = np.asarray(values)
-        if self.numbers == "double" and array.dtype.kind in "fiu":
-            return doubles(array.ravel())
-        return objects(values).ravel().tolist()
-
     def columns(self, t: Numbers, names: Names, side: Side | None = None) -> dict[str, Array]:
         """Return quantities over time, as ``dalembert reference`` writes them.
 
@@ -468,7 +411,7 @@ class History(Frozen):
         return {name: self._array(name, raw) for name, raw in self._compiled.columns(self._places(t), names, side)}
 
     def _at(self, t: Numbers, side: Side, *names: str) -> list[Any]:
-        return _shaped(self.columns(t, names, side).values(), np.asarray(t).shape)
+        return shaped(self.columns(t, names, side).values(), np.asarray(t).shape)
 
     def strain(self, t: Numbers, side: Side = "right") -> Any:
         """Return ``v_x(0,t)``, the strain at the ground; zero in flight.
@@ -598,11 +541,11 @@ class History(Frozen):
         if points.size * times.size == np.prod(shape, dtype=int):
             # An outer product: the field at each time is computed once.
             columns = self._field(self._compiled.grid(self._places(x), self._places(t), side, "points"))
-            shaped = [column.reshape(times.shape + points.shape) for column in columns]
-            moved = [_outer(column, times.ndim, points.ndim, len(shape)).reshape(shape) for column in shaped]
+            grids = [column.reshape(times.shape + points.shape) for column in columns]
+            moved = [_outer(column, times.ndim, points.ndim, len(shape)).reshape(shape) for column in grids]
             return Field(*(column if shape else column[()] for column in moved))
         beside = [self._places(np.broadcast_to(values, shape)) for values in (points, times)]
-        return Field(*_shaped(self._field(self._compiled.field(beside[0], beside[1], side)), shape))
+        return Field(*shaped(self._field(self._compiled.field(beside[0], beside[1], side)), shape))
 
     def grid(self, x: Numbers, t: Numbers, side: Side = "right", kind: Slice = "points") -> Field:
         """Return ``v``, ``v_t`` and ``v_x`` at every point for every time.
@@ -633,7 +576,7 @@ class History(Frozen):
         columns = self._field(self._compiled.grid(self._places(x), self._places(t), side, kind))
         points = np.asarray(x)
         width = points.shape if kind != "averages" else (points.size - 1,)
-        return Field(*_shaped(columns, np.asarray(t).shape + width))
+        return Field(*shaped(columns, np.asarray(t).shape + width))
 
     def _field(self, columns: list[tuple[str, Any]]) -> list[Array]:
         return [self._array(name, raw) for name, raw in columns]
@@ -655,20 +598,5 @@ def _shown(values: Numbers) -> Array:
     return array if array.dtype.kind in "fiu" else np.array([float(Fraction(str(value))) for value in array])
 
 
-def _short(value: Any) -> str:
-    """Return a number in a line: six digits of a double, the first of a long one, a dash for none."""
-    if isinstance(value, tuple):
-        return f"{_short(value[0])} … {_short(value[1])}"
-    if isinstance(value, (float, np.floating)):
-        return f"{value:.6g}"
-    text = "–" if value is None or value is np.ma.masked else str(value)
-    return text if len(text) <= 24 else text[:22] + "…"
-
-
 def _html(tag: str, cells: Iterable[str]) -> str:
     return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-
-def _shaped(columns: Iterable[Array], shape: tuple[int, ...]) -> list[Any]:
-    """Return columns in the shape of their times; a single number for a single time."""
-    return [column.reshape(shape) if shape else column[0] for column in columns]

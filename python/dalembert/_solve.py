@@ -9,9 +9,13 @@ from fractions import Fraction
 from typing import Any
 
 from . import _core
+from ._chain import Chain, ChainHistory
 from ._history import History
 from ._numbers import Maybe, Names, Numbers, Side, objects
-from ._problem import Problem, Scene
+from ._problem import Problem, Scene, _text
+
+#: Columns of a reference of a rod.
+_COLUMNS = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total")
 
 
 def solve(
@@ -69,9 +73,9 @@ def solve(
 
 
 def reference(
-    scene: Scene,
+    scene: Scene | Chain,
     t: Numbers,
-    names: Names = ("t", "side", "u_end", "v_end", "strain", "force", "h", "h_rate", "E_total"),
+    names: Names | None = None,
     side: Side | None = None,
     *,
     digits: int | None = None,
@@ -83,12 +87,13 @@ def reference(
 
     Parameters
     ----------
-    scene : str, path or Problem
-        As :func:`solve` takes it.
+    scene : str, path, Problem or Chain
+        As :func:`solve` takes it, or a chain of bodies.
     t : number or array_like
         Times; the motion is followed up to the last.
     names : str or sequence of str, optional
-        As in :meth:`History.columns`.
+        As in :meth:`History.columns` and :meth:`ChainHistory.columns`; by default those of the end, the centre and the
+        energy, and of a chain all.
     side : {"left", "right"}, optional
         Which limit at a jump; without it a time has two rows where they differ.
     digits : int, optional
@@ -114,10 +119,16 @@ def reference(
     """
     # As texts: 0.7 is 7/10, and Fraction(0.7) is a little less, so that the last time would be beyond it.
     last = max((Fraction(str(time)) for time in objects(t).ravel().tolist()), default=Fraction(0))
-    history = solve(
-        scene, to=last if last > 0 else None, digits=digits, exact=exact, certified=certified, accuracy=accuracy
-    )
-    columns = history.columns(t, names, side)
+    to = last if last > 0 else None
+    chain = _chain(scene)
+    history: History | ChainHistory
+    if chain is None:
+        assert not isinstance(scene, Chain)
+        history = solve(scene, to=to, digits=digits, exact=exact, certified=certified, accuracy=accuracy)
+        columns = history.columns(t, _COLUMNS if names is None else names, side)
+    else:
+        history = chain.solve(to=to, digits=digits, exact=exact, certified=certified, accuracy=accuracy)
+        columns = history.columns(t, ["t", "side", *list(chain.quantities)[1:]] if names is None else names, side)
     try:
         from pandas import DataFrame
     except ImportError:
@@ -129,7 +140,7 @@ def reference(
 
 def write_reference(
     path: str | os.PathLike[str],
-    scene: Scene,
+    scene: Scene | Chain,
     t: Numbers | None = None,
     names: Names | None = None,
     side: Side | None = None,
@@ -146,8 +157,8 @@ def write_reference(
     ----------
     path : str or path
         The file; its ending says the format: ``.csv``, ``.json`` or ``.npz``.
-    scene : str, path or Problem
-        As :func:`solve` takes it.
+    scene : str, path, Problem or Chain
+        As :func:`reference` takes it.
     t : number or array_like, optional
         Times; by default the start, every impact and release, and the end.
     names : str or sequence of str, optional
@@ -182,11 +193,16 @@ def write_reference(
         for name, value in options.items() if value is not None
     }  # fmt: skip
     flags = [flag for flag, is_set in (("--exact", exact), ("--certified", certified)) if is_set]
-    problem = Problem.from_scene(scene)
-    if problem._chain is not None:
-        listed["--body"] = str(problem._chain[1] + 1)
+    if (chain := _chain(scene)) is not None:
+        text = chain._text()
+    else:
+        assert not isinstance(scene, Chain)
+        problem = Problem.from_scene(scene)
+        text = problem.to_toml()
+        if problem._chain is not None:
+            listed["--body"] = str(problem._chain[1] + 1)
     with tempfile.TemporaryDirectory() as folder:
-        files = {"scene": problem.to_toml()}
+        files = {"scene": text}
         if t is not None:
             files["t"] = "".join(f"{time}\n" for time in objects(t).ravel().tolist())
             listed["--times-from"] = os.path.join(folder, "t")
@@ -200,3 +216,10 @@ def write_reference(
         except ValueError as error:
             text = str(error).removeprefix("error: ").split("\n\nFor more information")[0]
             raise ValueError(text.replace(folder + os.sep, "").strip()) from None
+
+
+def _chain(scene: Scene | Chain) -> Chain | None:
+    """Return the chain of a scene with several bodies; None for a rod."""
+    if isinstance(scene, Chain):
+        return scene
+    return None if isinstance(scene, Problem) or len(_core.bars(_text(scene))) < 2 else Chain(scene)

@@ -17,7 +17,7 @@ use super::run;
 
 /// A number as Python receives it: a float, the text of a fraction or of a decimal, or both ends of an enclosure.
 #[derive(IntoPyObject)]
-enum Cell {
+pub(crate) enum Cell {
     Double(f64),
     Text(String),
     Ends([String; 2]),
@@ -34,14 +34,14 @@ impl From<&Value> for Cell {
 }
 
 /// Numbers of one quantity; an absent number is NaN among doubles.
-enum Column {
+pub(crate) enum Column {
     Doubles(Vec<f64>),
     Cells(Vec<Option<Cell>>),
 }
 
 impl Column {
     /// Collects values, which are doubles or not.
-    fn new<'a>(values: impl Iterator<Item = Option<&'a Value>>, is_double: bool) -> Self {
+    pub(crate) fn new<'a>(values: impl Iterator<Item = Option<&'a Value>>, is_double: bool) -> Self {
         if is_double {
             Column::Doubles(values.map(|value| value.map_or(f64::NAN, Value::to_f64)).collect())
         } else {
@@ -78,8 +78,8 @@ impl<'py> IntoPyObject<'py> for Column {
 
 /// A column some of whose numbers may be absent.
 #[derive(IntoPyObject)]
-struct Listed {
-    name: &'static str,
+pub(crate) struct Listed {
+    name: String,
     values: Column,
     /// Bound of the error of each number.
     bounds: Column,
@@ -88,11 +88,11 @@ struct Listed {
 }
 
 impl Listed {
-    fn new(name: &'static str, values: &[Result<&Value, String>], is_double: bool) -> Self {
+    pub(crate) fn new(name: &str, values: &[Result<&Value, String>], is_double: bool) -> Self {
         let found = values.iter().map(|value| value.as_ref().ok().copied());
         let reason = |(row, value): (usize, &Result<_, String>)| Some((row, value.as_ref().err()?.clone()));
         Listed {
-            name,
+            name: name.into(),
             values: Column::new(found.clone(), is_double),
             bounds: Column::Doubles(
                 found.map(|value| value.map_or(f64::NAN, |value| value.log2_error().exp2())).collect(),
@@ -104,10 +104,10 @@ impl Listed {
 
 /// Name, unit and meaning of a quantity.
 #[derive(IntoPyObject)]
-struct Described {
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
+pub(crate) struct Described {
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    pub(crate) meaning: String,
 }
 
 /// Attributes of a history.
@@ -166,12 +166,7 @@ impl History {
 impl History {
     fn facts(&self) -> Facts {
         let history = &*self.history;
-        let numbers = match history.plan().numbers {
-            Numbers::Double(_) => "double",
-            Numbers::Exact | Numbers::ExactThenDigits(_) => "exact",
-            Numbers::Digits(_) => "digits",
-            Numbers::Certified(_) => "certified",
-        };
+        let numbers = system(history.plan().numbers);
         let Scales { time, velocity, length, wave_speed, gravity } = history.scales();
         Facts {
             numbers,
@@ -234,7 +229,8 @@ impl History {
             _ => self.listed(table)?,
         };
         let units = self.history.units();
-        let described = |q: Quantity| Described { name: q.name(), unit: q.unit(units), meaning: q.meaning() };
+        let described =
+            |q: Quantity| Described { name: q.name().into(), unit: q.unit(units), meaning: q.meaning().into() };
         Ok(quantities.into_iter().map(described).collect())
     }
 
@@ -249,7 +245,7 @@ impl History {
         let quantities = self.listed(table)?;
         self.ask(py, move |history| {
             let rows = history.derivatives(by, &quantities)?;
-            Ok(sides(&rows, &quantities, history.end().is_double()))
+            Ok(sides(&rows, &quantity_names(&quantities), history.end().is_double()))
         })
     }
 
@@ -268,7 +264,7 @@ impl History {
         let quantities = named(quantities, if points.is_empty() { Needs::Time } else { Needs::PointAndTime })?;
         self.ask(py, move |history| {
             let rows = history.derivatives_at(by, &quantities, &times, &points, side)?;
-            Ok(sides(&rows, &quantities, history.end().is_double()))
+            Ok(sides(&rows, &quantity_names(&quantities), history.end().is_double()))
         })
     }
 
@@ -333,29 +329,43 @@ impl History {
     }
 }
 
+fn quantity_names(quantities: &[Quantity]) -> Vec<&'static str> {
+    quantities.iter().map(|quantity| quantity.name()).collect()
+}
+
+/// Returns the name of a number system.
+pub(crate) fn system(numbers: Numbers) -> &'static str {
+    match numbers {
+        Numbers::Double(_) => "double",
+        Numbers::Exact | Numbers::ExactThenDigits(_) => "exact",
+        Numbers::Digits(_) => "digits",
+        Numbers::Certified(_) => "certified",
+    }
+}
+
 /// Returns the quantities of these names and groups.
 fn named(quantities: &Bound<'_, PyAny>, needs: Needs) -> PyResult<Vec<Quantity>> {
     needs.list(&names("names", quantities)?.join(",")).map_err(refuse)
 }
 
-fn parameter(by: &Bound<'_, PyAny>) -> PyResult<Parameter> {
+pub(crate) fn parameter(by: &Bound<'_, PyAny>) -> PyResult<Parameter> {
     Parameter::differentiable(&typed::<String>("by", by, "the name of a value of the problem")?).map_err(refuse)
 }
 
-fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {
+pub(crate) fn side_of(side: &Bound<'_, PyAny>) -> PyResult<Side> {
     one_of("side", side, &[("left", Side::Left), ("right", Side::Right)])
 }
 
-/// Returns the columns of derivatives of `quantities` from the left and from the right.
-fn sides(rows: &Derivatives<Value>, quantities: &[Quantity], is_double: bool) -> [Vec<Listed>; 2] {
+/// Returns the columns of derivatives of the numbers of these names from the left and from the right.
+pub(crate) fn sides(rows: &Derivatives<Value>, names: &[impl AsRef<str>], is_double: bool) -> [Vec<Listed>; 2] {
     [0, 1].map(|side| {
-        let column = |(k, quantity): (usize, &Quantity)| {
+        let column = |(k, name): (usize, &_)| {
             let found = rows.iter().map(|row| row.get(k).and_then(Option::as_ref).map(Derivative::sides));
             let none = || Err("there is no number".to_string());
             let values = found.map(|sides| sides.map_or_else(none, |sides| sides[side].map_err(|why| why.to_string())));
             let values: Vec<_> = values.collect();
-            Listed::new(quantity.name(), &values, is_double)
+            Listed::new(AsRef::as_ref(name), &values, is_double)
         };
-        quantities.iter().enumerate().map(column).collect()
+        names.iter().enumerate().map(column).collect()
     })
 }

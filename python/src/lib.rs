@@ -1,6 +1,7 @@
 //! The compiled part of the Python package. All physics is in the crate `dalembert`.
 
 mod argument;
+mod chain;
 mod compare;
 mod history;
 mod problem;
@@ -56,6 +57,10 @@ mod _core {
     use dalembert::builtin::{ALL, CHAINS};
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use super::chain::Chain;
+    #[pymodule_export]
+    use super::chain::ChainHistory;
     #[pymodule_export]
     use super::compare::Comparison;
     #[pymodule_export]

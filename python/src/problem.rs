@@ -49,7 +49,10 @@ fn scene(text: &str, body: Option<usize>) -> PyResult<Scene> {
     match (body, chain.chain.bodies().len()) {
         (Some(body), _) => chain.body(body).map_err(refuse),
         (None, 1) => chain.body(0).map_err(refuse),
-        (None, count) => Err(refuse(format!("found a chain of {count} bodies, expected one of Problem.bodies(scene)"))),
+        (None, count) => {
+            let expected = "dalembert.Chain(scene), or one of Problem.bodies(scene)";
+            Err(refuse(format!("found a chain of {count} bodies, expected {expected}")))
+        }
     }
 }
 
@@ -144,26 +147,8 @@ impl Problem {
         accuracy: &Bound<'_, PyAny>,
         first_contact: &Bound<'_, PyAny>,
     ) -> PyResult<History> {
-        let flag = |name: &str, value: &Bound<'_, PyAny>| typed::<bool>(name, value, "True or False");
-        let (exact, certified) = (flag("exact", exact)?, flag("certified", certified)?);
-        let first_contact = flag("first_contact", first_contact)?;
-        let digits: Option<i64> = typed("digits", digits, "an integer or None")?;
-        let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
-        let count = |digits| {
-            let refused = |_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}"));
-            u32::try_from(digits).map_err(refused)
-        };
-        let numbers = match (certified, exact, digits.map(count).transpose()?) {
-            (true, true, _) => return Err(refuse("found certified and exact, expected one of them")),
-            (true, _, digits) => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
-            (_, true, None) => Numbers::Exact,
-            (_, true, Some(digits)) => Numbers::ExactThenDigits(digits),
-            (_, _, Some(digits)) => Numbers::Digits(digits),
-            _ => Numbers::Double(accuracy.or(self.accuracy)),
-        };
-        if accuracy.is_some() && !matches!(numbers, Numbers::Double(_)) {
-            return Err(refuse("found accuracy with other numbers, expected it with doubles only"));
-        }
+        let numbers = numbers([digits, exact, certified, accuracy], self.accuracy)?;
+        let first_contact: bool = typed("first_contact", first_contact, "True or False")?;
         let question = if first_contact { Question::first_contact(numbers) } else { Question::run(numbers) };
         let (problem, stop) = (self.problem.clone(), Arc::default());
         let observe = observer(&stop);
@@ -171,6 +156,33 @@ impl Problem {
         let history = run(py, &stop, move || Plan::of(&problem, &question)?.solve(&problem, observe))?;
         Ok(History::new(history.in_units(self.units), stop))
     }
+}
+
+/// Reads the numbers that are asked for by `digits`, `exact`, `certified` and `accuracy`.
+pub(crate) fn numbers(
+    [digits, exact, certified, accuracy]: [&Bound<'_, PyAny>; 4],
+    default_accuracy: Option<f64>,
+) -> PyResult<Numbers> {
+    let flag = |name: &str, value: &Bound<'_, PyAny>| typed::<bool>(name, value, "True or False");
+    let (exact, certified) = (flag("exact", exact)?, flag("certified", certified)?);
+    let digits: Option<i64> = typed("digits", digits, "an integer or None")?;
+    let accuracy: Option<f64> = typed("accuracy", accuracy, "a float or None")?;
+    let count = |digits| {
+        let refused = |_| refuse(format!("found {digits} digits asked for, expected 1 to {MAX_DIGITS}"));
+        u32::try_from(digits).map_err(refused)
+    };
+    let numbers = match (certified, exact, digits.map(count).transpose()?) {
+        (true, true, _) => return Err(refuse("found certified and exact, expected one of them")),
+        (true, _, digits) => Numbers::Certified(digits.unwrap_or(CERTIFIED_DIGITS)),
+        (_, true, None) => Numbers::Exact,
+        (_, true, Some(digits)) => Numbers::ExactThenDigits(digits),
+        (_, _, Some(digits)) => Numbers::Digits(digits),
+        _ => Numbers::Double(accuracy.or(default_accuracy)),
+    };
+    if accuracy.is_some() && !matches!(numbers, Numbers::Double(_)) {
+        return Err(refuse("found accuracy with other numbers, expected it with doubles only"));
+    }
+    Ok(numbers)
 }
 
 /// A value of a problem, as a builder takes it.

@@ -29,7 +29,7 @@ def test_the_readme(tmp_path, monkeypatch):
         np.savetxt("run.csv", np.column_stack([t, u, f])) if name == "run" else np.savez(name, t=t, u=u, force=f)
     text = (EXAMPLES.parent / "README.md").read_text()
     blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
-    assert len(blocks) == 3
+    assert len(blocks) == 4
     names = {}
     for block in blocks:
         exec(block, names)
@@ -39,6 +39,14 @@ def test_the_readme(tmp_path, monkeypatch):
 
 def test_own_scheme():
     assert "contact from 0 to 2.0, peak v_x = -5.0" in output("own_scheme.py")
+
+
+def test_two_bars():
+    lines = output("two_bars.py").splitlines()
+    assert lines[0] == "exact: contact from 0.1000 to 0.3857, force 0.041176"
+    assert float(lines[2].split()[4].rstrip("%")) < 2
+    # d ln f/d ln E = Z₁/2(Z₁ + Z₂) with Z = 0.7 and 1.
+    assert f"{0.5 * 0.7 / 1.7:.1%}" in lines[3]
 
 
 def test_convergence_order():

@@ -586,7 +586,7 @@ def test_bodies_of_a_chain_are_problems():
     assert softer != target
     with pytest.raises(ValueError, match="no scene file of a rod"):
         softer.to_toml()
-    with pytest.raises(ValueError, match=r"chain of 2 bodies, expected one of Problem.bodies"):
+    with pytest.raises(ValueError, match=r"chain of 2 bodies, expected dalembert.Chain\(scene\), or one of Problem.bodies"):
         dalembert.solve("openfoam-7-1-2")
     with pytest.raises(ValueError, match="damping of a body of a chain"):
         target.replace(damping=0.1)

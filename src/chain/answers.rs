@@ -18,9 +18,10 @@ use crate::solve::{LONG, Observer, Rung};
 
 /// A time that is asked about.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Instant<'a> {
+pub enum ChainTime<'a> {
+    /// The time that a number spells.
     Spelled(&'a Number),
-    /// The event with this index.
+    /// The event of the [`listing`](super::ChainHistory::listing) with this index.
     Event(usize),
 }
 
@@ -28,10 +29,10 @@ pub(super) enum Instant<'a> {
 pub(super) trait Answers: fmt::Debug + Send + Sync {
     fn listing(&self) -> ChainListing;
     fn forces(&self, node: usize) -> Vec<ForcePiece<Value>>;
-    fn time(&self, time: Instant<'_>) -> Result<Value, Error>;
+    fn time(&self, time: ChainTime<'_>) -> Result<Value, Error>;
     /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits. A jump
     /// that agrees with an event to 19 digits within the bounds of both is at the event.
-    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error>;
+    fn column(&self, column: ChainColumn, time: ChainTime<'_>, side: Side) -> Result<Value, Error>;
     /// Returns numbers that are asked for together.
     fn rows(&self, numbers: ChainNumbers<'_>) -> Result<NumberRows<Value>, Error>;
     /// Returns the field at a point; where a ray is not told from it, the bounds cover both limits.
@@ -41,19 +42,19 @@ pub(super) trait Answers: fmt::Debug + Send + Sync {
     fn pieces(&self) -> usize;
 }
 
-impl Instant<'_> {
+impl ChainTime<'_> {
     /// Returns the number of digits in which the time is written.
     pub(super) fn digits(self) -> u32 {
         match self {
-            Instant::Spelled(time) => time.written_digits(),
-            Instant::Event(_) => 0,
+            ChainTime::Spelled(time) => time.written_digits(),
+            ChainTime::Event(_) => 0,
         }
     }
 
     fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
         match self {
-            Instant::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
-            Instant::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
+            ChainTime::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
+            ChainTime::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
         }
     }
 }
@@ -120,12 +121,12 @@ impl<N: IntoValue> Answers for ChainRun<N> {
         self.force_pieces(node).into_iter().map(|piece| piece.map(N::into)).collect()
     }
 
-    fn time(&self, time: Instant<'_>) -> Result<Value, Error> {
+    fn time(&self, time: ChainTime<'_>) -> Result<Value, Error> {
         time.in_run(self).map(N::into)
     }
 
-    fn column(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
-        let limit = Limit { side, is_event: matches!(time, Instant::Event(_)) };
+    fn column(&self, column: ChainColumn, time: ChainTime<'_>, side: Side) -> Result<Value, Error> {
+        let limit = Limit { side, is_event: matches!(time, ChainTime::Event(_)) };
         self.value_within(column, &time.in_run(self)?, limit).map(N::into)
     }
 

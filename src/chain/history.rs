@@ -3,15 +3,15 @@
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
-use super::answers::{Answers, Instant, run};
-use super::body::Body;
+use super::answers::{Answers, ChainTime, run};
 use super::column::{ChainColumn, ChainContactQuantity};
 use super::definition::Chain;
 use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainContact, ChainEvent, ForcePiece, Touch};
+use super::scales::Scales;
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};
-use crate::number::{Number, Open, Scalar, Value, bits_for_digits};
+use crate::number::{Number, Open, Value, bits_for_digits};
 use crate::problem::Parameter;
 use crate::quantity::Measure;
 use crate::reason::Warning;
@@ -35,6 +35,28 @@ pub struct ChainListing {
     pub end: Value,
     /// The reason of the end.
     pub ending: Ending,
+}
+
+/// A row of numbers of a chain at a time.
+#[derive(Clone, Debug)]
+pub struct ChainRow {
+    /// Limit that the numbers are; `None` where both limits are the same.
+    pub side: Option<Side>,
+    /// The numbers.
+    pub values: Vec<Value>,
+}
+
+/// Returns a row for the limit from `side`; without one, a row that both limits have, or two.
+fn rows(side: Option<Side>, values: impl Fn(Side) -> Result<Vec<Value>, Error>) -> Result<Vec<ChainRow>, Error> {
+    let row = |side: Side, values: Vec<Value>| ChainRow { side: Some(side), values };
+    if let Some(side) = side {
+        return Ok(vec![row(side, values(side)?)]);
+    }
+    let [left, right] = [values(Side::Left)?, values(Side::Right)?];
+    if left.iter().zip(&right).all(|(left, right)| left.agrees(right)) {
+        return Ok(vec![ChainRow { side: None, values: right }]);
+    }
+    Ok(vec![row(Side::Left, left), row(Side::Right, right)])
 }
 
 /// Share of the natural scale from which on the size of a number decides whether its bound is small enough.
@@ -94,32 +116,6 @@ fn piece_numbers(pieces: &[ForcePiece<Value>]) -> impl Iterator<Item = Judged<'_
 }
 
 type Attempt = OnceLock<Result<Box<dyn Answers>, Error>>;
-
-/// The largest numbers that a chain can be expected to have.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
-    time: f64,
-    velocity: f64,
-    force: f64,
-    /// Length of the longest body.
-    length: f64,
-}
-
-impl Scales {
-    /// Returns the largest number of a measure.
-    pub(super) fn of(&self, measure: Measure) -> f64 {
-        let Scales { time, velocity, force, length } = self;
-        match measure {
-            Measure::Time => *time,
-            Measure::Length => velocity * time,
-            Measure::Velocity => *velocity,
-            Measure::Force | Measure::Stress => *force,
-            Measure::Impulse => force * time,
-            Measure::Energy => force * velocity * time,
-            Measure::Strain => velocity * time / length,
-        }
-    }
-}
 
 /// A solved chain.
 ///
@@ -206,42 +202,6 @@ impl Chain {
         })?;
         Ok(history)
     }
-
-    /// Returns the natural scales of the chain.
-    pub(super) fn scales(&self) -> Scales {
-        let size = |points: &[(Number, Number)]| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
-        let mut velocity = self.gravity.to_f64() * self.until.to_f64();
-        let (mut impedance, mut length) = (0.0f64, 0.0f64);
-        let mut forces = 0.0f64;
-        for body in &self.bodies {
-            let [z, c] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
-            let strained = match body.rigid_mass() {
-                Some(_) => 0.0,
-                None => (size(&body.displacement) / body.length.to_f64()).max(size(&body.strain)) * c,
-            };
-            velocity = velocity.max(size(&body.velocity)).max(strained);
-            (impedance, length) = (impedance.max(z), length.max(body.length.to_f64()));
-        }
-        for end in &self.ends {
-            match end {
-                super::End::Force(points) => forces = forces.max(size(points)),
-                super::End::Velocity(points) | super::End::Ground { velocity: points, .. } => {
-                    velocity = velocity.max(size(points));
-                }
-                _ => (),
-            }
-        }
-        let lightest =
-            self.bodies.iter().filter_map(Body::rigid_mass).map(Number::to_f64).fold(f64::INFINITY, f64::min);
-        velocity =
-            velocity.max(if impedance > 0.0 { forces / impedance } else { forces / lightest * self.until.to_f64() });
-        if impedance == 0.0 {
-            (impedance, length) = (lightest / self.until.to_f64(), 1.0);
-        }
-        let time = self.until.to_f64();
-        let force = (impedance * velocity).max(forces);
-        Scales { time, velocity, force, length }
-    }
 }
 
 impl ChainHistory {
@@ -323,7 +283,7 @@ impl ChainHistory {
     ///
     /// **Errors**: [`Error::TimeOutside`].
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
-        self.value_at(column, Instant::Spelled(time), side)
+        self.value_at(column, ChainTime::Spelled(time), side)
     }
 
     /// Returns the value of a column at an event of the [`listing`](ChainHistory::listing); at a jump, the limit from
@@ -344,7 +304,48 @@ impl ChainHistory {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn value_at_event(&self, column: ChainColumn, event: usize, side: Side) -> Result<Value, Error> {
-        self.value_at(column, Instant::Event(event), side)
+        self.value_at(column, ChainTime::Event(event), side)
+    }
+
+    /// Returns a row of the values of columns at a time for the limit from `side`; without one, a row that both limits
+    /// have or, where they differ, that from the left and that from the right.
+    ///
+    /// **Errors**: those of [`ChainHistory::value`] and [`ChainHistory::value_at_event`].
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain, ChainColumn, ChainTime};
+    /// use dalembert::Numbers;
+    /// let bar = |velocity: i64| Body::new(1.into(), 1.into(), 1.into()).with_velocity(velocity.into());
+    /// let chain = Chain::builder(bar(0)).contact(1.into(), bar(-1)).until(4.into()).build()?;
+    /// let history = chain.solve(Numbers::Exact)?;
+    /// let force = ChainColumn::list("force.1", &chain);
+    /// let rows = history.rows_at(&force, ChainTime::Event(0), None)?;
+    /// assert_eq!(rows.iter().map(|row| row.values[0].to_string()).collect::<Vec<_>>(), ["0", "1/2"]);
+    /// assert_eq!(history.rows_at(&force, ChainTime::Spelled(&2.into()), None)?.len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn rows_at(
+        &self,
+        columns: &[ChainColumn],
+        time: ChainTime<'_>,
+        side: Option<Side>,
+    ) -> Result<Vec<ChainRow>, Error> {
+        rows(side, |side| columns.iter().map(|column| self.value_at(*column, time, side)).collect())
+    }
+
+    /// Returns a row of displacement, velocity and strain of each body at its point, as [`ChainHistory::rows_at`] does.
+    ///
+    /// **Errors**: those of [`ChainHistory::field`].
+    pub fn field_rows_at(
+        &self,
+        bodies: &[usize],
+        (point, time): (&Number, &Number),
+        side: Option<Side>,
+    ) -> Result<Vec<ChainRow>, Error> {
+        let numbers = |body: &usize, side| Ok(self.field(*body, point, time, side)?.numbers().map(Value::clone));
+        rows(side, |side| {
+            Ok(bodies.iter().map(|body| numbers(body, side)).collect::<Result<Vec<_>, Error>>()?.concat())
+        })
     }
 
     /// Returns a number of the contact of a node with this index, counted from 0.
@@ -389,11 +390,11 @@ impl ChainHistory {
     ///
     /// **Errors**: the errors of the runs.
     pub fn time(&self, time: &Number) -> Result<Value, Error> {
-        let value = self.settled(0, |run| run.time(Instant::Spelled(time)), |time| vec![(time, Measure::Time)])?;
+        let value = self.settled(0, |run| run.time(ChainTime::Spelled(time)), |time| vec![(time, Measure::Time)])?;
         Ok(self.printed(value))
     }
 
-    fn value_at(&self, column: ChainColumn, time: Instant<'_>, side: Side) -> Result<Value, Error> {
+    fn value_at(&self, column: ChainColumn, time: ChainTime<'_>, side: Side) -> Result<Value, Error> {
         self.decide();
         let value = self.settled(
             time.digits(),

@@ -17,7 +17,7 @@
 //! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
 //! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
-//! (a run in any numbers), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
+//! (a run in any numbers), `scales` (sizes that bounds are held against), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
 //! chain), `numbers` (numbers that are asked for together), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
 //! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
 //! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes
@@ -47,11 +47,13 @@ mod onset;
 mod parameter;
 mod peak;
 mod run;
+mod scales;
 mod start;
 mod step;
 mod varied;
 mod wave;
 
+pub use answers::ChainTime;
 pub(crate) use body::steepest;
 pub use body::{Body, BodyMaterial, Points};
 pub(crate) use body_motion::{BodyMotion, Runs};
@@ -59,7 +61,7 @@ pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity, ChainQuery};
 pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
 pub use field::BodySums;
 pub use foresee::ForeseenPieces;
-pub use history::{ChainHistory, ChainListing};
+pub use history::{ChainHistory, ChainListing, ChainRow};
 pub use numbers::ChainNumbers;
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};

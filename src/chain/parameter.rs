@@ -297,11 +297,6 @@ impl Chain {
         ChainParameter::of(by).map_or_else(gravity, |parameter| parameter.scale_of_zero(self))
     }
 
-    /// Returns the largest number of a measure that the chain can be expected to have.
-    pub(crate) fn scale(&self, measure: Measure) -> f64 {
-        self.scales().of(measure)
-    }
-
     /// Returns the refusal of a value that the chain does not have.
     fn has_no(&self, parameter: Parameter) -> ProblemError {
         let known: Vec<String> = self.parameters().map(|parameter| parameter.to_string()).collect();

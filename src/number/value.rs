@@ -136,6 +136,15 @@ impl Value {
         stored!(self, number => number.log2_error())
     }
 
+    /// Returns whether two doubles agree within their bounds, or two longer numbers are printed alike.
+    pub fn agrees(&self, other: &Value) -> bool {
+        if self.is_double() && other.is_double() {
+            (self.to_f64() - other.to_f64()).abs() <= self.bound().to_f64() + other.bound().to_f64()
+        } else {
+            self.to_string() == other.to_string()
+        }
+    }
+
     /// Returns the number of digits that were asked for; 0 for doubles and fractions.
     pub fn digits(&self) -> u32 {
         self.digits

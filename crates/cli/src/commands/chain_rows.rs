@@ -6,12 +6,12 @@ use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
 use crate::output::{Cell, Column, Header, Layout, RowWriter, derivative_rows, derivative_table};
 use crate::progress::Progress;
-use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainNumbers};
+use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainNumbers, ChainTime};
 use dalembert::number::{List, Scalar, Value};
 use dalembert::problem::Parameter;
 use dalembert::quantity::{Measure, Needs, Quantity, SLICE, Units};
 use dalembert::solve::{Derivatives, Numbers};
-use dalembert::{ChainScene, Error, Estimate, Number, Side};
+use dalembert::{ChainScene, Estimate, Number, Side};
 
 /// Rows that are kept at once.
 const CHUNK: usize = 1 << 12;
@@ -36,6 +36,45 @@ enum RowColumn {
     Whole(ChainColumn),
     /// A quantity at a point of a body.
     Point { quantity: Quantity, body: usize },
+}
+
+/// The columns of the rows, and the numbers that they are taken from.
+struct RowColumns {
+    all: Vec<RowColumn>,
+    whole: Vec<ChainColumn>,
+    /// The bodies whose fields are asked for.
+    bodies: Vec<usize>,
+}
+
+impl RowColumns {
+    fn new(all: Vec<RowColumn>) -> Self {
+        let (mut whole, mut bodies) = (Vec::new(), Vec::new());
+        for column in &all {
+            match column {
+                RowColumn::Whole(column) => whole.push(*column),
+                RowColumn::Point { body, .. } if !bodies.contains(body) => bodies.push(*body),
+                RowColumn::Point { .. } | RowColumn::Key(_) => (),
+            }
+        }
+        RowColumns { all, whole, bodies }
+    }
+
+    /// Returns the columns with a place among the numbers of a row: all but keys.
+    fn placed(&self) -> impl Iterator<Item = (RowColumn, usize)> {
+        self.all.iter().filter_map(|column| Some((*column, self.place(*column)?)))
+    }
+
+    /// Returns the place of a column among the numbers of a row; `None` for a key.
+    fn place(&self, column: RowColumn) -> Option<usize> {
+        match column {
+            RowColumn::Key(_) => None,
+            RowColumn::Whole(column) => self.whole.iter().position(|known| *known == column),
+            RowColumn::Point { quantity, body } => {
+                let body = self.bodies.iter().position(|known| *known == body)?;
+                Some(3 * body + SLICE[3..].iter().position(|known| *known == quantity)?)
+            }
+        }
+    }
 }
 
 /// The time of a row.
@@ -118,7 +157,7 @@ impl ChainRows<'_> {
     }
 
     /// Returns the columns, with their keys before them unless the time is among them.
-    fn columns(&self) -> Result<Vec<RowColumn>, Failure> {
+    fn columns(&self) -> Result<RowColumns, Failure> {
         let chain = &self.scene.chain;
         let mut columns: Vec<RowColumn> = Vec::new();
         for name in &self.args.quantity {
@@ -145,7 +184,7 @@ impl ChainRows<'_> {
             columns.retain(|column| !matches!(column, RowColumn::Key(_)));
             columns.splice(..0, keys.iter().copied().map(RowColumn::Key));
         }
-        Ok(columns)
+        Ok(RowColumns::new(columns))
     }
 
     /// Returns all names of columns.
@@ -166,10 +205,10 @@ impl ChainRows<'_> {
     }
 
     /// Returns the points; an error for one beyond a body that is asked about.
-    fn listed_points(&self, columns: &[RowColumn]) -> Result<Vec<Number>, Failure> {
+    fn listed_points(&self, columns: &RowColumns) -> Result<Vec<Number>, Failure> {
         let Some(points) = &self.args.points else { return Ok(Vec::new()) };
         let points = points.numbers().ok_or_else(|| too_long("points"))?;
-        for column in columns {
+        for column in &columns.all {
             let RowColumn::Point { body, .. } = column else { continue };
             let length = self.scene.chain.bodies()[*body].length();
             let is_outside = |point: &&Number| point.to_f64() < 0.0 || point.compare(length).is_gt();
@@ -193,7 +232,7 @@ impl ChainRows<'_> {
         let last = spelled(history.chain().until())?;
         for (k, event) in history.listing()?.events.iter().cloned().enumerate() {
             let is_new =
-                rows.last().is_none_or(|row: &RowTime| !agree(&row.time, &event.t)) && !agree(&event.t, &last.time);
+                rows.last().is_none_or(|row: &RowTime| !row.time.agrees(&event.t)) && !event.t.agrees(&last.time);
             if is_new {
                 rows.push(RowTime { time: event.t, origin: Origin::Event(k) });
             }
@@ -206,56 +245,29 @@ impl ChainRows<'_> {
     fn add(
         &self,
         history: &ChainHistory,
-        columns: &[RowColumn],
+        columns: &RowColumns,
         (row, point): (&RowTime, Option<&Number>),
         cells: &mut [Vec<Cell>],
     ) -> Result<(), Failure> {
-        let values = |side: Side| -> Result<Vec<Option<Value>>, Error> {
-            // Columns of one body follow each other.
-            let mut field = None;
-            let mut value = |column: &RowColumn| match (column, &row.origin, point) {
-                (RowColumn::Key(_), ..) => Ok(None),
-                (RowColumn::Whole(column), Origin::Spelled(time), _) => history.value(*column, time, side).map(Some),
-                (RowColumn::Whole(column), Origin::Event(event), _) => {
-                    history.value_at_event(*column, *event, side).map(Some)
-                }
-                (RowColumn::Point { quantity, body }, Origin::Spelled(time), Some(point)) => {
-                    if field.as_ref().is_none_or(|(known, _)| known != body) {
-                        field = Some((*body, history.field(*body, point, time, side)?));
-                    }
-                    let numbers = field.as_ref().map(|(_, field)| field.numbers());
-                    let place = SLICE[3..].iter().position(|known| known == quantity);
-                    Ok(numbers.zip(place).map(|(numbers, place)| numbers[place].clone()))
-                }
-                (RowColumn::Point { .. }, ..) => Ok(None),
-            };
-            columns.iter().map(&mut value).collect()
+        let time = match &row.origin {
+            Origin::Spelled(time) => ChainTime::Spelled(time),
+            Origin::Event(event) => ChainTime::Event(*event),
         };
-        let mut push = |side: f64, values: Vec<Option<Value>>| {
-            for ((cells, column), value) in cells.iter_mut().zip(columns).zip(values) {
+        let rows = match (time, point) {
+            (ChainTime::Spelled(time), Some(point)) => {
+                history.field_rows_at(&columns.bodies, (point, time), self.side)?
+            }
+            _ => history.rows_at(&columns.whole, time, self.side)?,
+        };
+        for found in rows {
+            let side = found.side.map_or(0.0, |side| if side == Side::Left { -1.0 } else { 1.0 });
+            for (cells, column) in cells.iter_mut().zip(&columns.all) {
                 cells.push(match (column, point) {
                     (RowColumn::Key(Quantity::Time), _) => Cell::Number(row.time.clone()),
                     (RowColumn::Key(Quantity::Point), Some(point)) => Cell::Number(self.place_of(point)),
                     (RowColumn::Key(_), _) => Cell::Number(Estimate::exact(side).into()),
-                    _ => Cell::number(value),
+                    (column, _) => Cell::number(columns.place(*column).map(|place| found.values[place].clone())),
                 });
-            }
-        };
-        match self.side {
-            Some(side @ Side::Left) => push(-1.0, values(side)?),
-            Some(side @ Side::Right) => push(1.0, values(side)?),
-            None => {
-                let [left, right] = [values(Side::Left)?, values(Side::Right)?];
-                let are_alike = |(left, right): (&Option<Value>, &Option<Value>)| match (left, right) {
-                    (Some(left), Some(right)) => agree(left, right),
-                    _ => true,
-                };
-                if left.iter().zip(&right).all(are_alike) {
-                    push(0.0, right);
-                } else {
-                    push(-1.0, left);
-                    push(1.0, right);
-                }
             }
         }
         Ok(())
@@ -265,32 +277,20 @@ impl ChainRows<'_> {
     fn derivatives(
         &self,
         history: &ChainHistory,
-        columns: &[RowColumn],
+        columns: &RowColumns,
         points: &[Number],
     ) -> Result<Vec<Derivatives<Value>>, Failure> {
         let (Some(times), Some(side), false) = (&self.times, self.side, self.args.derivatives.is_empty()) else {
             return Ok(Vec::new());
         };
         let times = &times.numbers().ok_or_else(|| too_long("times"))?[..];
-        let whole = |column: &RowColumn| if let RowColumn::Whole(column) = column { Some(*column) } else { None };
-        let whole: Vec<ChainColumn> = columns.iter().filter_map(whole).collect();
-        let body = |column: &RowColumn| if let RowColumn::Point { body, .. } = column { Some(*body) } else { None };
-        let mut bodies: Vec<usize> = columns.iter().filter_map(body).collect();
-        bodies.dedup();
         let numbers = match self.is_field() {
-            true => ChainNumbers::Fields { bodies: &bodies, points, times, side },
-            false => ChainNumbers::Columns { columns: &whole, times, side },
-        };
-        let place = |column: &RowColumn| match column {
-            RowColumn::Point { quantity, body } => {
-                let body = bodies.iter().position(|known| known == body)?;
-                Some(3 * body + SLICE[3..].iter().position(|known| known == quantity)?)
-            }
-            column => columns.iter().position(|known| known == column),
+            true => ChainNumbers::Fields { bodies: &columns.bodies, points, times, side },
+            false => ChainNumbers::Columns { columns: &columns.whole, times, side },
         };
         let derivatives = |by: &Parameter| -> Result<Derivatives<Value>, Failure> {
             let rows = history.derivatives(*by, numbers)?.into_iter();
-            Ok(rows.map(|row| columns.iter().map(|column| row[place(column)?].clone()).collect()).collect())
+            Ok(rows.map(|row| columns.placed().map(|(_, place)| row[place].clone()).collect()).collect())
         };
         self.args.derivatives.iter().map(derivatives).collect()
     }
@@ -309,18 +309,16 @@ impl ChainRows<'_> {
         let history = run.solve_observed(*numbers, progress.observer())?;
         let times = self.row_times(&history)?;
         progress.set_stage("values of the answer");
-        let derived: Vec<RowColumn> =
-            columns.iter().filter(|column| !matches!(column, RowColumn::Key(_))).copied().collect();
-        let names = || derived.iter().map(|column| column.name(chain));
-        let derivatives = self.derivatives(&history, &derived, &points)?;
+        let names = || columns.placed().map(|(column, _)| column.name(chain));
+        let derivatives = self.derivatives(&history, &columns, &points)?;
         let by = || self.args.derivatives.iter().copied().zip(&derivatives);
         let (derived_heads, derived_cells): (Vec<Column>, Vec<Vec<Cell>>) =
             by().flat_map(|(by, rows)| derivative_rows(by, names().zip(names()), rows)).unzip();
-        let heads: Vec<Column> = columns.iter().map(|column| column.head(scene)).chain(derived_heads).collect();
+        let heads: Vec<Column> = columns.all.iter().map(|column| column.head(scene)).chain(derived_heads).collect();
         let bounds = (self.args.uncertainty, self.args.bare);
         let writer = |destination: &Destination| {
             // A table has derivatives below it.
-            let count = if destination.format == Format::Table { columns.len() } else { heads.len() };
+            let count = if destination.format == Format::Table { columns.all.len() } else { heads.len() };
             RowWriter::new(destination.format, &heads[..count], bounds, digits(*numbers))
         };
         let mut writers = destinations.iter().map(writer).collect::<Result<Vec<_>, _>>()?;
@@ -328,7 +326,7 @@ impl ChainRows<'_> {
         let all: Vec<(&RowTime, Option<&Number>)> =
             times.iter().flat_map(|time| places.iter().map(move |place| (time, *place))).collect();
         for (k, part) in all.chunks(CHUNK).enumerate() {
-            let mut cells = vec![Vec::new(); columns.len()];
+            let mut cells = vec![Vec::new(); columns.all.len()];
             part.iter().try_for_each(|row| self.add(&history, &columns, *row, &mut cells))?;
             let rows = k * CHUNK..k * CHUNK + part.len();
             cells.extend(derived_cells.iter().map(|column| column[rows.clone()].to_vec()));
@@ -336,7 +334,7 @@ impl ChainRows<'_> {
         }
         drop(progress);
         note(&history)?;
-        let measures: Vec<Measure> = columns.iter().filter_map(|column| column.measure()).collect();
+        let measures: Vec<Measure> = columns.all.iter().filter_map(|column| column.measure()).collect();
         let ends = match self.times {
             Some(_) => None,
             None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
@@ -352,7 +350,7 @@ impl ChainRows<'_> {
         let style = (digits(*numbers), self.args.wide);
         let tables = by().map(|by| derivative_table(("at", labels.clone()), &symbols, by, style));
         let below = format!("\n{}{}", tables.collect::<String>(), unit_line(scene, &measures));
-        let keys = columns.iter().take_while(|column| matches!(column, RowColumn::Key(_))).count();
+        let keys = columns.all.iter().take_while(|column| matches!(column, RowColumn::Key(_))).count();
         let layout = Layout { below, keys: (!self.args.wide).then_some(keys) };
         writers.into_iter().zip(destinations).try_for_each(|(writer, to)| writer.finish(&header, to, &layout))
     }
@@ -360,13 +358,4 @@ impl ChainRows<'_> {
 
 fn too_long(what: &str) -> Failure {
     failure!("found {what} of too many digits, expected fewer")
-}
-
-/// Returns whether two doubles agree within their bounds, or two longer numbers are the same.
-fn agree(a: &Value, b: &Value) -> bool {
-    if a.is_double() && b.is_double() {
-        (a.to_f64() - b.to_f64()).abs() <= a.bound().to_f64() + b.bound().to_f64()
-    } else {
-        a.to_string() == b.to_string()
-    }
 }
