@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from fractions import Fraction
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, Mapping, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from . import _core
 from ._answers import Derivatives, Field
 from ._arrays import READ, Answers, shaped, short
 from ._numbers import Array, Frozen, MaskedArray, Maybe, Names, Number, Numbers, Side
-from ._problem import _number, _text
+from ._problem import Problem, _number, _text
 
 if TYPE_CHECKING:
     import pandas
@@ -86,6 +87,9 @@ class Chain(Frozen):
     _made: tuple[str, dict[str, Any]]
 
     def __init__(self, scene: str | os.PathLike[str]) -> None:
+        if isinstance(scene, (Problem, Chain)) or not isinstance(scene, (str, os.PathLike)):
+            kind = type(scene).__name__
+            raise TypeError(f"found a scene of type {kind}, expected a name, a path or TOML text of a chain")
         self._make(_text(scene), {})
 
     def _make(self, text: str, replaced: dict[str, Any]) -> Chain:
@@ -123,6 +127,8 @@ class Chain(Frozen):
         >>> chain.solve(exact=True).events["t"][0]
         Fraction(1, 5)
         """
+        if not isinstance(values, Mapping) or not all(isinstance(name, str) for name in values):
+            raise TypeError(f"found values = {values!r}, expected a mapping of names to numbers")
         return _chain(self._made[0], self._made[1] | dict(values))
 
     def solve(
@@ -158,7 +164,7 @@ class Chain(Frozen):
 
     def _text(self) -> str:
         if self._made[1]:
-            raise ValueError("found a chain with other values, expected one as its scene file has it")
+            raise ValueError("found a chain with other values, which no scene file has: expected that of its own file")
         return self._made[0]
 
     def __repr__(self) -> str:
@@ -353,7 +359,7 @@ class ChainHistory(Answers):
         >>> Chain("openfoam-7-1-2").solve().value("force.1", [0.05, 0.2]).round(6)
         array([0.      , 0.041176])
         """
-        if name not in self.chain.quantities:
+        if not isinstance(name, str) or name not in self.chain.quantities:
             raise ValueError(f"found the quantity {name}, expected one of {', '.join(self.chain.quantities)}")
         return shaped([self.columns(t, name, side)[name]], np.asarray(t).shape)[0]
 
@@ -425,6 +431,8 @@ class ChainHistory(Answers):
         Derivatives
             A row for each time.
         """
+        if not isinstance(names, str) and not list(names):
+            raise ValueError("found no names, expected at least one")
         return self._derivatives(self._compiled.derivatives_at(by, self._places(t), names, side))
 
     def to_frame(self, table: ChainTable = "contacts") -> pandas.DataFrame:
@@ -443,7 +451,9 @@ class ChainHistory(Answers):
         from pandas import DataFrame
 
         found = self._table(table)
-        return DataFrame({name: np.array(found.data[name]) for name in found.dtype.names or ()})
+        frame = DataFrame({name: np.array(found.data[name]) for name in found.dtype.names or ()})
+        frame.attrs = {"title": self.chain.title or "", "numbers": self._in_words}
+        return frame
 
     def _attributes(self, kind: str) -> dict[str, Any]:
         """Return the attributes of a frame: title and numbers, and unit and meaning of each column."""

@@ -118,7 +118,7 @@ def reference(
     [-3.5, -5.0, 0.0]
     """
     # As texts: 0.7 is 7/10, and Fraction(0.7) is a little less, so that the last time would be beyond it.
-    last = max((Fraction(str(time)) for time in objects(t).ravel().tolist()), default=Fraction(0))
+    last = max(map(_time, objects(t).ravel().tolist()), default=Fraction(0))
     to = last if last > 0 else None
     chain = _chain(scene)
     history: History | ChainHistory
@@ -158,7 +158,7 @@ def write_reference(
     path : str or path
         The file; its ending says the format: ``.csv``, ``.json`` or ``.npz``.
     scene : str, path, Problem or Chain
-        As :func:`reference` takes it.
+        As :func:`reference` takes it; a chain with the values of its scene file.
     t : number or array_like, optional
         Times; by default the start, every impact and release, and the end.
     names : str or sequence of str, optional
@@ -216,6 +216,13 @@ def write_reference(
         except ValueError as error:
             text = str(error).removeprefix("error: ").split("\n\nFor more information")[0]
             raise ValueError(text.replace(folder + os.sep, "").strip()) from None
+
+
+def _time(time: Any) -> Fraction:
+    try:
+        return Fraction(str(time))
+    except ValueError:
+        raise ValueError(f"found time {time}, expected a finite number") from None
 
 
 def _chain(scene: Scene | Chain) -> Chain | None:

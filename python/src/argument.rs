@@ -97,12 +97,15 @@ impl Given {
         }
     }
 
-    /// Returns the numbers as they are written.
-    pub(crate) fn into_numbers(self) -> Vec<Number> {
-        let spelled = |x: f64| format!("{x:e}").parse().unwrap_or_else(|_| Number::from(0));
+    /// Returns the numbers as they are written; `name` is that of one.
+    pub(crate) fn into_numbers(self, name: &str) -> PyResult<Vec<Number>> {
+        let spelled = |x: f64| {
+            let finite = || refuse(format!("found {name} {x}, expected a finite number"));
+            format!("{x:e}").parse().map_err(|_| finite())
+        };
         match self {
             Given::Doubles(list) => list.into_iter().map(spelled).collect(),
-            Given::Numbers(list) => list,
+            Given::Numbers(list) => Ok(list),
         }
     }
 }

@@ -54,10 +54,13 @@ impl Chain {
     /// Reads a chain from its text, and replaces values by name.
     #[new]
     fn new(text: &str, replaced: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Self> {
-        if !ChainScene::is_chain(text) {
-            return Err(refuse("found a rod on rigid ground, expected a chain: dalembert.Problem takes rods"));
-        }
-        let mut scene = ChainScene::parse(text).map_err(refuse)?;
+        let mut scene = match ChainScene::parse(text) {
+            // The error of a text that is no scene of a rod either is that of the text.
+            Err(_) if !ChainScene::is_chain(text) && dalembert::Scene::parse(text).is_ok() => {
+                return Err(refuse("found a rod on rigid ground, expected a chain: dalembert.Problem takes rods"));
+            }
+            scene => scene.map_err(refuse)?,
+        };
         let value = |(name, value): &(String, Bound<'_, PyAny>)| -> PyResult<(Parameter, Number)> {
             let parameter = name.parse().map_err(|error: UnknownName| refuse(error))?;
             Ok((parameter, number(name, value)?))
@@ -268,7 +271,7 @@ impl ChainHistory {
         side: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(String, Column)>> {
         let (columns, side) = (self.columns_of(quantities)?, side.map(side_of).transpose()?);
-        let (times, is_double) = (Given::new("time", times)?.into_numbers(), self.is_double());
+        let (times, is_double) = (Given::new("time", times)?.into_numbers("time")?, self.is_double());
         self.ask(py, move |history| {
             let (mut spelled, mut sides, mut rows) = (Vec::new(), Vec::new(), Vec::new());
             for time in &times {
@@ -300,7 +303,8 @@ impl ChainHistory {
         side: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<(&'static str, Column)>> {
         let (body, side, is_double) = (self.body(body)?, side_of(side)?, self.is_double());
-        let (points, times) = (Given::new("point", points)?.into_numbers(), Given::new("time", times)?.into_numbers());
+        let (points, times) =
+            (Given::new("point", points)?.into_numbers("point")?, Given::new("time", times)?.into_numbers("time")?);
         self.ask(py, move |history| {
             let field = |(point, time): (&Number, &Number)| history.field(body, point, time, side);
             let fields = points.iter().zip(&times).map(field).collect::<Result<Vec<_>, _>>()?;
@@ -336,7 +340,7 @@ impl ChainHistory {
         side: &Bound<'_, PyAny>,
     ) -> PyResult<[Vec<Listed>; 2]> {
         let (by, side, is_double) = (parameter(by)?, side_of(side)?, self.is_double());
-        let (columns, times) = (self.columns_of(quantities)?, Given::new("time", times)?.into_numbers());
+        let (columns, times) = (self.columns_of(quantities)?, Given::new("time", times)?.into_numbers("time")?);
         self.ask(py, move |history| {
             let names: Vec<String> = columns.iter().map(|column| column.name(history.chain())).collect();
             let numbers = ChainNumbers::Columns { columns: &columns, times: &times, side };

@@ -95,7 +95,7 @@ impl Listed {
             name: name.into(),
             values: Column::new(found.clone(), is_double),
             bounds: Column::Doubles(
-                found.map(|value| value.map_or(f64::NAN, |value| value.log2_error().exp2())).collect(),
+                found.map(|value| value.map_or(f64::NAN, |value| value.bound().to_f64())).collect(),
             ),
             missing: values.iter().enumerate().filter_map(reason).collect(),
         }
@@ -260,7 +260,8 @@ impl History {
         side: &Bound<'_, PyAny>,
     ) -> PyResult<[Vec<Listed>; 2]> {
         let (by, side) = (parameter(by)?, side_of(side)?);
-        let (times, points) = (Given::new("time", times)?.into_numbers(), Given::new("point", points)?.into_numbers());
+        let (times, points) =
+            (Given::new("time", times)?.into_numbers("time")?, Given::new("point", points)?.into_numbers("point")?);
         let quantities = named(quantities, if points.is_empty() { Needs::Time } else { Needs::PointAndTime })?;
         self.ask(py, move |history| {
             let rows = history.derivatives_at(by, &quantities, &times, &points, side)?;

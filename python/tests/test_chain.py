@@ -94,6 +94,14 @@ def test_other_values():
     assert found.right["peak_force"].tolist() == [Fraction(7, 17)]
 
 
+def test_derivatives_of_simultaneous_events():
+    """Bars that meet at once: each joint has the derivatives of its own events."""
+    history = dalembert.Chain("schwarz-three-bars").solve(exact=True)
+    found = history.derivatives("body.1.velocity")
+    by_event = {(row["node"], row["kind"]): slope for row, slope in zip(history.events, found.left["t"])}
+    assert by_event["joint 1", "impact"] == Fraction(-1, 500000) and by_event["joint 2", "impact"] == 0
+
+
 def test_references(tmp_path):
     pandas = pytest.importorskip("pandas")
     frame = dalembert.reference(BARS, [0.1, 0.25])
@@ -122,9 +130,20 @@ def test_what_is_refused():
         (lambda: history.field(1, 11, 0), "11"),
         (lambda: history.force_pieces(2), "found node 2"),
         (lambda: history.derivatives("length"), "found the value rod.length"),
+        (lambda: history.value("force.1", float("nan")), "found time NaN, expected a finite number"),
+        (lambda: history.field(1, np.array([1.0, np.inf]), 0.2), "found point inf, expected a finite number"),
+        (lambda: dalembert.reference(BARS, [float("nan")]), "found time nan, expected a finite number"),
+        (lambda: history.derivatives_at("gravity", 0.2, []), "found no names"),
+        (lambda: dalembert.Chain("[[body]]\nlength = \n"), "line 2"),
         (lambda: chain.solve(certified=True).derivatives("joint.1.gap"), "need not be proved"),
     ]:
         with pytest.raises(ValueError, match=said):
+            refused()
+    for refused, said in [
+        (lambda: dalembert.Chain(5), "found a scene of type int"),
+        (lambda: chain.replace("joint.1.gap"), "expected a mapping of names to numbers"),
+    ]:
+        with pytest.raises(TypeError, match=said):
             refused()
     with pytest.raises(AttributeError, match="a Chain does not change"):
         chain.bodies = ()

@@ -159,8 +159,9 @@ impl<S: RoundedSpecial> Damped<S> {
     /// With M a bound of `|v_t|`, `|c v_x|`, `|h′|`: the ends take at most `c M²`, damping `2rL M²` and gravity `gL M`
     /// from the energy, and `L|h′h″| ≤ M (2cM + 2rLM + gL)`. Each part alone is `½ ∫ f² dx`: between rays f changes at
     /// most at the rate s, and rays, whose jumps have the sum J, move at c: at most `L M s + c M J`. J contains the
-    /// jump from `−q` to `q` on the ray of the last event, which is at most 2M. At a misplaced ray `v_t` and `c v_x` are
-    /// off by half of its jump, and `|v_t − h′|` is at most 2M: both parts of `E_z` together are off by `1.5 c M J`.
+    /// jump from `−q` to `q` on the ray of the last event, which is at most 2M. At a misplaced ray `v_t` and `c v_x`
+    /// are off by half of its jump, and `|v_t − h′|` is at most 2M: both parts of `E_z` together are off by
+    /// `1.5 c M J`.
     fn energies_apart(&self, time: &Estimate<S>) -> [f64; 2] {
         let Scales { time: trip, velocity, length, wave_speed: c, gravity } = self.scales;
         let rays = |apart: f64, Uncertainty { most, jumps, .. }: &Uncertainty| {

@@ -292,9 +292,9 @@ impl Budget {
     /// Bounds the effect of damping on the stripes between these ages, apart from their fading; at most their own size.
     ///
     /// A ray loses `1 − e^{−Rτ} ≤ Rτ` of its mass, and a level changes by R of the levels that it meets: at most `2Rτ`,
-    /// whose mean is subtracted; the vibration of a mass is at most twice the mass. Over long flights `Z = e^{Rt} z` has
-    /// `Z_tt − Z_xx = R²Z`: a mass m makes `|Z| ≤ ½m`, so that `Z_t + Z_x` is off by `½R²τ m`, growing with itself, and
-    /// `z_t + z_x` by `R|Z|` more at either end.
+    /// whose mean is subtracted; the vibration of a mass is at most twice the mass. Over long flights `Z = e^{Rt} z`
+    /// has `Z_tt − Z_xx = R²Z`: a mass m makes `|Z| ≤ ½m`, so that `Z_t + Z_x` is off by `½R²τ m`, growing with itself,
+    /// and `z_t + z_x` by `R|Z|` more at either end.
     fn scattered(&self, from: f64, age: f64) -> f64 {
         let left = 2.0 * (self.damping * (6.0 - FADES * from)).exp() + (-self.damping * from).exp();
         let turned = (0.5 * self.damping * self.damping * age).exp_m1() * (2.0 * self.damping).exp();

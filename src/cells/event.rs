@@ -18,8 +18,8 @@ const SMALLEST_STEP: f64 = 1e-12;
 impl<S: RoundedSpecial> Follower<'_, S> {
     /// Computes the error of a root in the strip: the error of the function plus `vague` over its slope, or the square
     /// root of twice that error over the second derivative if this is less. If the function bends back, the former
-    /// grows by a factor of up to two. The rounding of Clenshaw's sum, at most `(2k + 1)² u` of each coefficient, matters
-    /// where the strip is long and the hop is short.
+    /// grows by a factor of up to two. The rounding of Clenshaw's sum, at most `(2k + 1)² u` of each coefficient,
+    /// matters where the strip is long and the hop is short.
     pub(super) fn event_error(&self, trace: &[S], height: &[S], x: &S, len: &S, vague: f64) -> Off {
         let strip = len.to_f64();
         let at = |c: &[S]| evaluate(c, x).to_f64();

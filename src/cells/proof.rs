@@ -77,11 +77,11 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// Computes H, at the time `flown` after the release.
     ///
-    /// If separated: at the release `|δv(0)|` is at most the mass that the release has left; since then `h` moves by `s
-    /// A`, and `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` has an error then and now; and since `z(0)`
+    /// If separated: at the release `|δv(0)|` is at most the mass that the release has left; since then `h` moves by
+    /// `s A`, and `z(0) = ∫ w (q − h′) dη` with `∫|w| ≤ ¼e^R`, `|w| ≤ ½e^R` has an error then and now; and since `z(0)`
     /// was last a mean of stored data, it has the defects of the steps. Otherwise the defect of each step moves the end
-    /// by its own mean and vibration: by `(s + 3)(E + W)` under a free top, and by `2(E + W)` under a held one, with the
-    /// masses W of displaced rays; the error of the sum of `∫ q dt` itself is added.
+    /// by its own mean and vibration: by `(s + 3)(E + W)` under a free top, and by `2(E + W)` under a held one, with
+    /// the masses W of displaced rays; the error of the sum of `∫ q dt` itself is added.
     fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
         let (damping, both) = (run.damping(), self.even + self.masses);
         let rate = 2.0 * damping;

@@ -81,8 +81,8 @@ impl<S: RoundedSpecial> Strips<S> {
 }
 
 /// Cache of recent queries: each query takes the strips it needs and puts them back. The nodes along the whole rod at
-/// one time serve all queries about that time, such as those of the solution and of its lists at an event. A state after
-/// a part of a leap serves all queries within a round trip.
+/// one time serve all queries about that time, such as those of the solution and of its lists at an event. A state
+/// after a part of a leap serves all queries within a round trip.
 #[derive(Debug)]
 pub(super) struct Pool<S: Scalar> {
     strips: Mutex<Vec<Strips<S>>>,

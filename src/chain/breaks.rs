@@ -30,8 +30,8 @@ impl<N: Bounded> Cluster<N> {
         fronts.reduce(Moment::earlier).map_or(end.clone(), |front| sooner(end, front))
     }
 
-    /// Passes on to the pieces of all signals that begin at the time that is reached. A break that agrees with the latest
-    /// event within their bounds counts as one with it: the result has the rates after it, without a kind.
+    /// Passes on to the pieces of all signals that begin at the time that is reached. A break that agrees with the
+    /// latest event within their bounds counts as one with it: the result has the rates after it, without a kind.
     pub(super) fn pass_breaks(&mut self, waves: &[[Wave<N>; 2]]) -> Vec<(usize, Occurrence<N>)> {
         let mut occurrences = Vec::new();
         let mut spread = self.reached.late.clone();
@@ -145,8 +145,8 @@ impl<N: Bounded> Cluster<N> {
     }
 
     /// Returns whether breaks that coincide within their bounds may cause more between them than before and after them:
-    /// whether they act in opposite directions on the gap, the force, or a wave that leaves. Each comes with its side and
-    /// its jump.
+    /// whether they act in opposite directions on the gap, the force, or a wave that leaves. Each comes with its side
+    /// and its jump.
     fn hides(&self, j: usize, passed: &[(Moment<N>, usize, N)]) -> bool {
         let interface = &self.interfaces[j];
         let (rows, zero) = (interface.rows(), self.norm.zero());

@@ -28,7 +28,8 @@ pub(super) struct Curve<N> {
 pub(super) enum Signal<N> {
     /// A line, in a chain of bars whose joints are rigid.
     Line(Line<N>),
-    /// A polynomial, in a chain with springs, dashpots or masses. It is boxed: lines are stored by the hundred thousand.
+    /// A polynomial, in a chain with springs, dashpots or masses. It is boxed: lines are stored by the hundred
+    /// thousand.
     Curve(Box<Curve<N>>),
 }
 
@@ -253,8 +254,8 @@ impl<N: Bounded> Curve<N> {
         ((value(&terms, &to) - begun) * &self.unit).widened(&error)
     }
 
-    /// Returns the Chebyshev coefficients between the stored values of two times, the first one whole and widened by the
-    /// error of the curve; none for a line, which its ends give.
+    /// Returns the Chebyshev coefficients between the stored values of two times, the first one whole and widened by
+    /// the error of the curve; none for a line, which its ends give.
     ///
     /// **Source**: Horner's rule with `x T_k = (T_{k+1} + T_{|k−1|})/2`.
     pub(super) fn chebyshev(&self, from: &N, to: &N) -> Vec<N> {

@@ -278,8 +278,8 @@ impl ChainHistory {
         }
     }
 
-    /// Returns the value of a column at a time; at a jump, the limit from `side`. If no attempt tells the time from that
-    /// of a jump, the bound covers both limits.
+    /// Returns the value of a column at a time; at a jump, the limit from `side`. If no attempt tells the time from
+    /// that of a jump, the bound covers both limits.
     ///
     /// **Errors**: [`Error::TimeOutside`].
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {

@@ -17,12 +17,13 @@
 //! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
 //! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
-//! (a run in any numbers), `scales` (sizes that bounds are held against), `history` (answers in numbers that are long enough), `column` (names of the numbers of a
-//! chain), `numbers` (numbers that are asked for together), `parameter` (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or
-//! masses have, in place of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface`
-//! (a node with its signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes
-//! that act on each other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of
-//! contacts that touch), `peak` (greatest values).
+//! (a run in any numbers), `scales` (sizes that bounds are held against), `history` (answers in numbers that are long
+//! enough), `column` (names of the numbers of a chain), `numbers` (numbers that are asked for together), `parameter`
+//! (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or masses have, in place
+//! of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface` (a node with its
+//! signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that act on each
+//! other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of contacts that
+//! touch), `peak` (greatest values).
 
 mod answers;
 mod body;
@@ -63,6 +64,7 @@ pub use field::BodySums;
 pub use foresee::ForeseenPieces;
 pub use history::{ChainHistory, ChainListing, ChainRow};
 pub use numbers::ChainNumbers;
+pub(crate) use numbers::RowKey;
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
 pub(crate) use varied::Varied;

@@ -90,8 +90,8 @@ impl<N: Bounded> Cluster<N> {
         }
     }
 
-    /// Carries the bounds of the states that act back over a step of which the first part, `width`, is taken: an error of
-    /// a state before the step fades as `e⁻ᵏʷ`, which is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
+    /// Carries the bounds of the states that act back over a step of which the first part, `width`, is taken: an error
+    /// of a state before the step fades as `e⁻ᵏʷ`, which is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
     pub(super) fn fade(&mut self, width: &N, errors: &[N]) {
         let mut sum = self.norm.zero();
         for (own, (before, held)) in self.linear.dynamic.clone().iter().zip(std::mem::take(&mut self.fading)) {

@@ -1,11 +1,13 @@
 //! Numbers of a chain that are asked for together.
 
+use std::collections::BTreeMap;
+
 use super::column::ChainColumn;
 use super::definition::Chain;
-use super::run::ChainRun;
+use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::wave::Limit;
 use crate::error::Error;
-use crate::motion::{Ending, Side};
+use crate::motion::{Ending, EventKind, Side};
 use crate::number::{Bounded, Number};
 use crate::quantity::Measure;
 
@@ -41,6 +43,9 @@ pub enum ChainNumbers<'a> {
     },
 }
 
+/// Node of the event that a row begins with, whether it is an impact, and its place among those of the node.
+pub(crate) type RowKey = (usize, bool, usize);
+
 impl ChainNumbers<'_> {
     /// Returns the measure of each column.
     pub fn measures(&self) -> Vec<Measure> {
@@ -52,6 +57,11 @@ impl ChainNumbers<'_> {
                 [Measure::Length, Measure::Velocity, Measure::Strain].repeat(bodies.len())
             }
         }
+    }
+
+    /// Returns whether the numbers are asked for at times, and not those of a list.
+    pub(crate) fn is_at_times(&self) -> bool {
+        matches!(self, ChainNumbers::Columns { .. } | ChainNumbers::Fields { .. })
     }
 
     /// Returns the times; none for numbers of a list.
@@ -99,6 +109,24 @@ impl ChainNumbers<'_> {
         Ok(())
     }
 
+    /// Returns the key of each row of a list, by which the same event is found in another run; nothing for other
+    /// numbers.
+    pub(crate) fn keys<N>(&self, events: &[ChainEvent<N>]) -> Vec<RowKey> {
+        let is_asked = |is_impact: bool| match self {
+            ChainNumbers::Events => true,
+            ChainNumbers::Contacts => is_impact,
+            ChainNumbers::Columns { .. } | ChainNumbers::Fields { .. } => false,
+        };
+        let mut counts: BTreeMap<(usize, bool), usize> = BTreeMap::new();
+        let kinds = events.iter().map(|event| (event.node, event.kind == EventKind::Impact));
+        let key = |(node, is_impact): (usize, bool)| {
+            let count = counts.entry((node, is_impact)).or_default();
+            *count += 1;
+            (node, is_impact, *count)
+        };
+        kinds.filter(|(_, is_impact)| is_asked(*is_impact)).map(key).collect()
+    }
+
     /// Returns the numbers of a run; `None` for one that is missing, as the end of a contact that lasts, or a number
     /// beyond the end of the run or of a body.
     pub(crate) fn of<N: Bounded>(&self, run: &ChainRun<N>) -> Result<NumberRows<N>, Error> {
@@ -112,13 +140,13 @@ impl ChainNumbers<'_> {
         };
         match *self {
             ChainNumbers::Events => {
-                let row = |event: &super::ChainEvent<N>| {
+                let row = |event: &ChainEvent<N>| {
                     [&event.t, &event.before, &event.after].map(|number| Some(number.clone())).into()
                 };
                 Ok(run.events().iter().map(row).collect())
             }
             ChainNumbers::Contacts => {
-                let row = |contact: super::ChainContact<N>| {
+                let row = |contact: ChainContact<N>| {
                     let is_settled = contact.release.is_some() || *run.ending() == Ending::Time;
                     let settled = |number: N| Some(number).filter(|_| is_settled);
                     vec![Some(contact.impact), contact.release, settled(contact.impulse), settled(contact.peak)]

@@ -53,8 +53,8 @@ pub(super) enum Onset {
 }
 
 impl<N: Bounded> Cluster<N> {
-    /// Computes the series at the time that is reached, if a contact touches, a mass is still, or a signal has just left
-    /// zero.
+    /// Computes the series at the time that is reached, if a contact touches, a mass is still, or a signal has just
+    /// left zero.
     pub(super) fn series(&self, inputs: &[[Curve<N>; 2]]) -> Option<Series<N>> {
         let touches = self.interfaces.iter().any(|interface| interface.touches);
         let unit = &inputs.first()?[0].unit;

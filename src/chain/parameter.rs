@@ -273,6 +273,15 @@ impl Chain {
         chain.checked()
     }
 
+    /// Returns the chain with a number close to its own in place of a value, not checked: steps are smaller than the
+    /// numbers of a scene; `None` where it has no such value.
+    pub(crate) fn moved_to(&self, parameter: Parameter, number: Number) -> Option<Chain> {
+        match parameter {
+            Parameter::Gravity => Some(self.clone().with_gravity(number)),
+            _ => self.replaced(ChainParameter::of(parameter)?, number),
+        }
+    }
+
     /// Returns the number that [`Chain::with_values`] replaces.
     ///
     /// **Errors**: [`ProblemError`] where the chain has no such value.

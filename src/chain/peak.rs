@@ -159,8 +159,8 @@ impl<N: Bounded> Curve<N> {
         sum * self.width.ratio(9, 8 * FALL_PARTS)
     }
 
-    /// Returns a bound of the magnitude within `late` of the time `place` after the origin. Around a zero it is far below
-    /// that of a bound of the slope, which a signal that decays fast has at the other end of its width.
+    /// Returns a bound of the magnitude within `late` of the time `place` after the origin. Around a zero it is far
+    /// below that of a bound of the slope, which a signal that decays fast has at the other end of its width.
     fn most_about(&self, place: &N, late: &N) -> N {
         let late = self.in_units(late);
         // Twice the distance covers the rounding of its beginning.

@@ -105,8 +105,8 @@ impl<N: Bounded> Linear<N> {
     }
 }
 
-/// Returns a width of at most [`WIDEST`] over a rate. A width that is no simple fraction keeps the ends of steps away from
-/// times that are asked for.
+/// Returns a width of at most [`WIDEST`] over a rate. A width that is no simple fraction keeps the ends of steps away
+/// from times that are asked for.
 fn even(rate: f64, width: f64) -> f64 {
     let product = rate * width;
     if product > WIDEST { width * UNEVEN / (product / WIDEST).ceil() } else { width }
@@ -340,7 +340,8 @@ impl<N: Bounded> Cluster<N> {
         Ok(self.shortened(solved, (width, *rate), &tolerance))
     }
 
-    /// Returns the step with the polynomials, over a width on which the order that they leave out is within the tolerance.
+    /// Returns the step with the polynomials, over a width on which the order that they leave out is within the
+    /// tolerance.
     fn shortened(&self, solved: Polynomials<N>, (mut width, rate): (N, f64), tolerance: &N) -> Step<N> {
         let Polynomials { states, unit, radii, rates, fast } = solved;
         let last = radii.iter().map(Vec::len).max().unwrap_or(1) - 1;
@@ -376,8 +377,8 @@ impl<N: Bounded> Cluster<N> {
         Step { states, unit, width, defects, fast }
     }
 
-    /// Solves the equation over a width in which the states at the places `fast` among the dynamic ones follow the others
-    /// at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state.
+    /// Solves the equation over a width in which the states at the places `fast` among the dynamic ones follow the
+    /// others at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state.
     ///
     /// **Errors**: the place of the slowest state of which a part that decays is more than some roundings.
     fn solve_stiff(

@@ -271,8 +271,8 @@ fn last_begun<T, N: Bounded>(items: &[T], from: impl Fn(&T) -> &N, (time, side):
     begun.max(1) - 1
 }
 
-/// Returns the indices of the items that a time may lie in: several where the errors of beginnings leave it undecided. A
-/// beginning within `2^AT_EVENT` of the time of an event, as none is in doubles, is at the event.
+/// Returns the indices of the items that a time may lie in: several where the errors of beginnings leave it undecided.
+/// A beginning within `2^AT_EVENT` of the time of an event, as none is in doubles, is at the event.
 pub(super) fn indices_at<T, N: Bounded>(
     items: &[T],
     from: impl Fn(&T) -> &N + Copy,

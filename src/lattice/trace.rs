@@ -62,8 +62,8 @@ pub struct Piece<N> {
     /// Whether the end is in contact with the ground.
     pub contact: bool,
     /// `p` at its beginning as an exact multiple of gravity; `None` for other breaks. It is known of a break that a
-    /// release between two rays sends out: there `p` was zero, and reflections have only added gravity and turned its sign. The value of
-    /// the line at the age is not exact, as line and age have separate errors.
+    /// release between two rays sends out: there `p` was zero, and reflections have only added gravity and turned its
+    /// sign. The value of the line at the age is not exact, as line and age have separate errors.
     pub(super) knot: Option<i64>,
 }
 

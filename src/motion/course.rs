@@ -124,8 +124,8 @@ pub struct StressPiece<S> {
     /// Chebyshev coefficients, the first one whole and not halved, of a polynomial near `v_x(0,·)` on the piece; empty
     /// where it is linear.
     ///
-    /// In an answer the bound or enclosure of each one holds for that coefficient of `v_x(0,·)` itself. In an engine the
-    /// first one alone has the distance of the polynomial from `v_x(0,·)`, as its sums are sharper so.
+    /// In an answer the bound or enclosure of each one holds for that coefficient of `v_x(0,·)` itself. In an engine
+    /// the first one alone has the distance of the polynomial from `v_x(0,·)`, as its sums are sharper so.
     pub chebyshev: Vec<S>,
 }
 
@@ -189,8 +189,8 @@ impl<S> StressPiece<S> {
 }
 
 impl<N: Bounded> StressPiece<N> {
-    /// Widens each coefficient, so that it holds for that of `v_x(0,·)` itself: the bound of the first one holds for the
-    /// distance ε of the sum.
+    /// Widens each coefficient, so that it holds for that of `v_x(0,·)` itself: the bound of the first one holds for
+    /// the distance ε of the sum.
     ///
     /// **Source**: `c_k = (2/π) ∫ f(cos θ) cos kθ dθ` over 0 … π, and `∫ |cos kθ| dθ = 2`, so f within ε has `c_k`
     /// within 4ε/π.

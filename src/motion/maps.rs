@@ -1,8 +1,8 @@
 //! Conversion of structs of numbers to other numbers.
 
 /// Gives a struct its method `map`, which converts the numbers in braces. Fields after `maps` hold numbers inside, such
-/// as options and arrays, and have a method `map` of their own; those after `lists` are lists of such structs, and those
-/// after `keeps` hold no numbers.
+/// as options and arrays, and have a method `map` of their own; those after `lists` are lists of such structs, and
+/// those after `keeps` hold no numbers.
 macro_rules! maps {
     (
         $visibility:vis $type:ident { $($number:ident),* }

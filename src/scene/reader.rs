@@ -58,12 +58,13 @@ impl<'a> Reader<'a> {
 
     /// The place among `known` of the word at `key`.
     pub(super) fn choice(&self, key: &str, known: &[&'static str]) -> Result<Option<usize>, SceneError> {
-        let Some((text, span)) = self.text(key)? else { return Ok(None) };
-        let place = known.iter().position(|name| *name == text);
+        let Some((_, value)) = self.get(key) else { return Ok(None) };
+        let text = value.get_ref().as_str();
+        let place = known.iter().position(|name| Some(*name) == text);
         place.map(Some).ok_or_else(|| {
-            let found = format!("{key} = {}", short(self.slice(&span)));
-            let hint = did_you_mean(nearest(text, known.iter().copied()));
-            self.error(span, Kind::OutOfRange, found, format!("one of {}{hint}", known.join(", ")))
+            let found = format!("{key} = {}", short(self.slice(&value.span())));
+            let hint = did_you_mean(text.and_then(|text| nearest(text, known.iter().copied())));
+            self.error(value.span(), Kind::OutOfRange, found, format!("one of {}{hint}", known.join(", ")))
         })
     }
 

@@ -99,8 +99,9 @@ fn open_motion<N: Bounded>(
     Ok(BodyMotion::new(&chain, body, run))
 }
 
-/// Returns the motion in doubles where a picture is asked for and longer numbers leave a decision open: doubles with the
-/// same events, known to the accuracy of the picture, are right under the same condition, and answer many times as fast.
+/// Returns the motion in doubles where a picture is asked for and longer numbers leave a decision open: doubles with
+/// the same events, known to the accuracy of the picture, are right under the same condition, and answer many times as
+/// fast.
 pub(super) fn sketch(ladder: Ladder<'_>, long: &dyn Motion<Estimate<f64>>) -> Option<BodyMotion<Estimate<f64>>> {
     let Numbers::Double(Some(accuracy)) = ladder.plan.numbers else { return None };
     let is_open = long.warnings().iter().any(|warning| matches!(warning, Warning::Coincidence { .. }));

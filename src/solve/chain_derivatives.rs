@@ -1,12 +1,14 @@
 //! Derivatives of the numbers of a chain with respect to one of its values.
 
+use std::collections::BTreeMap;
+
 use super::chain::EXACT_PIECES;
-use super::derivative::{Derivatives, Request, Rows, Varying};
+use super::derivative::{Derivatives, Request, Rows, Varying, of_same_events};
 use super::differences;
 use super::plan::DEFAULT_ACCURACY;
 use super::question::{Numbers, Observer};
 use super::rates;
-use crate::chain::{Chain, ChainHistory, ChainNumbers, ChainRun, Varied};
+use crate::chain::{Chain, ChainEvent, ChainHistory, ChainNumbers, ChainRun, RowKey, Varied};
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Bounded, Dual, Estimate, Float, Number, Rational, Scalar, Value};
@@ -19,7 +21,7 @@ impl Varying for Chain {
 
     fn moved(&self, by: Parameter, step: &Rational) -> Option<Self> {
         let number = stepped(&self.number(by).ok()?, step, self.only_grows(by), || self.scale_of_zero(by))?;
-        self.with_values([(by, number)]).ok()
+        self.moved_to(by, number)
     }
 
     fn only_grows(&self, by: Parameter) -> bool {
@@ -41,15 +43,29 @@ struct AskedOfChain<'a> {
     observe: &'a Observer,
     by: Parameter,
     numbers: ChainNumbers<'a>,
+    /// The keys of the rows of a list.
+    keys: &'a [RowKey],
+    /// Whether a run may end before the time asked for, where fractions end.
+    may_end: bool,
 }
 
 impl AskedOfChain<'_> {
-    /// Returns the numbers of a run that reaches its end.
+    /// Returns the numbers of a run.
     fn rows<N: Bounded>(&self, run: &ChainRun<N>) -> Result<Rows<N>, Error> {
-        if *run.ending() != Ending::Time {
+        if !self.may_end && *run.ending() != Ending::Time {
             return Err(Error::NotDecided { what: "by fractions", bits: 0 });
         }
-        self.numbers.of(run)
+        Ok(self.in_order(self.numbers.of(run)?, run.events()))
+    }
+
+    /// Returns the rows of a list in the order of the keys, with an empty row for an event that the run does not have.
+    fn in_order<N: Clone, E>(&self, rows: Rows<N>, events: &[ChainEvent<E>]) -> Rows<N> {
+        if self.numbers.is_at_times() {
+            return rows;
+        }
+        let width = self.numbers.measures().len();
+        let found: BTreeMap<RowKey, Vec<Option<N>>> = self.numbers.keys(events).into_iter().zip(rows).collect();
+        self.keys.iter().map(|key| found.get(key).cloned().unwrap_or_else(|| vec![None; width])).collect()
     }
 }
 
@@ -70,7 +86,7 @@ impl Request for AskedOfChain<'_> {
 
     fn long_rows(&self, chain: &Chain, exponent: u32) -> Result<(Rows<Estimate<Float>>, Vec<f64>), Error> {
         let history = chain.solve_observed(Numbers::Digits(2 * exponent), self.observe.clone())?;
-        let rows = history.rows(self.numbers)?;
+        let rows = self.in_order(history.rows(self.numbers)?, &history.listing()?.events);
         let long = |value: Value| value.without_ends().as_float().cloned();
         let rows = rows.into_iter().map(|row| row.into_iter().map(|value| value.and_then(long)).collect());
         Ok((rows.collect(), self.numbers.measures().into_iter().map(|measure| chain.scale(measure)).collect()))
@@ -94,7 +110,7 @@ impl Request for AskedOfChain<'_> {
         let per_value = Rational::from(1) / scale;
         let scaled = |number: Option<Dual<Rational>>| number.map(|number| number.scaled_rate(&per_value));
         let rows = self.rows(&run)?;
-        let other = self.numbers.with_other_side().of(&run)?;
+        let other = self.in_order(self.numbers.with_other_side().of(&run)?, run.events());
         let mut pairs = rows.iter().flatten().zip(other.iter().flatten());
         let is_same = pairs.all(|pair| match pair {
             (Some(a), Some(b)) => a.alike(b),
@@ -112,9 +128,9 @@ impl Request for AskedOfChain<'_> {
 }
 
 impl ChainHistory {
-    /// Computes the derivatives of `numbers` with respect to a value of the chain, a row for each row of them. Times and
-    /// points stay fixed: a value that jumps there has a derivative only on the side to which the jump moves away. A
-    /// missing number, such as the end of a contact that lasts, is `None`.
+    /// Computes the derivatives of `numbers` with respect to a value of the chain, a row for each row of them. Times
+    /// and points stay fixed: a value that jumps there has a derivative only on the side to which the jump moves away.
+    /// A missing number, such as the end of a contact that lasts, is `None`.
     ///
     /// **Accuracy**: *exact* where fractions hold the run, also for an answer in doubles: rates are carried through the
     /// run, and difference quotients confirm them where first order does not decide the order of two events. Otherwise
@@ -144,7 +160,9 @@ impl ChainHistory {
         let limit = if doubles { EXACT_PIECES } else { usize::MAX };
         let chain = self.chain();
         let limited = chain.clone().with_max_pieces(chain.max_pieces().min(limit));
-        let asked = |chain| AskedOfChain { chain, observe, by, numbers };
+        let keys = &numbers.keys(&self.listing()?.events);
+        let may_end = system == Numbers::Exact;
+        let asked = |chain| AskedOfChain { chain, observe, by, numbers, keys, may_end };
         let digits = match system {
             Numbers::Certified(_) => {
                 let expected = "digits that need not be proved";
@@ -156,7 +174,7 @@ impl ChainHistory {
         };
         if !matches!(system, Numbers::Digits(_)) {
             match rates::in_fractions(&asked(&limited)) {
-                Ok(rows) => return Ok(self.printed_rows(rows)),
+                Ok(rows) => return Ok(self.printed_rows(rows, !numbers.is_at_times())),
                 Err(error) if system == Numbers::Exact => return Err(error),
                 Err(Error::Problem(error)) => return Err(Error::Problem(error)),
                 Err(Error::Interrupted) => return Err(Error::Interrupted),
@@ -165,10 +183,11 @@ impl ChainHistory {
         }
         let rows = differences::of(&asked(chain), digits.ceil() as u32)?;
         self.note_estimates(by);
-        Ok(self.printed_rows(rows))
+        Ok(self.printed_rows(rows, !numbers.is_at_times()))
     }
 
-    fn printed_rows<S: Into<Value>>(&self, rows: Derivatives<S>) -> Derivatives<Value> {
+    fn printed_rows<S: Into<Value>>(&self, rows: Derivatives<S>, is_list: bool) -> Derivatives<Value> {
+        let rows = if is_list { of_same_events(rows) } else { rows };
         let printed = |found: super::Derivative<S>| found.map(|number| self.printed(number.into()));
         rows.into_iter().map(|row| row.into_iter().map(|found| found.map(printed)).collect()).collect()
     }

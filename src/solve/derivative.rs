@@ -76,6 +76,27 @@ pub(super) fn of_each<S, T>(rows: &Rows<S>, mut f: impl FnMut((usize, usize), &S
         .collect()
 }
 
+/// Removes the derivatives of rows of events or contacts on sides where the time, which comes first, has none: another
+/// event is in that place there.
+pub(super) fn of_same_events<S>(rows: Derivatives<S>) -> Derivatives<S> {
+    let row = |row: Vec<Option<Derivative<S>>>| {
+        let time = row.first().and_then(Option::as_ref);
+        let other: [Option<NoDerivative>; 2] = time
+            .map_or([None; 2], |time| time.sides().map(|side| side.err().filter(|why| *why != NoDerivative::Infinite)));
+        let limited = |derivative: Derivative<S>| match (other, derivative) {
+            ([None, None], derivative) => derivative,
+            ([left, right], Derivative::Sides { left: own_left, right: own_right }) => {
+                Derivative::Sides { left: left.map_or(own_left, Err), right: right.map_or(own_right, Err) }
+            }
+            ([Some(left), Some(right)], Derivative::One(_)) => Derivative::Sides { left: Err(left), right: Err(right) },
+            ([None, Some(right)], Derivative::One(own)) => Derivative::Sides { left: Ok(own), right: Err(right) },
+            ([Some(left), None], Derivative::One(own)) => Derivative::Sides { left: Err(left), right: Ok(own) },
+        };
+        row.into_iter().map(|cell| cell.map(limited)).collect()
+    };
+    rows.into_iter().map(row).collect()
+}
+
 pub(super) fn at<S>(rows: &Rows<S>, (row, column): (usize, usize)) -> Option<&S> {
     rows.get(row)?.get(column)?.as_ref()
 }
@@ -103,7 +124,14 @@ pub(super) trait Varying: Sized + Sync {
     fn scale_of_zero(&self, by: Parameter) -> Number;
     /// Returns the power of the value that [`Varying::moved`] moves.
     fn power(&self, by: Parameter) -> i64;
+    /// Returns the decimal exponent of the first step of a value of zero, if it must not be that of the digits.
+    fn first_exponent(&self, _: Parameter) -> Option<u32> {
+        None
+    }
 }
+
+/// Decimal exponent of the first step of a gravity of zero: a gravity this weak, squared, still brings a rod down.
+const WEAKEST: u32 = 6;
 
 impl Varying for Problem {
     fn value_in<S: Scalar>(&self, by: Parameter, precision: &S::Precision) -> Result<S, Error> {
@@ -121,6 +149,9 @@ impl Varying for Problem {
     fn power(&self, by: Parameter) -> i64 {
         by.power(self)
     }
+    fn first_exponent(&self, by: Parameter) -> Option<u32> {
+        Some(WEAKEST).filter(|_| by == Parameter::Gravity)
+    }
 }
 
 /// A request for derivatives of numbers of a problem or a chain.
@@ -137,8 +168,8 @@ pub(super) trait Request: Sync {
     fn long_rows(&self, of: &Self::Of, exponent: u32) -> Result<(Rows<Estimate<Float>>, Vec<f64>), Error>;
     /// Returns the numbers in fractions.
     fn exact_rows(&self) -> Result<Rows<Rational>, Error>;
-    /// Returns the numbers in fractions with their rates, for a growing value or, with the sign −1, a shrinking one; and
-    /// whether first order settles them.
+    /// Returns the numbers in fractions with their rates, for a growing value or, with the sign −1, a shrinking one;
+    /// and whether first order settles them.
     fn rated_rows(&self, value: &Rational, sign: i64) -> Result<(Rows<Dual<Rational>>, bool), Error>;
 }
 

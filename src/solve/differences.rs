@@ -11,7 +11,6 @@
 use super::derivative::{Derivative, Derivatives, NoDerivative, Request, Rows, Varying, at, of_each};
 use crate::error::Error;
 use crate::number::{Bounded, Estimate, Float, Number, Scalar, bits_for_digits};
-use crate::problem::Parameter;
 use crate::threads::Threads;
 
 type Long = Estimate<Float>;
@@ -23,8 +22,6 @@ const MOST_DIGITS: u32 = 60;
 const LEVELS: u32 = 3;
 /// Bits of a quotient beyond the digits of the numbers.
 const SPARE_BITS: u32 = 32;
-/// Decimal exponent of the first step of a gravity of zero: a gravity this weak, squared, still brings the rod down.
-const WEAKEST: u32 = 6;
 /// Digits of a step beyond the requested ones: the loss by second derivatives in a quotient that one level settles. A
 /// greater loss costs another run.
 const CURVATURE: u32 = 4;
@@ -35,19 +32,26 @@ pub(super) fn of(asked: &impl Request, digits: u32) -> Result<Derivatives<Long>,
         return Err(Error::Digits { found: digits, most: MOST_DIGITS });
     }
     let zero = asked.of().value_in::<f64>(asked.by(), &())? == 0.0;
-    let first = if zero && asked.by() == Parameter::Gravity { WEAKEST } else { digits + CURVATURE };
+    let first = if zero { asked.of().first_exponent(asked.by()) } else { None }.unwrap_or(digits + CURVATURE);
     let wanted = part(first - CURVATURE.min(first / 2));
     let mut before = None;
     let mut level = Level::of(asked, first, zero)?;
+    let mut found: Rows<Option<Derivative<Long>>> = Vec::new();
     for doublings in 1.. {
-        let (found, settled) = level.derivatives(before.as_ref(), wanted);
-        if settled || doublings == LEVELS {
-            return Ok(found);
+        // A derivative that a level settles stays: shorter steps pass by thresholds that count as met.
+        found = of_each(&level.base, |place, number| {
+            let kept = at(&found, place).cloned().flatten();
+            kept.or_else(|| level.derivative(place, number, before.as_ref(), wanted))
+        });
+        if doublings == LEVELS || found.iter().flatten().flatten().all(Option::is_some) {
+            break;
         }
         let finer = Level::of(asked, first << doublings, zero)?;
         before = Some(std::mem::replace(&mut level, finer));
     }
-    Ok(Vec::new())
+    let why = NoDerivative::Unsettled;
+    let settled = |found: Option<Derivative<Long>>| found.unwrap_or(sides(Err(why), Err(why)));
+    Ok(found.into_iter().map(|row| row.into_iter().map(|cell| cell.map(settled)).collect()).collect())
 }
 
 /// Returns `10^−exponent`.
@@ -106,19 +110,17 @@ impl Level {
         Some([left.map(|left| left.map(|rise| -rise.halved())), right])
     }
 
-    /// Computes the derivatives from these runs and those with a greater step; also returns whether all are settled.
-    fn derivatives(&self, before: Option<&Level>, wanted: f64) -> (Derivatives<Long>, bool) {
-        let mut settled = true;
-        let found = of_each(&self.base, |place, number| {
-            let natural = size(number).max(self.scales[place.1]);
-            let judge = Judge { wanted, natural: natural / size(&self.step) * self.part, step: self.part };
-            let before = before.and_then(|before| before.quotients(place));
-            let found = self.quotients(place).and_then(|now| judge.derivative(now, before));
-            settled &= found.is_some();
-            let why = NoDerivative::Unsettled;
-            found.unwrap_or(Derivative::Sides { left: Err(why), right: Err(why) })
-        });
-        (found, settled)
+    /// Computes a derivative from these runs and those with a greater step; `None` if they do not settle it.
+    fn derivative(
+        &self,
+        place: (usize, usize),
+        number: &Long,
+        before: Option<&Level>,
+        wanted: f64,
+    ) -> Option<Derivative<Long>> {
+        let natural = size(number).max(self.scales[place.1]);
+        let judge = Judge { wanted, natural: natural / size(&self.step) * self.part, step: self.part };
+        judge.derivative(self.quotients(place)?, before.and_then(|before| before.quotients(place)))
     }
 }
 

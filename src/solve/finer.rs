@@ -21,8 +21,8 @@ const MORE_DIGITS: u32 = 17;
 
 /// Digits of a proved run for answers in doubles.
 const PROVED_DIGITS: u32 = 17;
-/// Digits of numbers that the shortest enclosures hold: a time within some of their roundings of a ray counts as that of
-/// the ray.
+/// Digits of numbers that the shortest enclosures hold: a time within some of their roundings of a ray counts as that
+/// of the ray.
 const ENCLOSED_DIGITS: u32 = 28;
 
 /// A run that is kept with its digits; `None` if it failed.
@@ -40,15 +40,19 @@ pub(super) struct Finer {
 
 /// Returns the greatest number of digits in `places` that the numbers of `plan` do not hold; `None` if they hold all.
 pub(super) fn digits_beyond(plan: &Plan, places: &[&Places<'_>]) -> Option<u32> {
-    let held = |number: &&Number| match plan.numbers {
+    let longer = places.iter().flat_map(|places| places.spelled()).filter(|number| !is_held(plan, number));
+    longer.map(Number::written_digits).max().filter(|_| plan.may_climb())
+}
+
+/// Returns whether the numbers of `plan` hold a number.
+pub(super) fn is_held(plan: &Plan, number: &Number) -> bool {
+    match plan.numbers {
         Numbers::Double(_) => Estimate::<f64>::spelling(number, &()).spelled_as() != Some(Spelling::Near),
         Numbers::Digits(digits) => number.written_digits() <= digits,
         Numbers::Certified(digits) => plan.engine != Engine::Cells || is_enclosed(number.written_digits(), digits),
         // Fractions hold every number.
         Numbers::Exact | Numbers::ExactThenDigits(_) => true,
-    };
-    let longer = places.iter().flat_map(|places| places.spelled()).filter(|number| !held(number));
-    longer.map(Number::written_digits).max().filter(|_| plan.may_climb())
+    }
 }
 
 /// Returns whether enclosures to `digits` digits hold a number of `written` digits.

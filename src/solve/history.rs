@@ -1,7 +1,7 @@
 //! The answer in `Value`s, for every number system.
 
 use super::derivative::{Derivative, Derivatives};
-use super::finer::{Finer, digits_beyond};
+use super::finer::{Finer, digits_beyond, is_held};
 use super::ladder::Target;
 use super::places::Places;
 use super::plan::{LONG, Plan};
@@ -301,14 +301,35 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed_at!(self, [times], history => {
-            let columns = history.ask_columns_in(&self.units, quantities, side, |motion| times.lift(motion))?;
-            let column = |(quantity, column): (&Quantity, Vec<_>)| {
-                let unit = quantity.unit(&self.units);
-                column.into_iter().map(|x| self.printed(x, unit)).collect()
-            };
-            Ok(quantities.iter().zip(columns).map(column).collect())
+        self.in_parts(times, |times| {
+            typed_at!(self, [times], history => {
+                let columns = history.ask_columns_in(&self.units, quantities, side, |motion| times.lift(motion))?;
+                let column = |(quantity, column): (&Quantity, Vec<_>)| {
+                    let unit = quantity.unit(&self.units);
+                    column.into_iter().map(|x| self.printed(x, unit)).collect()
+                };
+                Ok(quantities.iter().zip(columns).map(column).collect())
+            })
         })
+    }
+
+    /// Asks about times that the numbers of the history hold and about longer ones apart, so that only these take
+    /// longer runs, and returns the columns of all.
+    fn in_parts(
+        &self,
+        times: &Places<'_>,
+        ask: impl Fn(&Places<'_>) -> Result<Vec<Vec<Value>>, Error>,
+    ) -> Result<Vec<Vec<Value>>, Error> {
+        let mut columns: Vec<Vec<Value>> = Vec::new();
+        for part in times.parted(|number| is_held(self.plan(), number)) {
+            let found = ask(&part)?;
+            if columns.is_empty() {
+                columns = found;
+            } else {
+                columns.iter_mut().zip(found).for_each(|(column, found)| column.extend(found));
+            }
+        }
+        Ok(columns)
     }
 
     /// Returns `t`, `side`, `x`, `u`, `v`, `strain` (see [`SLICE`]) on the grid `points` at every time of `times`,
@@ -337,7 +358,7 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
-        typed_at!(self, [points, times], history => {
+        self.in_parts(times, |times| typed_at!(self, [points, times], history => {
             let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
             let scales = history.carried_scales();
             let column = |quantity: &Quantity| {
@@ -345,7 +366,7 @@ impl History {
                 columns[place].iter().map(|x| self.quantity(*quantity, x.clone(), &scales)).collect()
             };
             Ok(quantities.iter().map(column).collect())
-        })
+        }))
     }
 
     /// Returns `u`, `v`, `strain` at pairs of a point and a time, column by column.

@@ -40,6 +40,22 @@ impl Places<'_> {
         }
     }
 
+    /// Returns the places in parts, in order: numbers that a person wrote and that `is_held` accepts, and others.
+    pub(super) fn parted(&self, is_held: impl Fn(&Number) -> bool) -> Vec<Places<'_>> {
+        let (spelled, Places::Part(list, part)) = (self.spelled(), self) else { return vec![self.clone()] };
+        if spelled.is_empty() {
+            return vec![self.clone()];
+        }
+        let held: Vec<bool> = spelled.iter().map(is_held).collect();
+        let mut begin = part.start;
+        let parts = held.chunk_by(|a, b| a == b).map(|chunk| {
+            let range = begin..begin + chunk.len();
+            begin = range.end;
+            Places::Part(list, range)
+        });
+        parts.collect()
+    }
+
     pub(super) fn lift<S: Scalar>(&self, motion: &dyn Motion<S>) -> Result<Vec<S>, Error> {
         let end = motion.end();
         let precision = end.precision();

@@ -1,6 +1,6 @@
 //! Derivatives of the numbers of a history with respect to a value of its problem.
 
-use super::derivative::{Asked, At, Computed, Derivatives};
+use super::derivative::{Asked, At, Computed, Derivatives, of_same_events};
 use super::ladder::Target;
 use super::plan::Plan;
 use super::question::Question;
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::motion::Side;
 use crate::number::Number;
 use crate::problem::Parameter;
-use crate::quantity::Quantity;
+use crate::quantity::{Measure, Quantity};
 use crate::threads::locked;
 
 impl<S: Target> TypedHistory<S> {
@@ -97,7 +97,10 @@ impl<S: Target> TypedHistory<S> {
         if is_estimated && !estimated.contains(&asked.by) {
             estimated.push(asked.by);
         }
-        Ok(rows)
+        // A list of events, contacts or flights begins with a time.
+        let is_list =
+            asked.at.is_none() && asked.quantities.first().and_then(|first| first.measure()) == Some(Measure::Time);
+        Ok(if is_list { of_same_events(rows) } else { rows })
     }
 
     fn asked<'a>(&'a self, by: Parameter, quantities: &'a [Quantity]) -> Asked<'a> {

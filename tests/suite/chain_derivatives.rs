@@ -4,7 +4,7 @@ use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainNumbers, End
 use dalembert::number::{Scalar, Value};
 use dalembert::reason::Warning;
 use dalembert::solve::NoDerivative;
-use dalembert::{Derivative, Error, Number, Numbers, Parameter, Side};
+use dalembert::{ChainScene, Derivative, Error, EventKind, Number, Numbers, Parameter, Side};
 
 use crate::random_chain::Random;
 
@@ -125,8 +125,9 @@ fn rates_of_random_chains_are_those_of_difference_quotients() {
                 let moved = number(&(value.clone() + step).to_string());
                 let Ok(moved) = chain.with_value(parameter, moved) else { continue };
                 let Ok(moved) = moved.solve(Numbers::Exact) else { continue };
-                let there = values(&moved, numbers);
-                for (k, (row, others)) in values(&history, numbers).iter().zip(&there).enumerate() {
+                let (own, there) = (keyed(&history, numbers), keyed(&moved, numbers));
+                for (k, (key, row)) in own.iter().enumerate() {
+                    let Some((_, others)) = there.iter().find(|(other, _)| other == key) else { continue };
                     for (j, pair) in row.iter().zip(others).enumerate() {
                         let (Some(here), Some(there)) = pair else { continue };
                         let derivative = found[k][j].as_ref().unwrap();
@@ -146,6 +147,23 @@ fn rates_of_random_chains_are_those_of_difference_quotients() {
         }
     }
     assert!(compared > 5000 && sided > 10, "compared {compared}, with sides {sided}");
+}
+
+/// Node, kind and place of the event of a row, or its place alone.
+type Key = (usize, String, usize);
+
+/// Returns the numbers by the queries of a history, each row with its key.
+fn keyed(history: &ChainHistory, numbers: ChainNumbers<'_>) -> Vec<(Key, Vec<Option<Value>>)> {
+    let listing = history.listing().unwrap();
+    let owners: Vec<(usize, String)> = match numbers {
+        ChainNumbers::Events => listing.events.iter().map(|event| (event.node, event.kind.to_string())).collect(),
+        ChainNumbers::Contacts => listing.contacts.iter().map(|contact| (contact.node, String::new())).collect(),
+        ChainNumbers::Columns { times, .. } => (0..times.len()).map(|row| (row, String::new())).collect(),
+        ChainNumbers::Fields { .. } => Vec::new(),
+    };
+    let place = |k: usize| owners[..k].iter().filter(|owner| **owner == owners[k]).count();
+    let keys = (0..owners.len()).map(|k| (owners[k].0, owners[k].1.clone(), place(k)));
+    keys.zip(values(history, numbers)).collect()
 }
 
 /// Returns the numbers by the queries of a history.
@@ -171,5 +189,63 @@ fn values(history: &ChainHistory, numbers: ChainNumbers<'_>) -> Vec<Vec<Option<V
             times.iter().map(row).collect()
         }
         ChainNumbers::Fields { .. } => Vec::new(),
+    }
+}
+
+fn solved(name: &str, numbers: Numbers) -> ChainHistory {
+    let scene = dalembert::builtin::CHAINS.iter().find(|scene| scene.name == name).unwrap();
+    ChainScene::parse(scene.source).unwrap().chain.solve(numbers).unwrap()
+}
+
+fn times(history: &ChainHistory, parameter: &str) -> Vec<[Result<f64, NoDerivative>; 2]> {
+    let rows = history.derivatives(parameter.parse().unwrap(), ChainNumbers::Events).unwrap();
+    rows.iter().map(|row| row[0].as_ref().unwrap().sides().map(|side| side.map(Value::to_f64))).collect()
+}
+
+/// **Source**: a bar at 100 m/s strikes another over a gap of 0.02, and a third that comes from the other side at
+/// −100 m/s strikes it at the same time; each joint closes at gap/v of its own bar, v = 100, and opens 2L/c later.
+#[test]
+fn simultaneous_events_have_the_derivatives_of_their_own_joints() {
+    let history = solved("schwarz-three-bars", Numbers::Exact);
+    let found = times(&history, "body.1.velocity");
+    let listing = history.listing().unwrap();
+    for (event, sides) in listing.events.iter().zip(&found) {
+        let expected = match (event.node, event.kind) {
+            (1, EventKind::Impact) => -0.02 / 100.0f64.powi(2),
+            (2, EventKind::Impact) => 0.0,
+            _ => continue,
+        };
+        assert_eq!(*sides, [Ok(expected); 2], "{} of joint {}", event.kind, event.node);
+    }
+}
+
+/// **Source**: bars that touch at the start and close at v = 1/5 close later by gap/v.
+#[test]
+fn a_gap_that_opens_between_touching_bars_delays_all_events() {
+    for numbers in [Numbers::Exact, Numbers::default(), Numbers::ExactThenDigits(30), Numbers::Digits(30)] {
+        let found = times(&solved("cirak-west", numbers), "joint.1.gap");
+        assert_eq!(found.len(), 2);
+        for side in found.concat() {
+            assert!((side.unwrap() - 5.0).abs() < 1e-9, "{side:?} in {numbers}");
+        }
+    }
+}
+
+/// **Source**: a difference quotient of two runs to 45 digits with g = 1e-20 and without.
+#[test]
+fn a_gravity_of_zero_has_derivatives_to_all_digits() {
+    let chain = |gravity: &str| {
+        let history = solved("saint-venant-mass", Numbers::default());
+        history.chain().with_values([(Parameter::Gravity, number(gravity))]).unwrap()
+    };
+    let last = |gravity: &str| {
+        let history = chain(gravity).solve(Numbers::Digits(45)).unwrap();
+        let t = history.listing().unwrap().events[2].t.to_string();
+        number(&t).to_rational()
+    };
+    let expected = Scalar::to_f64(&((last("1e-20") - last("0")) / number("1e-20").to_rational()));
+    for numbers in [Numbers::default(), Numbers::Digits(20)] {
+        let found = times(&solved("saint-venant-mass", numbers), "gravity")[2];
+        assert!((found[1].unwrap() - expected).abs() < 1e-8, "{found:?} for {expected} in {numbers}");
     }
 }

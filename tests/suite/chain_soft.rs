@@ -469,8 +469,8 @@ fn energy_is_conserved() {
     }
 }
 
-/// Signals that rise from zero: a front behind a spring, and a load on a mass that touches its spring. The exact numbers
-/// are within the bounds, and fall through zero at the front.
+/// Signals that rise from zero: a front behind a spring, and a load on a mass that touches its spring. The exact
+/// numbers are within the bounds, and fall through zero at the front.
 #[test]
 fn a_contact_that_closes_without_speed_is_within_its_bounds() {
     fn run<N: Bounded>(chain: &Chain, precision: &N::Precision) -> ChainRun<N> {

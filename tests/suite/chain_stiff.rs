@@ -140,8 +140,8 @@ fn waves_shorter_than_a_rounding_of_their_time_are_not_lost() {
     }
 }
 
-/// A load that rises and falls within a rounding of its time is a doubt of doubles beside a mass: what happens meanwhile
-/// is not known. The same load over a longer time is none.
+/// A load that rises and falls within a rounding of its time is a doubt of doubles beside a mass: what happens
+/// meanwhile is not known. The same load over a longer time is none.
 #[test]
 fn a_load_that_rises_and_falls_within_a_rounding_is_a_doubt() {
     let doubt = |middle: &str, last: &str| {

@@ -109,7 +109,8 @@ fn a_stack_that_touches_its_springs_is_loaded_at_once() {
     }
 }
 
-/// Bodies that fly together at a velocity that no double holds: nothing happens before they land, and their energy stays.
+/// Bodies that fly together at a velocity that no double holds: nothing happens before they land, and their energy
+/// stays.
 #[test]
 fn bodies_that_fly_together_do_not_touch_each_other() {
     let bar = Body::new(1.into(), 1.into(), 1.into()).with_velocity(number("-1/3"));
@@ -255,8 +256,8 @@ fn contacts_at_rest_are_decided_by_breaks_that_leave_zero() {
     }
 }
 
-/// A bar and a mass that lies on it fall at −1 together, so that nothing acts between them until the bar hits the ground
-/// at 1/3: its end has −1 before and 0 after that, although no enclosure tells the event from 1/3.
+/// A bar and a mass that lies on it fall at −1 together, so that nothing acts between them until the bar hits the
+/// ground at 1/3: its end has −1 before and 0 after that, although no enclosure tells the event from 1/3.
 #[test]
 fn both_limits_at_an_event_are_told() {
     let text = "body = [{ length = 1, wave_speed = 1, impedance = 1, velocity = -1 },\n\
@@ -277,8 +278,9 @@ fn both_limits_at_an_event_are_told() {
     }
 }
 
-/// A damped stop comes back just before a front pushes it again, and closes just after it: the gap at the front is 1.2e-5,
-/// known within 1.2e-4. Doubles do not tell this from a stop that is still behind, which closes at the front, and say so.
+/// A damped stop comes back just before a front pushes it again, and closes just after it: the gap at the front is
+/// 1.2e-5, known within 1.2e-4. Doubles do not tell this from a stop that is still behind, which closes at the front,
+/// and say so.
 #[test]
 fn a_stop_that_has_just_come_back_closes_after_the_front() {
     let text = "body = [{ length = 1, wave_speed = '5/3', impedance = 1, velocity = -0.5 },\n\

@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::failure::Failure;
+use crate::source::nearest;
 use dalembert::Scene;
 use dalembert::chain::ChainQuantity;
 use dalembert::quantity::{Needs, Quantity, Units};
@@ -24,6 +25,14 @@ pub(crate) enum Scope {
 pub(crate) fn is_of_chain(name: &str) -> bool {
     let is_of_rod = || Needs::Time.named(name).is_some();
     name.contains('.') || (name.parse::<ChainQuantity>().is_ok() && !is_of_rod())
+}
+
+/// Builds the failure for a name that is no quantity of a `place`.
+pub(crate) fn unknown(name: &str, place: &str, known: &[impl AsRef<str>]) -> Failure {
+    let known: Vec<&str> = known.iter().map(AsRef::as_ref).collect();
+    let near = nearest(name, known.iter().copied());
+    let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+    failure!("found the quantity {name}{place}, expected one of {}{near}", known.join(", "))
 }
 
 /// Returns whether stresses and forces of a scene have units.
@@ -73,8 +82,7 @@ impl Scope {
             if found.is_empty() {
                 let groups = self.groups().map(|(name, _)| name);
                 let known: Vec<_> = groups.chain(self.quantities().into_iter().map(Quantity::name)).collect();
-                let place = if self == Scope::AlongRod { " along the rod" } else { "" };
-                return Err(failure!("found the quantity {name}{place}, expected some of {}", known.join(", ")));
+                return Err(unknown(name, if self == Scope::AlongRod { " along the rod" } else { "" }, &known));
             }
             if let Some(twice) = found.iter().find(|quantity| all.contains(quantity)) {
                 return Err(failure!("found --quantity {} twice, expected each once", twice.name()));
@@ -101,8 +109,8 @@ impl Scope {
 #[derive(Clone)]
 pub(crate) struct NameParser {
     values: Vec<PossibleValue>,
-    /// Whether names of quantities of a chain, such as `u_top.2` and `gap`, are accepted as they are.
-    with_places: bool,
+    /// Whether every name is accepted: the scene tells which it has, such as `u_top.2` and `gap` of a chain.
+    is_open: bool,
 }
 
 impl NameParser {
@@ -114,12 +122,12 @@ impl NameParser {
                 values.push(value);
             }
         }
-        NameParser { values, with_places: false }
+        NameParser { values, is_open: false }
     }
 
-    /// Returns a parser that also accepts names of quantities of a chain, which the chain resolves.
-    pub(crate) fn with_places(self) -> Self {
-        NameParser { with_places: true, ..self }
+    /// Returns a parser that accepts every name, which the scene resolves.
+    pub(crate) fn open(self) -> Self {
+        NameParser { is_open: true, ..self }
     }
 }
 
@@ -133,7 +141,7 @@ impl TypedValueParser for NameParser {
         value: &OsStr,
     ) -> Result<String, clap::Error> {
         let trimmed = value.to_str().map_or(value, |text| OsStr::new(text.trim()));
-        if let Some(name) = trimmed.to_str().filter(|name| self.with_places && is_of_chain(name)) {
+        if let Some(name) = trimmed.to_str().filter(|_| self.is_open) {
             return Ok(name.into());
         }
         PossibleValuesParser::new(self.values.clone()).parse_ref(command, argument, trimmed)

@@ -57,8 +57,8 @@ impl<'a> Bar<'a> {
         source.head.names.iter().filter(is_of_none).map(String::as_str).collect()
     }
 
-    /// Returns the columns of quantities without the number of a body or the name of a joint, which may belong to any of
-    /// several bars.
+    /// Returns the columns of quantities without the number of a body or the name of a joint, which may belong to any
+    /// of several bars.
     pub fn of_any(source: &Source) -> Vec<&str> {
         let is_of_any = |name: &&String| compared(name_and_unit(name).0, false).is_some();
         source.head.names.iter().filter(is_of_any).map(String::as_str).collect()

@@ -84,8 +84,8 @@ pub(super) const LEFT_BY_DAMPING: f64 = 4e-3;
 const SOFT_MESH: f64 = 0.05;
 /// Number of steps in time within which samples show no front: schemes spread a jump over as many.
 const BLURRED: f64 = 2.0;
-/// Largest share of ‖e‖₂² that a value of the scene leaves where it explains the data by itself. The trapezoidal rule, by
-/// which columns are integrated, leaves about as much; the errors of a scheme leave more.
+/// Largest share of ‖e‖₂² that a value of the scene leaves where it explains the data by itself. The trapezoidal rule,
+/// by which columns are integrated, leaves about as much; the errors of a scheme leave more.
 const EXPLAINED: f64 = 4e-4;
 /// Share of a value below which the text of a hint shows none.
 const LEAST_VALUE: f64 = 5e-5;

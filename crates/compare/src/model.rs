@@ -204,8 +204,8 @@ impl<'a> Model<'a> {
         Ok(history)
     }
 
-    /// Returns the values of each signal in `problem` at the times mapped by `at`, of a chain [`ASIDE`] of a step later.
-    /// Before `t = 0` the rod falls as a whole.
+    /// Returns the values of each signal in `problem` at the times mapped by `at`, of a chain [`ASIDE`] of a step
+    /// later. Before `t = 0` the rod falls as a whole.
     pub(super) fn values(&self, problem: &Problem, at: impl Fn(f64) -> f64) -> Result<Vec<Vec<f64>>, Error> {
         let aside = if problem.chain().is_some() { ASIDE * self.step } else { 0.0 };
         let times: Vec<f64> = self.times.iter().map(|time| at(*time) + aside).collect();
@@ -288,10 +288,10 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns each signal where the ground is a spring of stiffness `EA/softness`, or in a chain the contact at `node`, or
-    /// all rigid ones. Energies, which do not count after the start, are those of `exact`, the signals of the scene as it
-    /// is. `None` for a chain without rigid contacts, and where a rod by itself does not start with a uniform velocity,
-    /// bounces too long, or has a signal that the march does not record.
+    /// Returns each signal where the ground is a spring of stiffness `EA/softness`, or in a chain the contact at
+    /// `node`, or all rigid ones. Energies, which do not count after the start, are those of `exact`, the signals of
+    /// the scene as it is. `None` for a chain without rigid contacts, and where a rod by itself does not start with a
+    /// uniform velocity, bounces too long, or has a signal that the march does not record.
     pub(super) fn with_spring(&self, node: Option<usize>, softness: f64, exact: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         let Some((chain, _)) = self.problem.chain() else { return self.marched(softness, exact) };
         let nodes: Vec<usize> = node.map_or_else(|| chain.rigid_contacts().collect(), |node| vec![node]);

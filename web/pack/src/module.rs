@@ -1,5 +1,5 @@
-//! The module taken apart into streams of like bytes, which compress better by a ninth: the instructions, the indices of
-//! local variables, the offsets of loads, and so on. The function `joined` of the page puts it together again.
+//! The module taken apart into streams of like bytes, which compress better by a ninth: the instructions, the indices
+//! of local variables, the offsets of loads, and so on. The function `joined` of the page puts it together again.
 
 use anyhow::{Context, Result, bail, ensure};
 

@@ -8,7 +8,6 @@ use crate::output::{
     Cell, Column, Dataset, HistoryPart, SERIES, add_derivatives, derivative_table, json_bytes, rows_bytes, table_digits,
 };
 use crate::progress::Progress;
-use crate::source::nearest;
 use crate::terminal;
 use dalembert::chain::{ChainHistory, ChainListing, ChainNumbers, ForcePiece, ForeseenPieces};
 use dalembert::number::Value;
@@ -41,13 +40,6 @@ fn units_json(scene: &ChainScene) -> Json {
     let name = |measure: Measure| Some(scene.unit(measure)).filter(|name| !name.is_empty());
     let measures = [Time, Length, Velocity, Force, Impulse, Energy];
     measures.iter().map(|measure| (measure.name().to_string(), json!(name(*measure)))).collect::<Map<_, _>>().into()
-}
-
-/// Builds the failure for a name that is no quantity of a chain.
-pub(crate) fn unknown_quantity(name: &str, known: &[String]) -> Failure {
-    let near = nearest(name, known.iter().map(String::as_str));
-    let near = near.map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
-    failure!("found the quantity {name} of a chain, expected one of {}{near}", known.join(", "))
 }
 
 pub(super) fn digits(numbers: Numbers) -> u32 {
@@ -212,7 +204,7 @@ pub(super) fn solve(
         derivatives.iter().for_each(|found| add_derivatives(&mut data, CONTACT, (found.by, &found.contacts)));
         data
     };
-    let ending = listing.ending.at(&listing.end.to_string());
+    let ending = listing.ending.at(&listing.end.to_digits(table_digits(digits)));
     write_all(destinations, |format| match format {
         Format::Json => Ok(json_bytes(&json!({
             "schema": 1,

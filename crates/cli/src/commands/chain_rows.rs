@@ -1,11 +1,12 @@
 //! Rows of the columns of a chain over time, or at points of its bodies.
 
-use super::chain::{digits, note, unit_line, unknown_quantity, warnings};
+use super::chain::{digits, note, unit_line, warnings};
 use super::sample::SampleArgs;
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
-use crate::output::{Cell, Column, Header, Layout, RowWriter, derivative_rows, derivative_table};
+use crate::output::{Cell, Column, Header, Layout, RowWriter, derivative_rows, derivative_table, table_digits};
 use crate::progress::Progress;
+use crate::quantities::unknown;
 use dalembert::chain::{Body, Chain, ChainColumn, ChainHistory, ChainNumbers, ChainTime};
 use dalembert::number::{List, Scalar, Value};
 use dalembert::problem::Parameter;
@@ -166,7 +167,7 @@ impl ChainRows<'_> {
                 if !self.is_field() && !RowColumn::read(name, chain, true).is_empty() {
                     return Err(failure!("found the quantity {name} without points, expected --points with it"));
                 }
-                return Err(unknown_quantity(name, &self.known()));
+                return Err(unknown(name, " of a chain", &self.known()));
             }
             if let Some(twice) = found.iter().find(|column| columns.contains(column)) {
                 return Err(failure!("found --quantity {} twice, expected each once", twice.name(chain)));
@@ -337,7 +338,7 @@ impl ChainRows<'_> {
         let measures: Vec<Measure> = columns.all.iter().filter_map(|column| column.measure()).collect();
         let ends = match self.times {
             Some(_) => None,
-            None => Some(history.ending()?.at(&history.listing()?.end.to_string())),
+            None => Some(history.ending()?.at(&history.listing()?.end.to_digits(table_digits(digits(*numbers))))),
         };
         let last = latest.as_ref().unwrap_or(chain.until()).to_f64();
         let header = Header::of_chain((scene, last), *numbers, warnings(&history), ends);

@@ -3,12 +3,11 @@
 use clap::Args;
 use indicatif::ProgressBar;
 
-use super::chain::unknown_quantity;
 use crate::args::{SceneArgs, known_formats};
 use crate::failure::Failure;
 use crate::file::{self, Destination, ROWS, ROWS_OR_PICTURE, write_with_rows};
 use crate::output::{Dataset, cost_data, cost_svg, effects_data, rows_bytes};
-use crate::quantities::{NameParser, Scope, has_material, is_of_chain};
+use crate::quantities::{NameParser, Scope, has_material, is_of_chain, unknown};
 use crate::source::AnyScene;
 use crate::terminal;
 use dalembert::ChainScene;
@@ -28,8 +27,9 @@ pub(crate) struct Cost {
     #[command(flatten)]
     scene: SceneArgs,
     /// The quantity that every route computes, or a group, which stands for its first one; by default the bounce time,
-    /// or the last event of a scene with several impacts. Of a whole chain it has a place: release.1, force.top, u_top.2
-    #[arg(long, value_parser = NameParser::new(&[Scope::SingleNumber], []).with_places())]
+    /// or the last event of a scene with several impacts. Of a whole chain it has a place: release.1, force.top,
+    /// u_top.2
+    #[arg(long, value_parser = NameParser::new(&[Scope::SingleNumber], []).open())]
     quantity: Option<String>,
     /// The time of a quantity over time; by default three quarters of a round trip, or, if the quantity is zero then,
     /// the middle of the first contact or flight in which it is not; of a whole chain the end of the run
@@ -84,7 +84,7 @@ impl Cost {
         }
         let chain = &scene.chain;
         let read = |name: &String| {
-            ChainQuery::read(name, chain).ok_or_else(|| unknown_quantity(name, &ChainQuery::names(chain)))
+            ChainQuery::read(name, chain).ok_or_else(|| unknown(name, " of a chain", &ChainQuery::names(chain)))
         };
         let query = self.quantity.as_ref().map(read).transpose()?;
         let question = ChainQuestion::new(chain, query, self.time.clone())?;

@@ -59,10 +59,10 @@ pub(super) struct SampleArgs {
     scene: SceneArgs,
     /// Quantities and groups of them, separated by commas. Unless `t` is among them, `t` and `side` come first; a
     /// golden file has the columns as they are listed, by default all. Of a chain they are u_top.2 of the second body,
-    /// force.bottom, force.1 of the joint above the first body, force.top, and so on; `gap` stands for all gaps, `end.2`
-    /// for a group of one body, chain_energy and chain_momentum for sums over all bodies; by default all
+    /// force.bottom, force.1 of the joint above the first body, force.top, and so on; `gap` stands for all gaps,
+    /// `end.2` for a group of one body, chain_energy and chain_momentum for sums over all bodies; by default all
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',')]
-    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).with_places())]
+    #[arg(value_parser = NameParser::new(&[Scope::OverTime, Scope::AlongRod], []).open())]
     pub(super) quantity: Vec<String>,
     /// Times: numbers such as 0.3 or 1/3 separated by commas, or A..B:N for N times from A to B. The scene is followed
     /// to the last of them, whatever its own run says
@@ -158,9 +158,6 @@ impl SampleArgs {
         self.check_derivatives(&times, side)?;
         let question = match times.as_ref().map(|list| (list.least(), list.greatest())) {
             None => Question::run(numbers),
-            Some((Some(first), _)) if first.to_f64() < 0.0 => {
-                return Err(failure!("found time {first}, expected times from 0 on"));
-            }
             // The history before the first time is part of these.
             Some((Some(_), Some(last))) if quantities.iter().any(|quantity| quantity.is_of_past()) => {
                 Question::between(0.into(), last, numbers)
@@ -243,11 +240,15 @@ impl SampleArgs {
 
     /// Returns the requested times; `None` for the start, every impact and release, and the end.
     fn times(&self) -> Result<Option<List>, Failure> {
-        match (&self.times, &self.times_from, &self.dt, &self.to) {
-            (Some(list), ..) => Ok(Some(list.clone())),
-            (_, Some(path), ..) => read_times(path).map(Some),
-            (_, _, Some(dt), Some(to)) => Ok(Some(List::steps(dt, to)?)),
-            _ => Ok(None),
+        let times = match (&self.times, &self.times_from, &self.dt, &self.to) {
+            (Some(list), ..) => list.clone(),
+            (_, Some(path), ..) => read_times(path)?,
+            (_, _, Some(dt), Some(to)) => List::steps(dt, to)?,
+            _ => return Ok(None),
+        };
+        match times.least().filter(|first| first.to_f64() < 0.0) {
+            Some(first) => Err(failure!("found time {first}, expected times from 0 on")),
+            None => Ok(Some(times)),
         }
     }
 }

@@ -8,12 +8,11 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::json;
 
-use super::chain::unknown_quantity;
 use crate::args::{SceneArgs, in_threads, known_formats};
 use crate::failure::{self, Failure};
 use crate::file::{Format, write_all};
 use crate::output::{rows_bytes, sweep_data};
-use crate::quantities::{NameParser, Scope, has_material, is_of_chain};
+use crate::quantities::{NameParser, Scope, has_material, is_of_chain, unknown};
 use crate::source::AnyScene;
 use crate::sweep::{self, Axis, Grid, Journal, Point, Request, Subject, journal_path};
 use crate::terminal;
@@ -42,7 +41,7 @@ pub(crate) struct Sweep {
     /// the second body, force.bottom, and of the first contact of the joint above the first body impact.1, release.1,
     /// impulse.1, peak_force.1
     #[arg(long, visible_alias = "columns", value_name = "LIST", value_delimiter = ',', required = true)]
-    #[arg(value_parser = NameParser::new(&[Scope::SingleNumber], []).with_places())]
+    #[arg(value_parser = NameParser::new(&[Scope::SingleNumber], []).open())]
     quantity: Vec<String>,
     /// The time of quantities over time; by default the first bounce of a rod, the end of the run of a whole chain
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -147,7 +146,7 @@ impl Sweep {
         axes.iter().try_for_each(|axis| chain.number(axis.parameter).map(|_| ()))?;
         let read = |name: &String| {
             let query = ChainQuery::read(name, chain).map(|query| (name.clone(), query));
-            query.ok_or_else(|| unknown_quantity(name, &ChainQuery::names(chain)))
+            query.ok_or_else(|| unknown(name, " of a chain", &ChainQuery::names(chain)))
         };
         let quantities = self.quantity.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         sweep::check_time(&[], self.time.as_ref())?;

@@ -95,8 +95,8 @@ fn promise(numbers: Numbers, subject: &str) -> String {
 }
 
 impl Header {
-    /// Returns the header of an output of `history`, in which `subject` has a bound: `each column`; with `states_end` it
-    /// states why the history ends.
+    /// Returns the header of an output of `history`, in which `subject` has a bound: `each column`; with `states_end`
+    /// it states why the history ends.
     pub(crate) fn new(history: &History, info: RunInfo, scene: &str, subject: &str, states_end: bool) -> Self {
         // A double is stated with all its digits.
         let end = history.end().as_double().map_or_else(|| history.end(), |end| Estimate::exact(*end.value()).into());

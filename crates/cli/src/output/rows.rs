@@ -30,8 +30,8 @@ pub(crate) struct Layout {
 #[derive(Debug)]
 pub(crate) struct RowWriter {
     format: Format,
-    /// Whether a CSV has no comments above it. Without columns of bounds, digits beyond the bound are then left out, but
-    /// in keys.
+    /// Whether a CSV has no comments above it. Without columns of bounds, digits beyond the bound are then left out,
+    /// but in keys.
     bare: bool,
     /// Whether each column of numbers has one of their bounds beside it, rather than the greatest above the rows alone.
     with_bounds: bool,

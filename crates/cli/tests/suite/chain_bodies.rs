@@ -382,8 +382,8 @@ fn rates_after_an_event_are_those_after_its_break() {
     }
 }
 
-/// A displacement does not jump, and a velocity that jumps as a contact may close is that after the jump, within a bound
-/// that covers both limits where nothing tells the time from that of the impact.
+/// A displacement does not jump, and a velocity that jumps as a contact may close is that after the jump, within a
+/// bound that covers both limits where nothing tells the time from that of the impact.
 #[test]
 fn values_at_a_jump_that_is_not_told_cover_both_limits() {
     for numbers in ["", "--certified"] {

@@ -34,7 +34,7 @@ fn wrong_usage_is_refused() {
     refused(&sample("--times 1 --points 3/2"), &["found point 1.5, expected one between 0 and 1"]);
     refused(
         "sample paper-weak --quantity end --times 1 --points 0",
-        &["found the quantity end along the rod, expected some of field"],
+        &["found the quantity end along the rod, expected one of field"],
     );
     refused(&sample("--times 1..2"), &["A..B:N for N numbers from A to B"]);
     refused("sweep paper-weak --vary impact.speed=1..2 --quantity e_P", &["PATH=A..B:N for N values"]);
@@ -49,7 +49,7 @@ fn misspelt_names_get_suggestions() {
     refused("slove paper-weak", &["'solve'"]);
     refused("solve getfem-dynamic-contct", &["did you mean `getfem-dynamic-contact`?"]);
     refused("scenes getfem-dynamic-contct", &["did you mean `getfem-dynamic-contact`?"]);
-    refused("sample paper-weak --quantity u_ende", &["'u_end'"]);
+    refused("sample paper-weak --quantity u_ende", &["(did you mean u_end?)"]);
     refused("sweep paper-weak --vary impact.sped=1 --quantity e_P", &["did you mean impact_speed?"]);
     refused("check --only figur-4", &["did you mean `figure-4`?"]);
     refused("figures --only tenth-bonce -o figures", &["did you mean tenth-bounce?"]);

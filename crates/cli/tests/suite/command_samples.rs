@@ -55,7 +55,7 @@ fn samples() {
     refused("sample paper-strong --quantity end,top,u_end --times 1", &["--quantity u_end twice"]);
     refused(
         "sample paper-strong --quantity field,energy --times 1",
-        &["found the quantity energy along the rod, expected some of field"],
+        &["found the quantity energy along the rod, expected one of field"],
     );
 }
 

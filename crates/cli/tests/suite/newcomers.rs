@@ -250,7 +250,7 @@ fn early_times_need_no_long_run() {
     let sampled = run_with("sample - --times 1.5 --quantity force.1 --format csv --bare", BARS);
     assert_eq!(sampled.out, "t,side,force.1\n1.5,right,0.5\n");
     let early = "sample - --times -1 --quantity force.1";
-    refused_with(early, &BARS.replace("= 1000", "= 4"), &["found time -1.0, expected one between 0 and 4"]);
+    refused_with(early, &BARS.replace("= 1000", "= 4"), &["found time -1, expected times from 0 on"]);
     refused_with("solve -", BARS, &["passed 60 pieces"]);
     let soft = BARS.replace("gap = 1 }]", "gap = 1, joint = { stiffness = 9 } }]").replace("= 1000", "= 20");
     refused_with("solve -", &soft, &["passed 60 pieces"]);

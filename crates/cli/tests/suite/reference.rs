@@ -460,7 +460,7 @@ fn the_comments_of_a_csv() {
 fn what_cannot_be_is_refused() {
     let asked = |more: &str, said: &[&str]| refused(&format!("reference doyen-ern-piperno {more}"), said);
     asked("--columns t,x", &["found the quantity x without points"]);
-    asked("--columns t,w", &["[possible values: end, top, centre, energy, t, side, u_end"]);
+    asked("--columns t,w", &["found the quantity w, expected one of end, top, centre, energy, t, side, u_end"]);
     asked("--columns t,u_end,t --times 1", &["found --quantity t twice, expected each once"]);
     asked("--dt 0.1", &["--to <T>"]);
     asked("--dt 0 --to 1", &["expected a step above 0"]);

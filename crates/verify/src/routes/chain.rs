@@ -20,8 +20,8 @@ pub struct ChainQuestion {
 impl ChainQuestion {
     /// Builds the question for `query` at `time`.
     ///
-    /// The default quantity is the release of the first contact that ends or, without one, the displacement of the upper
-    /// end of the first body. The default time is the end of the run.
+    /// The default quantity is the release of the first contact that ends or, without one, the displacement of the
+    /// upper end of the first body. The default time is the end of the run.
     ///
     /// **Errors**: [`VerifyError::Time`] for a time below zero, or one for a quantity that has no time; those of the
     /// run.
