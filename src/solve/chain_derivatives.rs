@@ -160,7 +160,12 @@ impl ChainHistory {
         let limit = if doubles { EXACT_PIECES } else { usize::MAX };
         let chain = self.chain();
         let limited = chain.clone().with_max_pieces(chain.max_pieces().min(limit));
-        let keys = &numbers.keys(&self.listing()?.events);
+        let listing = self.listing()?;
+        // Fractions may end before the time asked for.
+        if let Some(time) = numbers.times().iter().find(|time| time.to_f64() > listing.end.to_f64()) {
+            return Err(Error::TimeOutside { found: time.to_string(), end: listing.end.to_string() });
+        }
+        let keys = &numbers.keys(&listing.events);
         let may_end = system == Numbers::Exact;
         let asked = |chain| AskedOfChain { chain, observe, by, numbers, keys, may_end };
         let digits = match system {

@@ -95,6 +95,19 @@ fn bad_requests_name_what_is_wrong() {
     assert!(matches!(fields(3, 1), Err(Error::PointOutside { .. })));
     assert!(matches!(fields(1, 7), Err(Error::TimeOutside { .. })));
     assert!(fields(1, 1).is_ok());
+    // Bars that fall to a stop land at 0.3…, which is no fraction: fractions have no derivatives after that.
+    let bar = Body::new(1.into(), 1.into(), 1.into());
+    let stop = End::Ground { gap: number("1/10"), velocity: Vec::new() };
+    let chain = Chain::builder(bar.clone()).bonded(bar).bottom(stop).gravity(2.into()).until(3.into()).build().unwrap();
+    let history = chain.solve(Numbers::Exact).unwrap();
+    let columns = [ChainColumn::read("h.1", &chain).unwrap()];
+    let at = |time: &str| {
+        let times = [number(time)];
+        let numbers = ChainNumbers::Columns { columns: &columns, times: &times, side: Side::Right };
+        history.derivatives("gravity".parse().unwrap(), numbers)
+    };
+    assert_eq!(at("1/5").unwrap()[0][0].as_ref().unwrap().value().unwrap().to_string(), "-1/50");
+    assert!(matches!(at("1"), Err(Error::TimeOutside { .. })));
 }
 
 /// The relative step of the quotients: second derivatives cost as much.
