@@ -10,6 +10,7 @@ use crate::file::{self, Destination, Format};
 use crate::source::{self, AnyScene};
 use dalembert::Scene;
 use dalembert::number::List;
+use dalembert::problem::Parameter;
 use dalembert::solve::{CERTIFIED_DIGITS, Numbers};
 
 /// Returns a parser of the words that name the variants of `T`, with their documentation as help.
@@ -173,5 +174,14 @@ impl OutputArgs {
     /// Returns whether any file is named.
     pub(crate) fn is_given(&self) -> bool {
         !self.output.is_empty()
+    }
+}
+
+/// Refuses a value by which derivatives are asked for twice.
+pub(crate) fn each_once(parameters: &[Parameter]) -> Result<(), Failure> {
+    let is_twice = |(k, by): &(usize, &Parameter)| parameters[..*k].contains(by);
+    match parameters.iter().enumerate().find(is_twice) {
+        Some((_, by)) => Err(failure!("found --derivatives {by} twice, expected each once")),
+        None => Ok(()),
     }
 }

@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::chain_rows::ChainRows;
 use crate::answer::{Answer, solve};
-use crate::args::{SceneArgs, known_formats, list, words};
+use crate::args::{SceneArgs, each_once, known_formats, list, words};
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format, write_all};
 use crate::output::{
@@ -169,12 +169,12 @@ impl SampleArgs {
         rows.write(solve(&scene, &question)?, &destinations)
     }
 
-    /// Refuses derivatives without times or with both limits.
+    /// Refuses derivatives without times or with both limits, and those by one value twice.
     fn check_derivatives(&self, times: &Option<List>, side: Option<Side>) -> Result<(), Failure> {
         if !self.derivatives.is_empty() && (times.is_none() || side.is_none() || self.field != Slice::Points) {
             return Err(failure!("found --derivatives, expected them with times, one side, and no --field"));
         }
-        Ok(())
+        each_once(&self.derivatives)
     }
 
     /// Returns whether the quantities are those of a rod, and not of the joints and bodies of a chain.

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::chain;
 use crate::answer::{Answer, note_end, solve};
-use crate::args::{SceneArgs, expecting, known_formats};
+use crate::args::{SceneArgs, each_once, expecting, known_formats};
 use crate::failure::Failure;
 use crate::file::{Destination, Format, ROWS, write_all};
 use crate::output::{HistoryPart, HistoryTables, LEGEND, RunInfo, STRAIGHT_ERROR, json_bytes, outline, rows_bytes};
@@ -58,6 +58,7 @@ pub(crate) struct Solve {
 impl Solve {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let destinations = self.scene.output.destinations_in(self.part.map(|_| Format::Csv), ROWS)?;
+        each_once(&self.derivatives)?;
         if self.part.is_some() && destinations.iter().any(|destination| destination.format != Format::Csv) {
             return Err(failure!(
                 "found --part, expected it with CSV only: JSON holds all parts, and a table all but the stress"

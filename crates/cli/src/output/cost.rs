@@ -68,9 +68,11 @@ pub(crate) fn cost_data(cost: &CostTable, title: Option<&str>) -> Dataset {
     let left_out = cost.left_out.iter().map(
         |item| json!({ "route": item.family.to_string(), "setting": item.setting, "because": item.why.to_string() }),
     );
-    let mut below = "\n\nerror: relative, against ".to_string();
+    // The error of a truth of zero is that of the number itself.
+    let scale = if cost.truth.to_f64() == 0.0 { "absolute" } else { "relative" };
+    let mut below = format!("\n\nerror: {scale}, against ");
     below += &match cost.truth.log10_half_width {
-        width if width == f64::NEG_INFINITY => "the exact fraction".into(),
+        width if width == f64::NEG_INFINITY => "the exact number".into(),
         width if cost.truth.proved => format!("a value that is proved to 1e{}", width.ceil()),
         width => format!("a value known to about 1e{}", width.ceil()),
     };

@@ -209,6 +209,8 @@ fn bodies_that_are_not_there_are_refused() {
         ),
         ("sweep openfoam-7-1-2 --vary gravity.acceleration=1 --quantity peak_force", "expected one of them"),
         ("solve openfoam-7-1-2 --derivatives length", "found the value rod.length"),
+        ("solve openfoam-7-1-2 --derivatives joint.1.gap,gravity,joint.1.gap", "found --derivatives joint.1.gap twice"),
+        ("sample paper-weak --times 1 --quantity h --derivatives gravity,gravity", "found --derivatives gravity twice"),
         ("solve openfoam-7-1-2 --derivatives body.3.length", "found the value body.3.length"),
         ("solve openfoam-7-1-2 --derivatives joint.1.gap --part forces", "expected them of events or contacts"),
         ("sample openfoam-7-1-2 --derivatives joint.1.gap --quantity force.1", "expected them with times"),

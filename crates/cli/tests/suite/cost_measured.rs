@@ -75,6 +75,9 @@ fn a_whole_chain_is_measured() {
         assert_eq!(setting("fractions").is_some(), fractions, "{args}");
         assert!(setting("50 digits").unwrap()["log10_error"].as_f64().is_none_or(|error| error < -50.0), "{found:#}");
     }
+    // A mass that has left the rod feels no force.
+    let table = run("cost saint-venant-mass-1 --quantity force.1 --seconds 0.3").text(0);
+    assert!(table.contains("force.1 at t = 12 = 0.0\n") && table.contains("\nerror: absolute, against"), "{table}");
     for (args, said) in [
         ("openfoam-7-1-2 --quantity force.9", "did you mean force.1?"),
         ("openfoam-7-1-2 --quantity release.1 --time 1", "release.1 is not asked at a time"),
