@@ -22,7 +22,8 @@ from ._solve import reference, solve, write_reference
 from ._sweep import Sweep, sweep
 
 __all__ = [
-    "Centre", "Chain", "ChainHistory", "Comparison", "Derivatives", "Energy", "Field", "GroundEnd", "History", "Problem", "Sweep", "TopEnd",
+    "Centre", "Chain", "ChainHistory", "Comparison",
+    "Derivatives", "Energy", "Field", "GroundEnd", "History", "Problem", "Sweep", "TopEnd",
     "compare", "reference", "scenes", "solve", "sweep", "write_reference",
 ]
 

@@ -162,7 +162,7 @@ class Chain(Frozen):
         question = (digits, exact, certified, accuracy)
         return ChainHistory(chain._compiled.solve(*question), chain, question)
 
-    def _text(self) -> str:
+    def _scene_text(self) -> str:
         if self._made[1]:
             raise ValueError("found a chain with other values, which no scene file has: expected that of its own file")
         return self._made[0]
@@ -271,7 +271,8 @@ class ChainHistory(Answers):
     def contacts(self) -> MaskedArray:
         """Contacts at joints and ends.
 
-        A structured array of ``impact``, ``release``, ``impulse``, ``peak_force``, ``peak_time`` and the ``node``.
+        A structured array of ``impact``, ``release``, ``impulse``, ``peak_force``, ``peak_time`` and the ``node``. The
+        force of a plateau has no time of its own: there the ``peak_time`` is masked.
         """
         return self._table("contacts")
 

@@ -120,7 +120,7 @@ def reference(
     # As texts: 0.7 is 7/10, and Fraction(0.7) is a little less, so that the last time would be beyond it.
     last = max(map(_time, objects(t).ravel().tolist()), default=Fraction(0))
     to = last if last > 0 else None
-    chain = _chain(scene)
+    chain = _whole_chain(scene)
     history: History | ChainHistory
     if chain is None:
         assert not isinstance(scene, Chain)
@@ -193,8 +193,8 @@ def write_reference(
         for name, value in options.items() if value is not None
     }  # fmt: skip
     flags = [flag for flag, is_set in (("--exact", exact), ("--certified", certified)) if is_set]
-    if (chain := _chain(scene)) is not None:
-        text = chain._text()
+    if (chain := _whole_chain(scene)) is not None:
+        text = chain._scene_text()
     else:
         assert not isinstance(scene, Chain)
         problem = Problem.from_scene(scene)
@@ -225,7 +225,7 @@ def _time(time: Any) -> Fraction:
         raise ValueError(f"found time {time}, expected a finite number") from None
 
 
-def _chain(scene: Scene | Chain) -> Chain | None:
+def _whole_chain(scene: Scene | Chain) -> Chain | None:
     """Return the chain of a scene with several bodies; None for a rod."""
     if isinstance(scene, Chain):
         return scene

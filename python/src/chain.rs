@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use dalembert::chain::{ChainColumn, ChainNumbers, ChainTime};
+use dalembert::chain::{ChainColumn, ChainContact, ChainEvent, ChainNumbers, ChainTime};
 use dalembert::quantity::{Measure, SLICE};
 use dalembert::{ChainScene, Error, Number, Numbers, Parameter, Side, UnknownName, Value};
 use pyo3::prelude::*;
@@ -139,10 +139,6 @@ pub(crate) struct ChainHistory {
     stop: Arc<AtomicBool>,
 }
 
-/// Names of the numbers of an event, and of those of a contact that have derivatives.
-const EVENT: [&str; 3] = ["t", "gap_rate_before", "gap_rate_after"];
-const CONTACT: [&str; 4] = ["impact", "release", "impulse", "peak_force"];
-
 impl ChainHistory {
     /// Returns the answer to `query`, without the interpreter's lock.
     fn ask<T: Send + 'static>(
@@ -213,25 +209,22 @@ impl ChainHistory {
             let node = |node: usize| chain.node_name(node);
             Ok(match table {
                 0 => {
-                    let row = |event: &dalembert::chain::ChainEvent<Value>| {
-                        [&event.t, &event.before, &event.after].map(|value| Some(value.clone())).into()
-                    };
+                    let row = |event: &ChainEvent<Value>| event.numbers().map(|value| Some(value.clone())).into();
                     let rows: Vec<Vec<_>> = listing.events.iter().map(row).collect();
                     let kinds = listing.events.iter().map(|event| event.kind.to_string()).collect();
                     let nodes = listing.events.iter().map(|event| node(event.node)).collect();
                     let words = vec![("node", nodes), ("kind", kinds)];
-                    ListedRows { words, numbers: listed(&EVENT, &rows, "", is_double) }
+                    ListedRows { words, numbers: listed(ChainNumbers::Events.names(), &rows, "", is_double) }
                 }
                 1 => {
-                    let row = |contact: &dalembert::chain::ChainContact<Value>| {
-                        let settled = |value: &Value| Some(value.clone()).filter(|_| listing.is_settled(contact));
-                        let [impulse, peak, time] = [&contact.impulse, &contact.peak, &contact.peak_time].map(settled);
-                        vec![Some(contact.impact.clone()), contact.release.clone(), impulse, peak, time]
+                    let row = |contact: &ChainContact<Value>| {
+                        let numbers = contact.numbers(&listing.ending).into_iter();
+                        numbers.chain([listing.peak_time(contact)]).map(Option::<&Value>::cloned).collect()
                     };
                     let rows: Vec<Vec<_>> = listing.contacts.iter().map(row).collect();
                     let nodes = listing.contacts.iter().map(|contact| node(contact.node)).collect();
-                    let names = [&CONTACT[..], &["peak_time"]].concat();
-                    let why = "the contact does not end within this history";
+                    let names = [ChainNumbers::Contacts.names(), &["peak_time"]].concat();
+                    let why = "the contact does not end within this history, or its peak is a plateau";
                     ListedRows { words: vec![("node", nodes)], numbers: listed(&names, &rows, why, is_double) }
                 }
                 _ => {
@@ -321,13 +314,9 @@ impl ChainHistory {
         table: &Bound<'_, PyAny>,
     ) -> PyResult<[Vec<Listed>; 2]> {
         let (by, is_double) = (parameter(by)?, self.is_double());
-        let is_events = one_of("table", table, &[("events", true), ("contacts", false)])?;
-        self.ask(py, move |history| {
-            Ok(match is_events {
-                true => sides(&history.derivatives(by, ChainNumbers::Events)?, &EVENT, is_double),
-                false => sides(&history.derivatives(by, ChainNumbers::Contacts)?, &CONTACT, is_double),
-            })
-        })
+        let lists = [("events", ChainNumbers::Events), ("contacts", ChainNumbers::Contacts)];
+        let numbers: ChainNumbers<'static> = one_of("table", table, &lists)?;
+        self.ask(py, move |history| Ok(sides(&history.derivatives(by, numbers)?, numbers.names(), is_double)))
     }
 
     /// Returns the derivatives of quantities at times.

@@ -5,6 +5,7 @@ use std::str::FromStr;
 use super::body::Body;
 use super::definition::Chain;
 use super::run::ChainContact;
+use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::quantity::Measure;
 
 /// Returns the index of the node with this name: `bottom`, the number of a joint, from 1, or `top`.
@@ -149,6 +150,18 @@ impl ChainColumn {
         let body = || place.parse::<usize>().ok().filter(|n| (1..=chain.bodies().len()).contains(n));
         let place = if quantity.is_of_node() { node(place, chain)? } else { body()? - 1 };
         Some(ChainColumn { quantity, place })
+    }
+
+    /// Refuses a column of a body or node that `chain` does not have.
+    pub(crate) fn check(self, chain: &Chain) -> Result<(), Error> {
+        match self.quantity.owner() {
+            Owner::Body => chain.check_body(self.place),
+            Owner::Node if self.place > chain.bodies().len() => {
+                let (found, most) = (format!("node {}", self.place), chain.bodies().len());
+                Err(ProblemError::new(Kind::OutOfRange, "", found, format!("one from 0 to {most}")).into())
+            }
+            Owner::Node | Owner::Chain => Ok(()),
+        }
     }
 
     /// Returns the columns that a name stands for: one of [`ChainColumn::read`], or those of a quantity or a group, as

@@ -1,7 +1,7 @@
 //! A chain of bodies in exact numbers, checked once.
 
 use super::body::{Body, BodyMaterial, Points, steepest};
-use crate::error::{ProblemError, ProblemErrorKind as Kind};
+use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::number::{Number, Rational, Scalar, short};
 use crate::reason::Warning;
 
@@ -198,6 +198,16 @@ impl Chain {
         let mut chain = self.clone();
         chain.bodies[body] = by;
         chain
+    }
+
+    /// Refuses the index of a body that there is not.
+    pub(crate) fn check_body(&self, body: usize) -> Result<(), Error> {
+        let count = self.bodies.len();
+        if body < count {
+            return Ok(());
+        }
+        let (found, expected) = (format!("body {} of {count}", body + 1), format!("a body from 1 to {count}"));
+        Err(ProblemError::new(Kind::OutOfRange, &format!("body[{body}]"), found, expected).into())
     }
 
     /// Returns the chain with another gravity, not checked.

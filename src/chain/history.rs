@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::answers::{Answers, ChainTime, run};
-use super::column::{ChainColumn, ChainContactQuantity};
+use super::column::{ChainColumn, ChainContactQuantity, ChainQuantity};
 use super::definition::Chain;
 use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainContact, ChainEvent, ForcePiece, Touch};
@@ -59,6 +59,8 @@ fn rows(side: Option<Side>, values: impl Fn(Side) -> Result<Vec<Value>, Error>) 
     Ok(vec![row(Side::Left, left), row(Side::Right, right)])
 }
 
+/// Relative bound of the time of a peak from which on the peak counts as a plateau.
+const PLATEAU: f64 = 0.01;
 /// Share of the natural scale from which on the size of a number decides whether its bound is small enough.
 const FAINT: f64 = 1e-6;
 /// Bits beyond those of the digits of a time, which tell it from an event beside it.
@@ -83,7 +85,15 @@ impl ChainListing {
 
     /// Returns whether impulse and peak of a contact are known: it ends, or it lasts to the time asked for.
     pub fn is_settled(&self, contact: &ChainContact<Value>) -> bool {
-        contact.release.is_some() || self.ending == Ending::Time
+        contact.is_settled(&self.ending)
+    }
+
+    /// Returns the first time of the greatest force of a contact; `None` where its peak is not known, and where the
+    /// force is the same over a plateau, which has no time of its own.
+    pub fn peak_time<'a>(&self, contact: &'a ChainContact<Value>) -> Option<&'a Value> {
+        let time = &contact.peak_time;
+        let is_told = time.bound().to_f64() <= PLATEAU * time.to_f64().abs();
+        Some(time).filter(|_| is_told && self.is_settled(contact))
     }
 
     /// Returns the numbers whose bounds decide whether longer numbers are taken. The time of a flat peak is known to
@@ -281,7 +291,7 @@ impl ChainHistory {
     /// Returns the value of a column at a time; at a jump, the limit from `side`. If no attempt tells the time from
     /// that of a jump, the bound covers both limits.
     ///
-    /// **Errors**: [`Error::TimeOutside`].
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::Problem`] for a column of another chain.
     pub fn value(&self, column: ChainColumn, time: &Number, side: Side) -> Result<Value, Error> {
         self.value_at(column, ChainTime::Spelled(time), side)
     }
@@ -382,6 +392,7 @@ impl ChainHistory {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn force_pieces(&self, node: usize) -> Result<Vec<ForcePiece<Value>>, Error> {
+        ChainColumn { quantity: ChainQuantity::Force, place: node }.check(&self.chain)?;
         let pieces = self.settled(0, |run| Ok(run.forces(node)), |pieces| piece_numbers(pieces).collect())?;
         Ok(pieces.into_iter().map(|piece| piece.map(|value| self.printed(value))).collect())
     }
@@ -395,6 +406,7 @@ impl ChainHistory {
     }
 
     fn value_at(&self, column: ChainColumn, time: ChainTime<'_>, side: Side) -> Result<Value, Error> {
+        column.check(&self.chain)?;
         self.decide();
         let value = self.settled(
             time.digits(),
@@ -407,11 +419,12 @@ impl ChainHistory {
     /// Returns displacement, velocity and strain of a body at its point; on a ray, the limit in time from `side`. If no
     /// attempt tells the point from a ray, the bounds cover both limits.
     ///
-    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`].
+    /// **Errors**: [`Error::TimeOutside`], [`Error::PointOutside`]; [`Error::Problem`] for a body that there is not.
     pub fn field(&self, body: usize, point: &Number, time: &Number, side: Side) -> Result<Field<Value>, Error> {
         fn judged(field: &Field<Value>) -> Vec<Judged<'_>> {
             field.numbers().into_iter().zip([Measure::Length, Measure::Velocity, Measure::Strain]).collect()
         }
+        self.chain.check_body(body)?;
         self.decide();
         let digits = point.written_digits().max(time.written_digits());
         let field = self.settled(digits, |run| run.field(body, point, time, side), judged)?;

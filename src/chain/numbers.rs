@@ -7,7 +7,7 @@ use super::definition::Chain;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::wave::Limit;
 use crate::error::Error;
-use crate::motion::{Ending, EventKind, Side};
+use crate::motion::{EventKind, Side};
 use crate::number::{Bounded, Number};
 use crate::quantity::Measure;
 
@@ -47,6 +47,15 @@ pub enum ChainNumbers<'a> {
 pub(crate) type RowKey = (usize, bool, usize);
 
 impl ChainNumbers<'_> {
+    /// Returns the name of each number of an event or a contact; none for numbers that are asked for at times.
+    pub fn names(&self) -> &'static [&'static str] {
+        match self {
+            ChainNumbers::Events => &["t", "gap_rate_before", "gap_rate_after"],
+            ChainNumbers::Contacts => &["impact", "release", "impulse", "peak_force"],
+            ChainNumbers::Columns { .. } | ChainNumbers::Fields { .. } => &[],
+        }
+    }
+
     /// Returns the measure of each column.
     pub fn measures(&self) -> Vec<Measure> {
         match self {
@@ -92,15 +101,20 @@ impl ChainNumbers<'_> {
 
     /// Checks that `chain` has the times, points, bodies and columns.
     ///
-    /// **Errors**: [`Error::TimeOutside`]; [`Error::PointOutside`]; a body or a node that there is not, by the point or
-    /// the column that it has.
+    /// **Errors**: [`Error::TimeOutside`]; [`Error::PointOutside`]; [`Error::Problem`] for a body or a node that there
+    /// is not.
     pub(crate) fn check(&self, chain: &Chain) -> Result<(), Error> {
         let is_outside = |time: &&Number| time.to_f64() < 0.0 || time.compare(chain.until()).is_gt();
         if let Some(time) = self.times().iter().find(is_outside) {
             return Err(Error::TimeOutside { found: time.to_string(), end: chain.until().to_string() });
         }
-        let ChainNumbers::Fields { bodies, points, .. } = self else { return Ok(()) };
-        for body in bodies.iter().filter_map(|body| chain.bodies().get(*body)) {
+        let (bodies, points) = match self {
+            ChainNumbers::Events | ChainNumbers::Contacts => return Ok(()),
+            ChainNumbers::Columns { columns, .. } => return columns.iter().try_for_each(|column| column.check(chain)),
+            ChainNumbers::Fields { bodies, points, .. } => (bodies, points),
+        };
+        bodies.iter().try_for_each(|body| chain.check_body(*body))?;
+        for body in bodies.iter().map(|body| &chain.bodies()[*body]) {
             let is_outside = |point: &&Number| point.to_f64() < 0.0 || point.compare(body.length()).is_gt();
             if let Some(point) = points.iter().find(is_outside) {
                 return Err(Error::PointOutside { found: point.to_string(), length: body.length().to_string() });
@@ -140,17 +154,11 @@ impl ChainNumbers<'_> {
         };
         match *self {
             ChainNumbers::Events => {
-                let row = |event: &ChainEvent<N>| {
-                    [&event.t, &event.before, &event.after].map(|number| Some(number.clone())).into()
-                };
+                let row = |event: &ChainEvent<N>| event.numbers().map(|number| Some(number.clone())).into();
                 Ok(run.events().iter().map(row).collect())
             }
             ChainNumbers::Contacts => {
-                let row = |contact: ChainContact<N>| {
-                    let is_settled = contact.release.is_some() || *run.ending() == Ending::Time;
-                    let settled = |number: N| Some(number).filter(|_| is_settled);
-                    vec![Some(contact.impact), contact.release, settled(contact.impulse), settled(contact.peak)]
-                };
+                let row = |contact: ChainContact<N>| contact.numbers(run.ending()).map(Option::<&N>::cloned).into();
                 Ok(run.contacts().into_iter().map(row).collect())
             }
             ChainNumbers::Columns { columns, times, side } => {

@@ -78,6 +78,28 @@ maps!(pub ChainEvent { t, before, after } keeps kind, node);
 maps!(pub Touch { t, before, after } keeps node);
 maps!(pub ChainContact { impact, impulse, peak, peak_time } maps release keeps node);
 
+impl<N> ChainEvent<N> {
+    /// Returns the time, and the rates of the gap before and after it.
+    pub fn numbers(&self) -> [&N; 3] {
+        [&self.t, &self.before, &self.after]
+    }
+}
+
+impl<N> ChainContact<N> {
+    /// Returns whether impulse and peak are known in a run that ends like this: the contact ends, or it lasts to the
+    /// time asked for.
+    pub fn is_settled(&self, ending: &Ending) -> bool {
+        self.release.is_some() || *ending == Ending::Time
+    }
+
+    /// Returns impact, release, impulse and greatest force, as far as a run that ends like this knows them.
+    pub fn numbers(&self, ending: &Ending) -> [Option<&N>; 4] {
+        let is_settled = self.is_settled(ending);
+        let settled = |number| Some(number).filter(|_| is_settled);
+        [Some(&self.impact), self.release.as_ref(), settled(&self.impulse), settled(&self.peak)]
+    }
+}
+
 impl<N> ForcePiece<N> {
     /// Converts the piece to other numbers.
     pub fn map<T>(self, f: impl Fn(N) -> T) -> ForcePiece<T> {

@@ -281,3 +281,7 @@ impl<S> Derivative<S> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/derivative.rs"]
+mod tests;

@@ -78,8 +78,8 @@ impl Level {
     /// Makes the runs with the step `10^−exponent`.
     fn of(asked: &impl Request, exponent: u32, zero: bool) -> Result<Self, Error> {
         let (of, by) = (asked.of(), asked.by());
-        let part: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
-        let step = part.to_rational();
+        let relative: Number = format!("1e-{exponent}").parse().unwrap_or_else(|_| 1.into());
+        let step = relative.to_rational();
         let others = [-(step.clone() + &step), step].map(|step| of.moved(by, &step));
         let bits = bits_for_digits(2 * exponent) + SPARE_BITS;
         let rows = |of| Ok::<_, Error>(widened(asked.long_rows(of, exponent)?, bits));
@@ -95,8 +95,8 @@ impl Level {
             true => Long::from_number(&of.scale_of_zero(by), &bits),
             false => of.value_in::<Long>(by, &bits)?.magnitude(),
         };
-        let step = value.clone() * Long::from_number(&part, &bits) / value.int(of.power(by));
-        Ok(Level { base, scales, moved, step, part: self::part(exponent), one_sided: asked.is_stretched() })
+        let step = value.clone() * Long::from_number(&relative, &bits) / value.int(of.power(by));
+        Ok(Level { base, scales, moved, step, part: part(exponent), one_sided: asked.is_stretched() })
     }
 
     /// Returns the quotients on both sides of an existing number; `None` on a side without a problem.

@@ -7,7 +7,8 @@
 //!    loss of digits.
 //! 3. `engines`, `long`, `chain`: an attempt in doubles and fractions, in longer numbers and enclosures, and at a body
 //!    of a chain; `planned` runs an engine in numbers with a bound.
-//! 4. `converted`, `in_floats`: the attempt in the numbers of the question; `forwarded`: the questions that they hand on.
+//! 4. `converted`, `in_floats`: the attempt in the numbers of the question; `forwarded`: the questions that they hand
+//!    on.
 //! 5. `asked`: times beside events and rays; `finer`: times with more digits than the numbers hold.
 //! 6. `ladder`: the attempt that settles the answer.
 //! 7. `typed`, `history`, `solution`: the answer in one number system, in values, and its end.

@@ -24,9 +24,10 @@ impl<S: Target> TypedHistory<S> {
     /// order of events; so it is for a body of a chain whose run fractions hold. The error of any other derivative is
     /// an *estimate*, as [`TypedHistory::warnings`] then says. The derivative for a damped rod takes three more runs
     /// and is that of a cubic through all four; the difference from a quadratic serves as its error, within 1e-5 of its
-    /// natural size, mostly 1e-8. If these do not settle it, if more accuracy is requested, and in digits, it is a difference quotient of runs in long numbers, with a step
-    /// as small as the last of the digits, and the error contains the difference of the quotients on both sides, or of
-    /// two steps. A threshold that is nearer than the step counts as met.
+    /// natural size, mostly 1e-8. If these do not settle it, if more accuracy is requested, and in digits, it is a
+    /// difference quotient of runs in long numbers, with a step as small as the last of the digits, and the error
+    /// contains the difference of the quotients on both sides, or of two steps. A threshold that is nearer than the
+    /// step counts as met.
     ///
     /// **Errors**: [`Error::Derivative`] if the problem has no such value, in fractions for damping, and for
     /// enclosures; [`Error::Digits`] for more than 60; the errors of the runs.

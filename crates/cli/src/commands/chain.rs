@@ -60,12 +60,12 @@ fn place(scene: &ChainScene, node: usize) -> Cell {
 
 fn events(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |event: &dalembert::chain::ChainEvent<Value>| {
-        let numbers = [&event.t, &event.before, &event.after].map(|value| Cell::Number(value.clone()));
+        let numbers = event.numbers().map(|value| Cell::Number(value.clone()));
         [place(scene, event.node), event.kind.name().into()].into_iter().chain(numbers).collect()
     };
     // A file without events has its header.
     let columns = ["node", "event"].map(|name| Column::new(name).text());
-    let columns = columns.into_iter().chain(["t", "gap_rate_before", "gap_rate_after"].map(column));
+    let columns = columns.into_iter().chain(ChainNumbers::Events.names().iter().copied().map(column));
     Dataset { columns: columns.collect(), rows: listing.events.iter().map(row).collect(), ..Dataset::default() }
 }
 
@@ -76,23 +76,13 @@ fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     Dataset::from_rows(listing.touches.iter().map(row))
 }
 
-/// Relative bound of the time of a peak from which on the peak counts as a plateau.
-const PLATEAU: f64 = 0.01;
-
 fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |contact: &dalembert::chain::ChainContact<Value>| {
-        let known = |value: &Value| Cell::number(Some(value).filter(|_| listing.is_settled(contact)).cloned());
-        // The peak of a plateau has no time of its own.
-        let is_told =
-            |time: &&Value| listing.is_settled(contact) && time.bound().to_f64() <= PLATEAU * time.to_f64().abs();
-        vec![
-            (Column::new("node").text(), place(scene, contact.node)),
-            (column("impact"), Cell::Number(contact.impact.clone())),
-            (column("release"), Cell::number(contact.release.clone())),
-            (column("impulse"), known(&contact.impulse)),
-            (column("peak_force"), known(&contact.peak)),
-            (column("peak_time"), Cell::number(Some(&contact.peak_time).filter(is_told).cloned())),
-        ]
+        let names = ChainNumbers::Contacts.names().iter().copied().map(column);
+        let numbers = contact.numbers(&listing.ending).map(|number| Cell::number(number.cloned()));
+        let peak_time = (column("peak_time"), Cell::number(listing.peak_time(contact).cloned()));
+        let node = (Column::new("node").text(), place(scene, contact.node));
+        [node].into_iter().chain(names.zip(numbers)).chain([peak_time]).collect()
     };
     Dataset::from_rows(listing.contacts.iter().map(row))
 }
@@ -134,10 +124,6 @@ pub(super) struct Parts<'a> {
     pub(super) wide: bool,
 }
 
-/// Names of the numbers of an event and of a contact whose derivatives are printed.
-const EVENT: [&str; 3] = ["t", "gap_rate_before", "gap_rate_after"];
-const CONTACT: [&str; 4] = ["impact", "release", "impulse", "peak_force"];
-
 /// Derivatives of events and contacts by a value.
 struct ListDerivatives {
     by: Parameter,
@@ -162,11 +148,12 @@ impl ListDerivatives {
         };
         let events = listing.events.iter().map(|event| label(event.kind.name(), event.node, "at", &event.t));
         let contacts = listing.contacts.iter().map(|contact| label("contact", contact.node, "from", &contact.impact));
-        let symbols: Vec<(usize, &str)> = EVENT.into_iter().enumerate().collect();
-        let events = derivative_table(("derivatives", events.collect()), &symbols, (self.by, &self.events), style);
+        let symbols = |numbers: ChainNumbers<'_>| numbers.names().iter().enumerate().collect::<Vec<_>>();
+        let shown = symbols(ChainNumbers::Events);
+        let events = derivative_table(("derivatives", events.collect()), &shown, (self.by, &self.events), style);
         // The beginning and the end of a contact are events, in the table above.
-        let symbols: Vec<(usize, &str)> = CONTACT.into_iter().enumerate().skip(2).collect();
-        events + &derivative_table(("derivatives", contacts.collect()), &symbols, (self.by, &self.contacts), style)
+        let shown = &symbols(ChainNumbers::Contacts)[2..];
+        events + &derivative_table(("derivatives", contacts.collect()), shown, (self.by, &self.contacts), style)
     }
 }
 
@@ -196,12 +183,16 @@ pub(super) fn solve(
     let part = |make: MakeTable| whole(make(scene, &listing));
     let events = || {
         let mut data = part(events);
-        derivatives.iter().for_each(|found| add_derivatives(&mut data, EVENT, (found.by, &found.events)));
+        derivatives
+            .iter()
+            .for_each(|found| add_derivatives(&mut data, ChainNumbers::Events.names(), (found.by, &found.events)));
         data
     };
     let contacts = || {
         let mut data = part(contacts);
-        derivatives.iter().for_each(|found| add_derivatives(&mut data, CONTACT, (found.by, &found.contacts)));
+        derivatives
+            .iter()
+            .for_each(|found| add_derivatives(&mut data, ChainNumbers::Contacts.names(), (found.by, &found.contacts)));
         data
     };
     let ending = listing.ending.at(&listing.end.to_digits(table_digits(digits)));
