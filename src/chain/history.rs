@@ -15,7 +15,8 @@ use crate::number::{Number, Open, Value, bits_for_digits};
 use crate::problem::Parameter;
 use crate::quantity::Measure;
 use crate::reason::Warning;
-use crate::solve::chain::{EXACT_PIECES, rungs};
+use crate::solve::chain::EXACT_PIECES;
+use crate::solve::rung::rungs;
 use crate::solve::{DEFAULT_ACCURACY, Numbers, Observer, Rung};
 use crate::threads::locked;
 

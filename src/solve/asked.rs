@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use super::forwarded::forwarded;
 use super::ladder::Engined;
-use super::plan::Rung;
+use super::rung::Rung;
 use crate::error::Error;
 use crate::motion::moments::Moments;
 use crate::motion::{Course, Field, Motion, Pair, RayRegister, Scales, Side, Stretch};

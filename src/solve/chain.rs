@@ -3,43 +3,20 @@
 use std::sync::Arc;
 
 use super::ladder::Ladder;
-use super::plan::{LONG, Lacks, Plan, Rung};
+use super::plan::Plan;
 use super::question::Numbers;
+use super::rung::{COARSE, LONG, Lacks, Rung};
 use crate::chain::{BodyMotion, Chain, ChainRun, Varied};
 use crate::error::Error;
 use crate::motion::{Ending, Event, Motion};
-use crate::number::{Bounded, Estimate, Scalar, bits_for_digits};
+use crate::number::{Bounded, Estimate, Scalar};
 use crate::problem::Problem;
 use crate::reason::Warning;
 
 /// Whether motions of bodies of chains are built in.
 const CHAINS: bool = cfg!(feature = "chain");
-/// Bits of the enclosures that decide whether events coincide.
-const DECIDING_BITS: u32 = 256;
-/// Accuracy, as that of pictures, from which on numbers on the stack answer what stays in doubt.
-const COARSE: f64 = 1e-6;
 /// Limit of the wave pieces of an attempt in fractions, whose numbers grow with every joint.
 pub(crate) const EXACT_PIECES: usize = 20_000;
-/// Bits that a run in digits has beyond those of its digits.
-const SPARE_BITS: u32 = 64;
-
-/// Returns the numbers of the attempts at a chain, in order.
-pub(crate) fn rungs(numbers: Numbers) -> Vec<Rung> {
-    let long = |bits: u32| [Rung::Bits(bits), Rung::Enclosures(bits.max(DECIDING_BITS)), Rung::Bits(2 * bits + 256)];
-    let bits = |digits: u32| bits_for_digits(digits) + SPARE_BITS;
-    match numbers {
-        Numbers::Double(_) if !LONG => vec![Rung::Double, Rung::Fractions],
-        Numbers::Double(accuracy) => {
-            let is_coarse = accuracy.is_some_and(|accuracy| accuracy >= COARSE);
-            let last = Rung::Bits(if is_coarse { DECIDING_BITS } else { 2 * DECIDING_BITS });
-            vec![Rung::Double, Rung::Fractions, Rung::Bits(128), Rung::Enclosures(DECIDING_BITS), last]
-        }
-        Numbers::Exact => vec![Rung::Fractions],
-        Numbers::Digits(digits) => long(bits(digits)).into(),
-        Numbers::ExactThenDigits(digits) => [Rung::Fractions].into_iter().chain(long(bits(digits))).collect(),
-        Numbers::Certified(digits) => [1, 2, 4].map(|times| Rung::Enclosures(times * bits(digits))).into(),
-    }
-}
 
 /// Returns the error of an attempt that longer numbers follow.
 fn undecided(rung: Rung, what: &'static str) -> Error {

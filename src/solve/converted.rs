@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::asked::{Longer, Open, Telling, Windows, not_told};
 use super::forwarded::forwarded;
 use super::ladder::{Engined, Ladder};
-use super::plan::LONG;
+use super::rung::LONG;
 use crate::error::Error;
 use crate::lattice::Undamped;
 use crate::motion::moments::{self, Moments};

@@ -1,8 +1,9 @@
 //! Derivatives of the numbers of a history with respect to a value of the problem, from both sides.
 
 use super::ladder::Ladder;
-use super::plan::{Plan, Rung};
+use super::plan::Plan;
 use super::question::{Observer, Want};
+use super::rung::Rung;
 use crate::error::Error;
 use crate::motion::{Motion, Side};
 use crate::number::{Dual, Estimate, Float, Number, Rational, Scalar};

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::derivative::{Asked, Computed};
-use super::plan::{Engine, Goal, LONG, Lacks, Plan, Rung};
+use super::plan::{Engine, Goal, Plan};
 use super::question::{Numbers, Observer, UNOBSERVED};
+use super::rung::{LONG, Lacks, Rung};
 use crate::cells::Task;
 use crate::error::Error;
 use crate::lattice::Undamped;

@@ -3,8 +3,8 @@
 //! In the order of a question:
 //!
 //! 1. `question` and `places`: what is asked for, where, and in which numbers.
-//! 2. `plan`: the engine, its numbers and limits, and the attempts that may follow; it asks `foresee` for the expected
-//!    loss of digits.
+//! 2. `plan`: the engine, its numbers and limits; it asks `foresee` for the expected loss of digits. `rung`: the
+//!    numbers of an attempt; `climb`: the attempts that may follow the first; `explained`: the plan in sentences.
 //! 3. `engines`, `long`, `chain`: an attempt in doubles and fractions, in longer numbers and enclosures, and at a body
 //!    of a chain; `planned` runs an engine in numbers with a bound.
 //! 4. `converted`, `in_floats`: the attempt in the numbers of the question; `forwarded`: the questions that they hand
@@ -18,10 +18,12 @@
 mod asked;
 pub(crate) mod chain;
 mod chain_derivatives;
+mod climb;
 mod converted;
 mod derivative;
 mod differences;
 mod engines;
+mod explained;
 mod finer;
 mod foresee;
 mod forwarded;
@@ -35,6 +37,7 @@ mod plan;
 mod planned;
 mod question;
 mod rates;
+pub(crate) mod rung;
 mod sensitivity;
 mod solution;
 mod typed;
@@ -44,9 +47,10 @@ pub use derivative::{Derivative, Derivatives, NoDerivative};
 pub use history::{History, Listing, Rows, StressForm};
 pub use ladder::Target;
 pub use places::Places;
-pub(crate) use plan::LONG;
-pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, Plan, Reach, Rung};
+pub use plan::{CERTIFIED_DIGITS, CellLimits, Climb, DEFAULT_ACCURACY, Engine, Goal, Plan, Reach};
 pub use question::{ACCURACIES, MAX_DIGITS, Numbers, Observer, Question, Want, unobserved};
+pub(crate) use rung::LONG;
+pub use rung::Rung;
 pub use sensitivity::Sensitivity;
 pub use solution::ExactnessEnd;
 pub use typed::TypedHistory;

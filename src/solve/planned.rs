@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::ladder::Engined;
-use super::plan::{Engine, LONG, Plan};
+use super::plan::{Engine, Plan};
+use super::rung::LONG;
 use crate::cells::{Damped, EstimatedContact, MOST_DIGITS, Task};
 use crate::error::Error;
 use crate::first_contact::{Bounce, ContactHistory, FirstContact};

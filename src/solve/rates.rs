@@ -5,8 +5,9 @@ use super::derivative::{
     Asked, At, Derivative, Derivatives, NoDerivative, Request, Rows, Varying, at, is_settled, of_each,
 };
 use super::ladder::Engined;
-use super::plan::{Engine, Plan, Rung};
+use super::plan::{Engine, Plan};
 use super::question::{Numbers, Question};
+use super::rung::Rung;
 use super::typed::TypedHistory;
 use super::{chain, long};
 use crate::error::Error;

@@ -3,8 +3,9 @@
 use std::sync::{Mutex, OnceLock};
 
 use super::ladder::{Attempt, Ladder, Target};
-use super::plan::{Plan, Rung};
+use super::plan::Plan;
 use super::question::{Numbers, Observer, Question};
+use super::rung::Rung;
 use crate::error::Error;
 use crate::motion::{
     Contact, Ending, Energy, Event, Field, Motion, Ray, Scales, Side, StressHistory, StressPiece, Waves,
