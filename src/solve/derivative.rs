@@ -1,6 +1,5 @@
 //! Derivatives of the numbers of a history with respect to a value of the problem, from both sides.
 
-use super::ladder::Ladder;
 use super::plan::Plan;
 use super::question::{Observer, Want};
 use super::rung::Rung;
@@ -197,12 +196,7 @@ pub(super) struct At<'a> {
     pub(super) side: Side,
 }
 
-impl<'a> Asked<'a> {
-    /// Returns the same plan for another problem.
-    pub(super) fn ladder(&self, problem: &'a Problem) -> Ladder<'a> {
-        Ladder { problem, plan: self.plan, observe: self.observe }
-    }
-
+impl Asked<'_> {
     /// Returns the numbers to be differentiated, in units of `problem`: a row for each entry of the list, or for each
     /// time and, within it, each point.
     pub(super) fn values<S: Scalar>(&self, problem: &Problem, motion: &dyn Motion<S>) -> Result<Rows<S>, Error> {

@@ -4,7 +4,7 @@
 use super::derivative::{
     Asked, At, Derivative, Derivatives, NoDerivative, Request, Rows, Varying, at, is_settled, of_each,
 };
-use super::ladder::Engined;
+use super::ladder::{Engined, Ladder};
 use super::plan::{Engine, Plan};
 use super::question::{Numbers, Question};
 use super::rung::Rung;
@@ -37,6 +37,13 @@ fn derivative([left, right]: [OneSide; 2]) -> Derivative<Rational> {
     match (left, right) {
         (Ok(left), Ok(right)) if left == right => Derivative::One(right),
         (left, right) => Derivative::Sides { left, right },
+    }
+}
+
+impl<'a> Asked<'a> {
+    /// Returns the same plan for another problem.
+    fn ladder(&self, problem: &'a Problem) -> Ladder<'a> {
+        Ladder { problem, plan: self.plan, observe: self.observe }
     }
 }
 
