@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::ops::Neg;
 
-use super::fraction::spelling;
+use super::spelling::spelling;
 use super::{Analytic, Number, Open, Rounded, Scalar, Spelling};
 
 /// Returns the bound, in roundings, that marks a number as spelled; its true error is at most one. No operation on a

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::float::{self, Constant, Float};
-use super::fraction::spelled_as;
+use super::spelling::spelled_as;
 use super::{Analytic, Estimate, Number, Open, Reads, Rounded, Scalar, decimal};
 
 impl Scalar for Float {

@@ -42,6 +42,7 @@ macro_rules! operators {
     };
 }
 
+mod answer;
 mod bounded;
 mod decimal;
 mod double;
@@ -60,24 +61,27 @@ mod radical;
 #[cfg_attr(not(feature = "mp"), path = "rational_dashu.rs")]
 pub(crate) mod rational;
 mod scalar;
+mod spelling;
 mod text;
 mod value;
 mod wide;
 
+pub use answer::Answer;
+pub use bounded::Bounded;
 pub(crate) use bounded::is_exact_zero;
-pub use bounded::{Answer, Bounded};
 pub use decimal::decimal;
 pub(crate) use double::shortest;
 pub(crate) use dual::Dual;
 pub use estimate::Estimate;
 pub use float::Float;
-pub(crate) use fraction::spelled_as;
 pub use interval::{Interval, IntervalPrecision};
 pub use list::{List, ListError};
 pub use literal::short;
 pub use literal::{Number, NumberError};
 pub use rational::Rational;
-pub use scalar::{Analytic, Open, Reads, Rounded, Scalar, Spelling};
+pub use scalar::{Analytic, Open, Reads, Rounded, Scalar};
+pub use spelling::Spelling;
+pub(crate) use spelling::spelled_as;
 pub use text::{DOUBLE_DIGITS, bits_for_digits, bound_of_log2, double_bound, show, show_beside, shown_bound};
 pub use value::{Bound, IntoValue, Value};
 pub use wide::Wide;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Number;
+use super::{Number, Spelling};
 
 /// A comparison that remains undecided: an enclosure extends to both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -263,17 +263,6 @@ pub trait Reads<N: Scalar>: Scalar {
     /// Converts a number of this system to the other one, which answers a question about it. A double represents the
     /// shortest decimal that rounds to it, or a simple fraction.
     fn give(&self, precision: &N::Precision) -> N;
-}
-
-/// Form in which a rounded number was spelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spelling {
-    /// The shortest decimal that rounds to it; for longer numbers, any form.
-    Decimal,
-    /// A simple fraction.
-    Fraction,
-    /// Another number that rounds to it.
-    Near,
 }
 
 /// A `Scalar` with the elementary functions that the damped rod needs. A signature with this trait is not exact.

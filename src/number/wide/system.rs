@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::float::Wide;
-use crate::number::fraction::spelled_as;
+use crate::number::spelling::spelled_as;
 use crate::number::{Estimate, Number, Open, Reads, Rounded, Scalar};
 
 impl<const N: usize> Scalar for Wide<N> {
