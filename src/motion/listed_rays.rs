@@ -1,6 +1,6 @@
 //! Rays of a body of a chain, each of which passes the body once.
 
-use super::register::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
+use super::passing::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
 use super::{Motion, Scales};
 use crate::number::Scalar;
 

@@ -1,6 +1,6 @@
 //! Rays of a rod by itself, which both ends reflect for ever.
 
-use super::register::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
+use super::passing::{NEAR, Passing, is_displaced, is_open, is_rounded, widest_bound};
 use super::{Event, EventKind, Motion, Scales};
 use crate::number::Scalar;
 
