@@ -31,7 +31,7 @@
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use super::series::{Basis, at_one, evaluate_all, times_x};
+use super::series::{Basis, add_scaled, at_one, evaluate_all, scale, times_x};
 use crate::number::Rounded;
 
 /// A cell with its incoming data: `e^{κ(ξ−ξ₀)} p` on the side `η = η₀`, `e^{κ(η−η₀)} q` on the side `ξ = ξ₀`.
@@ -95,19 +95,6 @@ pub(super) fn cross<S: Rounded>(
     }
     scale(p, decay_h);
     scale(q, decay_a);
-}
-
-/// Adds `factor · series` to `target`, truncated to the length of `target`.
-pub(super) fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
-    for (t, s) in target.iter_mut().zip(series) {
-        *t = s.clone() * factor + &*t;
-    }
-}
-
-pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
-    for term in series {
-        *term = factor.clone() * &*term;
-    }
 }
 
 /// Computes `e^{2κτ} q` on the diagonal `ξ = η` of a cell that is its own mirror image, `p = ±q` on its lower sides, in

@@ -34,9 +34,8 @@
 use std::cell::Cell;
 use std::collections::VecDeque;
 
-use super::cell::{add_scaled, scale};
 use super::march::{Medium, Segment, State};
-use super::series::{Basis, at_one, at_zero, integral, times_x};
+use super::series::{Basis, add_scaled, at_one, at_zero, integral, scale, times_x};
 use crate::special::RoundedSpecial;
 
 /// Largest `nR²/4π` of one leap, the phase by which damping delays the lowest mode: the series loses `e^{nR²/4π}`.

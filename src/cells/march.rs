@@ -11,8 +11,8 @@
 use std::collections::VecDeque;
 use std::sync::OnceLock;
 
-use super::cell::{Cell, add_scaled, cross, diagonal, scale};
-use super::series::{Basis, at_one, at_zero, bound, derivative, evaluate, terms_for};
+use super::cell::{Cell, cross, diagonal};
+use super::series::{Basis, add_scaled, at_one, at_zero, bound, derivative, evaluate, scale, terms_for};
 use super::uncertainty::Off;
 use crate::number::Rounded;
 use crate::special::gauss_legendre;

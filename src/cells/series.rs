@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use super::cell::scale;
 use crate::number::Rounded;
 
 /// Tables shared by all series of a solution. A series is `c₀ + c₁T₁(2x−1) + c₂T₂(2x−1) + …` on `0 ≤ x ≤ 1`.
@@ -103,6 +102,20 @@ impl<S: Rounded> Basis<S> {
     pub(super) fn product(&self, a: &[S], b: &[S], terms: usize) -> Vec<S> {
         let values: Vec<S> = self.nodes.iter().map(|x| evaluate(a, x) * evaluate(b, x)).collect();
         self.through(&values, terms)
+    }
+}
+
+/// Adds `factor · series` to `target`, truncated to the length of `target`.
+pub(super) fn add_scaled<S: Rounded>(target: &mut [S], series: &[S], factor: &S) {
+    for (t, s) in target.iter_mut().zip(series) {
+        *t = s.clone() * factor + &*t;
+    }
+}
+
+/// Multiplies `series` by `factor`.
+pub(super) fn scale<S: Rounded>(series: &mut [S], factor: &S) {
+    for term in series {
+        *term = factor.clone() * &*term;
     }
 }
 
