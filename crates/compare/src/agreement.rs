@@ -5,10 +5,9 @@ use serde::Serialize;
 
 use super::audit::{Audit, AuditInput, MomentumTerms};
 use super::contacts::{ContactPair, ContactRecord, find_contacts, match_contacts};
-use super::norms::{ComparedColumn, Grid, Norms};
+use super::norms::{ComparedColumn, Grid, Norms, WEIGHTS};
 use super::options::Options;
 use super::reference::{NearRays, Reference};
-use super::report::WEIGHTS;
 use super::samples::Samples;
 use dalembert::Error;
 use dalembert::chain::End;

@@ -32,7 +32,6 @@
 use super::cause::Cause;
 use super::hint::Detectable;
 use super::model::Model;
-use super::symptoms::{CLEAR, LEFT};
 use dalembert::problem::{Parameter, Problem};
 use dalembert::quantity::{Measure, Quantity};
 
@@ -43,6 +42,10 @@ pub(super) struct Candidate {
     pub(super) slope: Vec<Vec<f64>>,
 }
 
+/// Largest share of ‖e‖₂ that an explanation may leave.
+pub(super) const LEFT: f64 = 0.5;
+/// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
+pub(super) const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 /// Largest share of a value up to which its effect is taken for linear.
 const LINEAR: f64 = 0.2;
 /// Width of a difference quotient.

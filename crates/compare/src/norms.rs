@@ -7,6 +7,10 @@ use serde::{Serialize, Serializer};
 
 use dalembert::quantity::Quantity;
 
+/// The weights of the samples in a norm.
+pub(super) const WEIGHTS: &str =
+    "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
+
 /// A norm of the difference `theirs − ours`; for the greatest difference with its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize)]
 pub(crate) struct Norm {

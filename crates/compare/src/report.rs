@@ -14,14 +14,11 @@ use super::diagnosis::Diagnosis;
 use super::fit::FittedValue;
 use super::hint::{Detectable, Hint};
 use super::limit::Order;
-use super::norms::{ComparedColumn, NORMS, Norm};
+use super::norms::{ComparedColumn, NORMS, Norm, WEIGHTS};
 use super::softness::SoftColumn;
 use crate::aligned::table;
 use dalembert::number::Scalar;
 use dalembert::quantity::{Quantity, Units};
-
-pub(super) const WEIGHTS: &str =
-    "sums over the samples by the trapezoidal rule: each weighs half the way to its neighbours";
 
 /// The units of norms over time.
 const NORM_UNITS: &str = "the unit is that of L∞; L1 is in this unit times time, L2 in this unit times √time\n";

@@ -2,6 +2,7 @@
 //! velocities between two steps, and fronts that are spread.
 
 use super::agreement::Agreement;
+use super::cause_fits::{CLEAR, LEFT};
 use super::hint::Hint;
 use super::model::Model;
 use super::norms::ComparedColumn;
@@ -12,10 +13,6 @@ use dalembert::number::Scalar;
 use dalembert::quantity::{Measure, Quantity};
 use dalembert::{Error, Side};
 
-/// Largest share of ‖e‖₂ that an explanation may leave.
-pub(super) const LEFT: f64 = 0.5;
-/// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
-pub(super) const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
 /// Least factor of a column, or of its inverse, that is one of units.
 const OTHER_UNIT: f64 = 10.0;
 /// Smallest number of samples for a diagnosis.

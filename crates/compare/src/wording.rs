@@ -1,10 +1,9 @@
 //! The wording of hints.
 
 use super::cause::Cause;
-use super::cause_fits::{CauseFits, Fitted, NO_GRAVITY};
+use super::cause_fits::{CauseFits, Fitted, LEFT, NO_GRAVITY};
 use super::hint::Hint;
 use super::reference::Reference;
-use super::symptoms::LEFT;
 use dalembert::Quantity;
 use dalembert::number::Scalar;
 use dalembert::problem::Parameter;
