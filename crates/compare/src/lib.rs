@@ -37,6 +37,7 @@ pub mod data;
 mod diagnosis;
 mod fit;
 mod hint;
+mod least_squares;
 mod limit;
 mod map;
 mod model;
