@@ -1,7 +1,6 @@
 //! A question about one number of a whole chain.
 
-use super::question::Question;
-use super::route::Route;
+use super::route::{Question, Route};
 use crate::error::VerifyError;
 use dalembert::chain::{Chain, ChainColumn, ChainContactQuantity, ChainQuantity, ChainQuery};
 use dalembert::number::Number;

@@ -10,7 +10,7 @@ mod value;
 
 pub use chain::ChainQuestion;
 pub use question::RouteQuestion;
-pub(crate) use question::{Question, Transform};
-pub(crate) use route::{Route, run_engine, run_planned};
+pub(crate) use question::Transform;
+pub(crate) use route::{Question, Route, run_engine, run_planned};
 pub use truth::Truth;
 pub(crate) use value::shown;

@@ -1,7 +1,6 @@
 //! A question about one number of a problem, and the ways in which it is answered.
 
 use super::method::{Method, Query, evaluate};
-use super::route::Route;
 use super::value::RouteNumber;
 use crate::error::VerifyError;
 use dalembert::engine::{Motion, Scales};
@@ -22,28 +21,6 @@ pub(crate) enum Transform {
     TimesGrowth,
     /// Its root minus `e^{−r t_b}`.
     RootMinusDecay,
-}
-
-/// A question about one number, which routes answer.
-pub(crate) trait Question {
-    /// Answers by `route`, in about `seconds` where the route can stop itself.
-    fn answer(&self, route: Route, seconds: f64) -> Result<Value, VerifyError>;
-
-    /// Returns the route whose answer is a fraction if there is one; `None` if there is none.
-    fn exact_route(&self) -> Option<Route>;
-}
-
-impl Question for RouteQuestion {
-    fn answer(&self, route: Route, seconds: f64) -> Result<Value, VerifyError> {
-        route.run(self, seconds)
-    }
-
-    fn exact_route(&self) -> Option<Route> {
-        match self.problem.chain() {
-            Some(_) => Some(Route::Planned(Numbers::Exact)),
-            None => Some(Route::Lattice(Numbers::Exact)).filter(|_| self.problem.damping().is_none()),
-        }
-    }
 }
 
 /// A question about one number of a problem, which is followed as far as the answer needs.

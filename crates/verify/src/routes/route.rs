@@ -38,6 +38,28 @@ pub(crate) enum Route {
     Planned(Numbers),
 }
 
+/// A question about one number, which routes answer.
+pub(crate) trait Question {
+    /// Answers by `route`, in about `seconds` where the route can stop itself.
+    fn answer(&self, route: Route, seconds: f64) -> Result<Value, VerifyError>;
+
+    /// Returns the route whose answer is a fraction if there is one; `None` if there is none.
+    fn exact_route(&self) -> Option<Route>;
+}
+
+impl Question for RouteQuestion {
+    fn answer(&self, route: Route, seconds: f64) -> Result<Value, VerifyError> {
+        route.run(self, seconds)
+    }
+
+    fn exact_route(&self) -> Option<Route> {
+        match self.problem.chain() {
+            Some(_) => Some(Route::Planned(Numbers::Exact)),
+            None => Some(Route::Lattice(Numbers::Exact)).filter(|_| self.problem.damping().is_none()),
+        }
+    }
+}
+
 /// Digits of [`Route::Constant`].
 const CONSTANT_DIGITS: u32 = 36;
 

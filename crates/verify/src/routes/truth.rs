@@ -1,7 +1,6 @@
 //! The truth that answers are compared with: a number that the catalogue spells, or one that the best route computes.
 
-use super::question::Question;
-use super::route::Route;
+use super::route::{Question, Route};
 use super::value::{encloses, log10_distance, log10_radius};
 use crate::error::VerifyError;
 use dalembert::Value;
