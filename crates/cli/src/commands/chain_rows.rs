@@ -1,7 +1,7 @@
 //! Rows of the columns of a chain over time, or at points of its bodies.
 
 use super::chain::{digits, note, unit_line, warnings};
-use super::sample::SampleArgs;
+use super::sample_args::SampleArgs;
 use crate::failure::{Failure, cannot};
 use crate::file::{Destination, Format};
 use crate::output::{Cell, Column, Header, Layout, RowWriter, derivative_rows, derivative_table, table_digits};

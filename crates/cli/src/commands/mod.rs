@@ -12,6 +12,7 @@ pub(crate) mod orbits;
 pub(crate) mod plot;
 pub(crate) mod regimes;
 pub(crate) mod sample;
+mod sample_args;
 pub(crate) mod scenes;
 pub(crate) mod solve;
 pub(crate) mod sweep;
