@@ -48,7 +48,7 @@ pub(super) struct Release<S> {
 pub(super) struct Proof<S> {
     pub(super) steps: Steps,
     pub(super) doubles: Basis<f64>,
-    pub(super) even: f64,
+    pub(super) roundoff: f64,
     pub(super) masses: f64,
     /// Θ: bound of the shift of the true motion's clock since the start.
     pub(super) clock: f64,
@@ -101,7 +101,7 @@ impl<S: RoundedSpecial> Proof<S> {
         Proof {
             doubles: Basis::new(&1.0, medium.basis.size(), 1),
             steps,
-            even: 0.0,
+            roundoff: 0.0,
             masses: 0.0,
             clock: 0.0,
             late: 0.0,
@@ -130,7 +130,7 @@ impl<S: RoundedSpecial> Proof<S> {
     }
 
     pub(super) fn add(&mut self, defect: f64) {
-        self.even += defect * (1.0 + SLACK);
+        self.roundoff += defect * (1.0 + SLACK);
     }
 
     pub(super) fn cell(&mut self, medium: &Medium<S>, cell: &Cell<'_, S>) {
@@ -155,7 +155,7 @@ impl<S: RoundedSpecial> Proof<S> {
     /// Begins a round trip of a separated flight.
     pub(super) fn round(&mut self, state: &State<S>) {
         self.means[1] = self.steps.weighed(state, 0.0);
-        (self.weighed, self.trip) = (self.even, 0.0);
+        (self.weighed, self.trip) = (self.roundoff, 0.0);
     }
 
     /// Adds the error of the rounded damping and gravity.
@@ -199,8 +199,8 @@ impl<S: RoundedSpecial> Proof<S> {
         self.add(shifts);
         let mean = self.steps.weighed(state, size) + 64.0 * self.steps.unit * (size + height.abs());
         self.means = [mean; 2];
-        self.began = self.even - shifts;
-        (self.weighed, self.trip) = (self.even, 0.0);
+        self.began = self.roundoff - shifts;
+        (self.weighed, self.trip) = (self.roundoff, 0.0);
         self.summed = 0.0;
     }
 }

@@ -61,16 +61,16 @@ pub(super) struct Budget {
     /// Whether flights are separated.
     apart: bool,
     /// Error of `p` and `q` by truncation, rounding and undecided events.
-    even: f64,
-    /// Part of `even` from undecided events. Decisions at the ground are made against `even` without it: it covers
-    /// what an event may have changed, and not what rounding hides.
+    roundoff: f64,
+    /// Part of `roundoff` from undecided events. Decisions at the ground are made against `roundoff` without it: it
+    /// covers what an event may have changed, and not what rounding hides.
     covered: f64,
     /// First-order effects of the time errors of events.
     events: Dependence,
     rest: Rest,
     /// Error of `p` and `q` that damping has scattered from displaced rays in the leaps of this flight.
     leapt: f64,
-    /// `even` and `rest` at the beginning of the flight.
+    /// `roundoff` and `rest` at the beginning of the flight.
     began: (f64, Rest),
     pub(super) flight: TakeOff,
     landing: Option<Landing>,
@@ -92,7 +92,7 @@ struct Rest {
     /// Error of `p` and `q` that damping scatters from displaced rays.
     scatter: f64,
     /// Part of `wave` in masses of rays whose places are no longer known.
-    lumps: f64,
+    unplaced_mass: f64,
     /// Bound of `|δh′|` at the last take-off, for the part that `wave` bounds.
     mean: f64,
 }
@@ -141,7 +141,7 @@ impl Budget {
 
     /// Adds an error of `p` and `q`.
     pub(super) fn add(&mut self, error: f64) {
-        self.even += error;
+        self.roundoff += error;
         self.fixed.point += error;
         self.note();
     }
@@ -149,7 +149,7 @@ impl Budget {
     /// Returns the error below which values decide nothing: that of roundings and truncations in `p` and `q`, and if
     /// flights are not separated also that scattered from displaced rays.
     pub(super) fn noise(&self) -> f64 {
-        (if self.apart { self.even } else { self.fixed.points() } - self.covered).max(0.0)
+        (if self.apart { self.roundoff } else { self.fixed.points() } - self.covered).max(0.0)
     }
 
     /// Returns the error of `p` and `q` at the ground, below which the sign of the trace is undecided.
@@ -189,33 +189,33 @@ impl Budget {
 
     /// Returns the part of that error that is not followed with signs.
     fn loose(&self) -> f64 {
-        let Rest { wave, point, scatter, lumps, .. } = self.rest;
+        let Rest { wave, point, scatter, unplaced_mass, .. } = self.rest;
         // R(T + 1) of the masses of rays that have travelled for T round trips, and at most 1.6 of them in all.
         let masses = wave + self.events.mass();
         let scattered = scatter + self.leapt + self.damping * masses;
-        self.even + point + lumps + scattered.min(2.0 * masses)
+        self.roundoff + point + unplaced_mass + scattered.min(2.0 * masses)
     }
 
     /// Returns the sum of the masses of displaced rays.
     pub(super) fn masses(&self) -> f64 {
-        let apart = self.rest.wave + self.rest.lumps + self.events.mass();
+        let apart = self.rest.wave + self.rest.unplaced_mass + self.events.mass();
         self.better(Off { fixed: self.fixed.rays, apart })
     }
 
     /// Returns the error of displacements by the clock of the vibration, at events, where the end is at height zero.
     fn beyond(&self) -> f64 {
         // Displacements about the centre of mass are off by at most ½e^R times the error of `p` and `q`.
-        2.0 * self.rest.wave + self.events.mass() + 4.0 * self.even
+        2.0 * self.rest.wave + self.events.mass() + 4.0 * self.roundoff
     }
 
     /// Returns the error of `h′` in a separated flight and at its ends.
     fn rate(&self) -> f64 {
-        self.events.rate.bound() + self.mean_of(self.even) + self.rest.mean
+        self.events.rate.bound() + self.mean_of(self.roundoff) + self.rest.mean
     }
 
-    /// Bounds the error of `h′ = ∫ e^{R(η−b)} q dη` for the error `even` of `q`.
-    fn mean_of(&self, even: f64) -> f64 {
-        phi1(&self.damping) * even
+    /// Bounds the error of `h′ = ∫ e^{R(η−b)} q dη` for the error `roundoff` of `q`.
+    fn mean_of(&self, roundoff: f64) -> f64 {
+        phi1(&self.damping) * roundoff
     }
 
     /// Returns the errors at the last event, whatever its true time; for a release `begins` has the greatest slope of
@@ -234,7 +234,7 @@ impl Budget {
         let (rate, grown) = (self.rate(), self.damping.exp());
         let rise = self.beyond() + 0.5 * variation * late;
         // h = −z(0,·) follows from the weight that makes the mean of z vanish.
-        let rest = 0.5 * grown * (self.rest.wave + self.mean_of(self.even) + self.rest.mean + self.even);
+        let rest = 0.5 * grown * (self.rest.wave + self.mean_of(self.roundoff) + self.rest.mean + self.roundoff);
         let centre = rise.min(self.events.ground_then(at, end_rate, near) + rest);
         let (loose, between) = (self.loose(), self.events.between() + slope * late);
         let end = loose + between.min(self.events.velocity_then(at, bend, begins.is_some()));
@@ -277,16 +277,16 @@ impl Budget {
     /// as the ground receives at most `W/(1 − κ)` in each round trip: the part of `∫|q|` still on its way down falls by
     /// `(1 − κ)|q(0,·)|`.
     fn not_followed(&self, age: f64) -> f64 {
-        let ((even, Rest { wave, mean, .. }), grown) = (self.began, self.damping.exp());
+        let ((roundoff, Rest { wave, mean, .. }), grown) = (self.began, self.damping.exp());
         let (_, slowed) = aged(self.damping, age);
-        let apart = slowed * (self.mean_of(even) + mean) + grown * (1.0 + grown) * wave + 0.5 * grown * even;
+        let apart = slowed * (self.mean_of(roundoff) + mean) + grown * (1.0 + grown) * wave + 0.5 * grown * roundoff;
         let left = 1.0 - 0.5 * self.damping;
         let passed = if age < LEAST_LEAP && left > 0.0 {
-            grown * (even * age + wave * age.ceil() / left)
+            grown * (roundoff * age + wave * age.ceil() / left)
         } else {
             f64::INFINITY
         };
-        apart.min(passed) + 0.5 * grown * self.even
+        apart.min(passed) + 0.5 * grown * self.roundoff
     }
 
     /// Bounds the effect of damping on the stripes between these ages, apart from their fading; at most their own size.
@@ -333,7 +333,7 @@ impl Budget {
         if !contact {
             self.fixed.height += self.fixed.points() * len;
         }
-        self.even += 2.0 * cell;
+        self.roundoff += 2.0 * cell;
         self.rest.scatter += 2.0 * self.damping * len * (self.rest.wave + self.events.mass());
         self.fixed.point += 2.0 * cell;
         self.fixed.turn(self.damping, len);
@@ -344,7 +344,7 @@ impl Budget {
 
     /// Records the error of the end in flight; at any other point `½∫|δp| + |δq| dx` is added.
     pub(super) fn note_end(&mut self, off: Off) {
-        let beyond = self.even + self.rest.wave + 2.0 * self.events.mass();
+        let beyond = self.roundoff + self.rest.wave + 2.0 * self.events.mass();
         self.worst.rise = self.worst.rise.max(off.apart + beyond);
     }
 
@@ -373,13 +373,13 @@ impl Budget {
         let scattered = 2.0 * self.damping * trips;
         self.leapt += scattered * self.events.mass();
         self.covered *= fade;
-        self.even = self.even * fade + error;
-        let Rest { wave, point, scatter, lumps, mean } = self.rest;
+        self.roundoff = self.roundoff * fade + error;
+        let Rest { wave, point, scatter, unplaced_mass, mean } = self.rest;
         self.rest = Rest {
             wave: wave * fade,
             point: point * fade,
             scatter: (scatter + scattered * wave) * fade,
-            lumps: lumps * fade,
+            unplaced_mass: unplaced_mass * fade,
             mean: mean * fade,
         };
         self.fixed.turn(self.damping, trips);
@@ -418,7 +418,7 @@ impl Budget {
     /// Adds the errors of the separation into centre of mass and vibration after a release.
     pub(super) fn take_off(&mut self, flight: TakeOff, rounding: f64) {
         let r = self.damping;
-        self.even += rounding;
+        self.roundoff += rounding;
         self.fixed.point += rounding;
         let more = match self.landing.take() {
             Some(landing) if flight.whole => self.after_round_trip(&landing, &flight),
@@ -435,9 +435,9 @@ impl Budget {
         self.events.add_rate(more);
         let (mass, level) = self.events.thin();
         self.rest.wave += 2.0 * mass;
-        self.rest.lumps += mass;
+        self.rest.unplaced_mass += mass;
         self.rest.point += level;
-        self.began = (self.even, self.rest);
+        self.began = (self.roundoff, self.rest);
         self.flight = flight;
         self.note();
     }
@@ -485,8 +485,8 @@ impl Budget {
         let (mass, level) = (self.events.mass(), self.events.level());
         // A path crosses a ray twice in a round trip, each time at the cost of κ of its mass.
         let most = (faded + r) * mass + faded * level;
-        let Rest { wave, point, scatter, lumps, .. } = self.rest;
-        let loose = self.even + point + lumps + scatter + r * wave;
+        let Rest { wave, point, scatter, unplaced_mass, .. } = self.rest;
+        let loose = self.roundoff + point + unplaced_mass + scatter + r * wave;
         let unknown = flight.slope.map_or(0.0, |slope| (loose + most) / slope.abs());
         let limits = (unknown + flight.rounding, flight.off + time);
         self.events.release((flight.at, flight.fall), flight.jump, flight.slope, limits);
@@ -537,7 +537,7 @@ impl Budget {
         self.fixed.mass += mass;
         self.fixed.turn(self.damping, 1.0);
         self.rest.wave += mass;
-        self.rest.lumps += mass;
+        self.rest.unplaced_mass += mass;
     }
 
     /// Returns whether both accounts have lost the order of events.

@@ -5,7 +5,7 @@
 //! |q|` at both ends), so errors are added, step by step, and never propagated. `docs/proofs.md` has the lemmas.
 //! Dimensionless: times in `t₁`, lengths in `c t₁`, velocities in `V`; `δ = δ_E + δ_W`:
 //!
-//! - **E**, `even`: `sup |δ_E|`, the sum of all defects so far.
+//! - **E**, `roundoff`: `sup |δ_E|`, the sum of all defects so far.
 //! - **W**, `masses`: `∫ |δ_W|`. An event with a time error of at most τ differs from the true one in the boundary
 //!   condition at the ground for at most τ, where p is −q in one motion and q in the other: `2τ max|q|`.
 //! - **Θ**, `clock`: bound of the shift of the true motion's clock at impacts, which replaces that mass.
@@ -67,12 +67,12 @@ impl<S: RoundedSpecial> Proof<S> {
 
     /// Computes F at a time.
     fn trace_off(&self, damping: f64, time: f64) -> f64 {
-        (self.even + (damping * (time + 1.0)).min(damping.exp()) * self.masses) * (1.0 + SLACK)
+        (self.roundoff + (damping * (time + 1.0)).min(damping.exp()) * self.masses) * (1.0 + SLACK)
     }
 
     /// Computes `A`: the bound of the error of `h′` of a flight.
     fn rate_off(&self, damping: f64) -> f64 {
-        (damping.exp() * (self.even + self.masses) + self.means[0]) * (1.0 + SLACK)
+        (damping.exp() * (self.roundoff + self.masses) + self.means[0]) * (1.0 + SLACK)
     }
 
     /// Computes H, at the time `flown` after the release.
@@ -83,18 +83,18 @@ impl<S: RoundedSpecial> Proof<S> {
     /// by its own mean and vibration: by `(s + 3)(E + W)` under a free top, and by `2(E + W)` under a held one, with
     /// the masses W of displaced rays; the error of the sum of `∫ q dt` itself is added.
     fn height_off(&self, run: &Follower<'_, S>, flown: f64) -> f64 {
-        let (damping, both) = (run.damping(), self.even + self.masses);
+        let (damping, both) = (run.damping(), self.roundoff + self.masses);
         let rate = 2.0 * damping;
         let fall = if rate * flown < 1e-8 { flown } else { -(-rate * flown).exp_m1() / rate };
         let off = if let Some(flight) = run.flying() {
             let far = flight.height.to_f64().abs() + fall * flight.rate.to_f64().abs();
             let far = far + run.medium.gravity.to_f64() * (flown * flown).min(flown / damping);
             let (centre, mean) = (self.rate_off(damping), self.means[0] + self.means[1]);
-            let swing = damping.exp() * (0.25 * (self.even + centre) + 0.5 * self.masses);
+            let swing = damping.exp() * (0.25 * (self.roundoff + centre) + 0.5 * self.masses);
             self.left
                 + fall * centre
                 + 2.0 * (swing + mean)
-                + (self.even - self.weighed + self.trip)
+                + (self.roundoff - self.weighed + self.trip)
                 + 64.0 * self.steps.unit * (far + self.most)
         } else if run.medium.free_top {
             (fall + 3.0) * both + self.summed
@@ -138,7 +138,7 @@ impl<S: RoundedSpecial> Proof<S> {
     /// Records the error bounds of values up to now.
     fn note(&mut self, run: &Follower<'_, S>, time: f64, high: f64) {
         let damping = run.damping();
-        let both = self.even + self.masses;
+        let both = self.roundoff + self.masses;
         let centre = run.centre().map_or(0.0, |(_, rate)| rate.to_f64().abs());
         let most = 2.0 * (self.most + centre + run.medium.gravity.to_f64() + run.medium.slope.to_f64().abs());
         let far = 1.0 + time;
@@ -485,7 +485,7 @@ impl<S: RoundedSpecial> Proof<S> {
         self.drift(run.medium, trips);
         let grown = run.damping().exp();
         // Bound of h′ of the stored vibration, and of the error of its height.
-        let stray = 4.0 * grown * (grown * (self.even - self.began) + self.means[0] + self.means[1]);
+        let stray = 4.0 * grown * (grown * (self.roundoff - self.began) + self.means[0] + self.means[1]);
         let defect = self.steps.leap(count, trips, size, stray) + stray;
         self.leapt = self.leapt.max(defect);
         self.add(defect);

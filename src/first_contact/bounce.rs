@@ -1,8 +1,8 @@
 //! End of the contact: the bounce time `t_b`, the first root or jump of the stress, or the reason why there is none.
 
-use super::cells::{Kernels, Search};
 use super::field::FirstContact;
 use super::outcome::{Bounce, BounceKind};
+use super::round_trip::{Kernels, Search};
 use crate::reason::{Doubt, NoBounceReason};
 use crate::special::BoundedSpecial;
 

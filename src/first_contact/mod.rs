@@ -5,7 +5,6 @@
 //! parameters are `R = r t₁` and the weights `μ` and `μ₀ = g t₁` of two fixed solutions. `r = 0` is not a special case.
 
 mod bounce;
-mod cells;
 mod field;
 mod first_root;
 mod history;
@@ -14,10 +13,11 @@ mod outcome;
 mod peak;
 mod pieces;
 mod rebound;
+mod round_trip;
 mod static_state;
 
-pub use cells::Kernels;
 pub use field::{FirstContact, Trips};
 pub use history::ContactHistory;
 pub use outcome::{Bounce, BounceKind};
 pub use rebound::Rebound;
+pub use round_trip::Kernels;

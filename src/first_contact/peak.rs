@@ -1,8 +1,8 @@
 //! The most compressive stress of a contact.
 
-use super::cells::{Interpolant, Search};
 use super::field::{FirstContact, Trips};
 use super::first_root::{derivative, evaluate};
+use super::round_trip::{Interpolant, Search};
 use crate::motion::Side;
 use crate::number::Scalar;
 use crate::special::{BoundedSpecial, Ray};

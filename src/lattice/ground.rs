@@ -336,11 +336,11 @@ fn before_surd<N: Bounded>(
     let time = rational.surd(slope.negative()?, &(scale.square() * disc));
     let near = ((q.int(trip as i64) + from + &flown) * unit).to_f64();
     // Prefer a short fraction if one fits between the beginning of the piece and the root.
-    let ticks = ((from.to_f64() + flown.to_f64()) * MILLION as f64 - 1e-3).floor();
-    let short = from.int(ticks as i64) / from.int(MILLION);
+    let ticks = ((from.to_f64() + flown.to_f64()) * PARTS_OF_A_TRIP as f64 - 1e-3).floor();
+    let short = from.int(ticks as i64) / from.int(PARTS_OF_A_TRIP);
     let below = if from.below(&short)? { short } else { flown * from.double(1.0 - 1e-9) + from };
     Ok((below, Ending::ExactnessEnds { kind: EventKind::Impact, time, near }))
 }
 
 /// Number of parts of a round trip to which the end of an exact history is rounded down.
-const MILLION: i64 = 1_000_000;
+const PARTS_OF_A_TRIP: i64 = 1_000_000;

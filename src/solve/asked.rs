@@ -113,7 +113,7 @@ pub(super) enum Open<S: Answer> {
 }
 
 /// An engine with the treatment of times on which it is undecided.
-pub(super) struct Telling<S: Rounded> {
+pub(super) struct TimeResolver<S: Rounded> {
     engine: Engined<S>,
     windows: OnceLock<Windows<Estimate<S>>>,
     start: StartRays,
@@ -122,10 +122,10 @@ pub(super) struct Telling<S: Rounded> {
     covered: Mutex<Vec<f64>>,
 }
 
-impl<S: Rounded> Telling<S> {
+impl<S: Rounded> TimeResolver<S> {
     pub(super) fn of(engine: Engined<S>, problem: &Problem, open: Open<S>) -> Engined<S> {
         let (windows, made, covered) = (OnceLock::new(), Mutex::default(), Mutex::default());
-        Arc::new(Telling { engine, windows, start: StartRays::of(problem), open, made, covered })
+        Arc::new(TimeResolver { engine, windows, start: StartRays::of(problem), open, made, covered })
     }
 
     fn windows(&self) -> &Windows<Estimate<S>> {
@@ -242,7 +242,7 @@ fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
     Estimate::new(middle, (high - low) / 2.0 + rounding)
 }
 
-impl<S: Rounded> Motion<Estimate<S>> for Telling<S> {
+impl<S: Rounded> Motion<Estimate<S>> for TimeResolver<S> {
     forwarded!(Estimate<S>, identity);
 
     fn strain(&self, time: &Estimate<S>, side: Side) -> Result<Estimate<S>, Error> {

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::asked::{Longer, Open, Telling, Windows, not_told};
+use super::asked::{Longer, Open, TimeResolver, Windows, not_told};
 use super::forwarded::forwarded;
 use super::ladder::{Engined, Ladder};
 use super::rung::LONG;
@@ -377,7 +377,7 @@ where
 {
     let mut doubles = ladder.lattice::<Estimate<f64>>(&())?;
     Ok(if doubles.confirm(&exact) {
-        Telling::of(Arc::new(doubles), ladder.problem, Open::Ask(longer))
+        TimeResolver::of(Arc::new(doubles), ladder.problem, Open::Ask(longer))
     } else {
         Arc::new(Converted::new(Arc::new(exact)))
     })

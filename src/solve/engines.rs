@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::asked::{Longer, Open, Telling};
+use super::asked::{Longer, Open, TimeResolver};
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Computed, Derivative};
 use super::ladder::{Engined, Ladder, Target};
@@ -32,7 +32,7 @@ impl Target for f64 {
             };
             let rungs = plan.chain_rungs().into_iter().skip(1).collect();
             let longer = longer(ladder, rungs, u32::MAX, long_chain);
-            return Ok(Telling::of(Arc::new(engine), problem, Open::Says(longer)));
+            return Ok(TimeResolver::of(Arc::new(engine), problem, Open::Says(longer)));
         }
         // A run that exact numbers confirm is in doubles.
         let exact = matches!(rung, Rung::Fractions | Rung::Confirmed(_));
@@ -54,7 +54,7 @@ impl Target for f64 {
         let problem = &*plan.reaching(problem);
         let task = Ladder { problem, ..ladder }.task::<f64>(&(), rung);
         let engine = estimates(plan, &task, rung.bits(), |march| march())?;
-        Ok(Telling::of(engine, problem, Open::Ask(longer)))
+        Ok(TimeResolver::of(engine, problem, Open::Ask(longer)))
     }
 
     /// Computes derivatives from doubles if the request does not exceed their accuracy and nothing jumps or bends;

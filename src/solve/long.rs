@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::asked::{Longer, Open, Telling, not_told};
+use super::asked::{Longer, Open, TimeResolver, not_told};
 use super::chain;
 use super::converted::{Converted, confirmed};
 use super::derivative::{Asked, Computed};
@@ -68,7 +68,7 @@ impl Target for Float {
                 let digits = plan.goal.digits as u32;
                 let last = bits >= MOST_TIMES * plan.rung.bits();
                 let error = if last { Error::Unsettled { digits, bits } } else { not_told(Some(bits)) };
-                Ok(Telling::<Float>::of(run, problem, Open::Refuse(error)))
+                Ok(TimeResolver::<Float>::of(run, problem, Open::Refuse(error)))
             }
         }
     }
@@ -97,7 +97,7 @@ pub(super) fn in_doubles(ladder: Ladder<'_>, rung: Rung, longer: Longer<f64>) ->
     Ok(match rung {
         Rung::Enclosures(bits) if LONG => Arc::new(Converted::new(enclosures(ladder, bits)?)),
         Rung::Confirmed(bits) if LONG => confirmed(ladder, roots(ladder, bits)?, longer)?,
-        rung => Telling::of(read(ladder, rung)?, ladder.problem, Open::Says(longer)),
+        rung => TimeResolver::of(read(ladder, rung)?, ladder.problem, Open::Says(longer)),
     })
 }
 

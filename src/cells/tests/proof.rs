@@ -14,12 +14,12 @@ use crate::problem::{Problem, Profile, Run, Start};
 const BITS: u32 = 160;
 
 /// Solves a run whose account begins with these sups and masses.
-fn proved(problem: &Problem, (even, masses): (f64, f64)) -> Damped<Float> {
+fn proved(problem: &Problem, (roundoff, masses): (f64, f64)) -> Damped<Float> {
     let effort = Effort { until_lost: false, ..Effort::of(40.0) };
     let (medium, data) = medium::<Float>(problem, &BITS, effort.digits, 1).unwrap();
     let mut proof = Proof::new(&medium);
     let unit = data.units.velocity.to_f64();
-    (proof.even, proof.masses) = (even / unit, masses / unit);
+    (proof.roundoff, proof.masses) = (roundoff / unit, masses / unit);
     let task = Task { problem, precision: &BITS, effort, observe: &unobserved };
     let found = Follower::new(&medium, &data, Some(proof)).run(&task).unwrap();
     Damped::record_of(&task, (medium, data), found).unwrap()

@@ -1,4 +1,4 @@
-//! One cell between two lattice times: whether the transient has died away, and the first root of the stress.
+//! One round trip between two lattice times: whether the transient has died away, and the first root of the stress.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
