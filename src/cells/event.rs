@@ -277,18 +277,9 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let at_ray = at == 0.0 && !fresh;
         let before = self.last_trace.as_ref().filter(|_| at_ray).map_or(0.0, S::to_f64);
         // The stretch on which the end may lie on the ground: p is −q there, and q in flight.
-        let value = |c: &[S], x: f64| evaluate(c, &c[0].double(x)).to_f64();
-        let (mut from, mut to, mut step) = (at, at, SMALLEST_STEP);
-        while from > 0.0 && value(height, from) <= high {
-            (from, step) = ((from - step).max(0.0), 2.0 * step);
-        }
-        step = SMALLEST_STEP;
-        while to < 1.0 && value(height, to).abs() <= high && value(trace, to) <= off {
-            (to, step) = ((to + step).min(1.0), 2.0 * step);
-        }
-        let most =
-            |from, to| bound(&basis.restrict(trace, &trace[0].double(from), &trace[0].double(to), trace.len()), 0);
-        let most = if to > from { most(from, to) } else { 0.0 };
+        let lies = |to: f64| value(height, to).abs() <= high && value(trace, to) <= off;
+        let (from, to) = stretch(at, |from| value(height, from) <= high, |_, to| lies(to), 2.0);
+        let most = if to > from { self.most_on(trace, (from, to)) } else { 0.0 };
         if before < -off {
             // The time until the ray arrives, for the rest of the fall.
             self.budget.cover_hop(4.0 * high);
@@ -301,25 +292,23 @@ impl<S: RoundedSpecial> Follower<'_, S> {
     /// Records an undecided release. From the place `at` in this strip on the stress is within `off` of zero: the end
     /// may fly until the integral of the greatest possible stress is negative again.
     fn note_open_release(&mut self, trace: &[S], at: f64, off: f64) {
-        let basis = &self.medium.basis;
         let mut area = trace.to_vec();
         area.push(trace[0].zero());
-        basis.integrate(&mut area);
-        let value = |c: &[S], x: f64| evaluate(c, &c[0].double(x)).to_f64();
-        let (mut from, mut to, mut step) = (at, at, SMALLEST_STEP);
-        while from > 0.0 && value(trace, from) >= -off {
-            (from, step) = ((from - step).max(0.0), 2.0 * step);
-        }
-        step = SMALLEST_STEP;
-        let start = value(&area, from);
+        self.medium.basis.integrate(&mut area);
         // The stretch ends once the end has certainly let go, or would be back on the ground.
-        let open = |to: f64| value(trace, to) <= off && value(&area, to) - start + off * (to - from) >= 0.0;
-        while to < 1.0 && (to == at || open(to)) {
-            (to, step) = ((to + step).min(1.0), 1.5 * step);
-        }
-        let most = bound(&basis.restrict(trace, &trace[0].double(from), &trace[0].double(to), trace.len()), 0);
+        let open = |from: f64, to: f64| {
+            value(trace, to) <= off && value(&area, to) - value(&area, from) + off * (to - from) >= 0.0
+        };
+        let both = stretch(at, |from| value(trace, from) >= -off, |from, to| to == at || open(from, to), 1.5);
+        let most = self.most_on(trace, both);
         let len = self.state.segments[0].len.to_f64();
         self.not_told(at * len, Near::Release, 2.0 * (most + off));
+    }
+
+    /// Bounds `|trace|` on a stretch of this strip.
+    fn most_on(&self, trace: &[S], (from, to): (f64, f64)) -> f64 {
+        let (from, to) = (trace[0].double(from), trace[0].double(to));
+        bound(&self.medium.basis.restrict(trace, &from, &to, trace.len()), 0)
     }
 
     /// Records an undecided event `later` than now, after which velocities may differ by `differ`.
@@ -344,4 +333,23 @@ impl<S: RoundedSpecial> Follower<'_, S> {
         let longest = most.max(longest * unit.to_f64());
         self.unresolved = Some(Warning::HopsUnresolved { from, longest, landings: landings + 1 });
     }
+}
+
+/// Computes the value of a series at the place `x` of a strip.
+fn value<S: RoundedSpecial>(c: &[S], x: f64) -> f64 {
+    evaluate(c, &c[0].double(x)).to_f64()
+}
+
+/// Returns the stretch about the place `at` of a strip that reaches back while `before` holds where it begins, and on
+/// while `after` holds for both its ends; steps back double, and steps on grow by the factor `growth`.
+fn stretch(at: f64, before: impl Fn(f64) -> bool, after: impl Fn(f64, f64) -> bool, growth: f64) -> (f64, f64) {
+    let (mut from, mut step) = (at, SMALLEST_STEP);
+    while from > 0.0 && before(from) {
+        (from, step) = ((from - step).max(0.0), 2.0 * step);
+    }
+    let (mut to, mut step) = (at, SMALLEST_STEP);
+    while to < 1.0 && after(from, to) {
+        (to, step) = ((to + step).min(1.0), growth * step);
+    }
+    (from, to)
 }

@@ -4,9 +4,11 @@
 //! `y = v_t`, and the rod lands when `v(0,·) = ∫ y` returns to zero. A return at which `y` is positive, or zero and not
 //! falling, is no landing: the flight goes on.
 
+use std::ops::ControlFlow;
+
 use super::account::Proof;
 use super::budget::{Budget, CUT_CELLS, FIRST_CELLS, MOST_LATE};
-use super::effort::{MOST_PIECES, MOST_SEGMENTS, Task};
+use super::effort::{Effort, MOST_PIECES, MOST_SEGMENTS, Task};
 use super::flight::Flight;
 use super::march::{Medium, State};
 use super::piece::{Checkpoint, Found, Mark, Piece};
@@ -22,6 +24,10 @@ use crate::special::RoundedSpecial;
 
 /// Roundings of a round trip within which an event counts as at a ray.
 const AT_RAY: f64 = 32.0;
+
+/// Distance of an event from the end of a run, in round trips, below which its time error may reach the end: with a
+/// greater error the order of events is lost.
+const NEAR_END: f64 = MOST_LATE;
 
 #[derive(Clone, Debug)]
 pub(super) enum Goal<S> {
@@ -83,6 +89,35 @@ pub(super) struct Follower<'a, S> {
     /// Error bounds of values before the first event.
     pub(super) before: Uncertainty,
     pub(super) proof: Option<Proof<S>>,
+}
+
+/// State of a run between its strips.
+struct Pace<S> {
+    /// Last round trip that has begun.
+    round: i64,
+    /// Time since which the rod has been calm, as [`Follower::settle`] notes it.
+    calm: Option<S>,
+    /// Whether an event has already occurred at this time.
+    fresh: bool,
+    /// Time by which an event at the end of the strip before was moved onto its ray.
+    moved: f64,
+}
+
+/// The strip that begins now, with `v_t + c v_x` at the ground and, in flight, `v(0,·)` over it.
+struct Strip<S> {
+    len: S,
+    trace: Vec<S>,
+    height: Vec<S>,
+}
+
+/// The next event in a strip.
+struct Next<S> {
+    /// Time from the beginning of the strip, between its ends.
+    inside: Option<S>,
+    at_start: bool,
+    at_end: bool,
+    /// Error of the function and of its bound where noise hides its root.
+    vague: f64,
 }
 
 impl<'a, S: RoundedSpecial> Follower<'a, S> {
@@ -261,43 +296,18 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
     /// Follows the end to the goal; `observe` receives the number of round trips, or of contacts if the goal is a
     /// number of impacts, and the number of pieces.
     fn follow(&mut self, goal: &Goal<S>, Task { effort, observe, .. }: &Task<'_, S>) -> Result<Ending, Error> {
-        let unit = self.height.log2_roundoff().exp2();
-        let mut round = i64::MIN;
-        let mut calm = None;
-        // Whether an event has already occurred at this time.
-        let mut fresh = true;
-        // Time by which an event at the end of the strip before was moved onto its ray.
-        let mut moved = 0.0;
+        let mut pace = Pace { round: i64::MIN, calm: None, fresh: true, moved: 0.0 };
         loop {
-            if self.open() {
-                return Ok(Ending::Time);
+            if let Some(ending) = self.limits(effort)? {
+                return Ok(ending);
             }
-            let (pieces, segments) = (self.pieces.len(), self.state.segments.len());
-            if pieces >= MOST_PIECES || segments > MOST_SEGMENTS || self.crossed > effort.cells {
-                return Ok(Ending::Undecided(Reason::Effort { cells: self.crossed, rays: segments }));
-            }
-            if self.lost && effort.until_lost {
-                return Err(Error::not_decided("in which order the events come", self.height.bits()));
-            }
-            if self.state.round > round {
-                round = self.state.round;
-                let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { round.max(0) as usize };
-                if observe(done, pieces).is_break() {
-                    return Err(Error::Interrupted);
-                }
-                self.new_round();
-                if !(self.height.is_finite() && self.cell_error.is_finite()) {
-                    return Err(Error::not_decided(
-                        "how the rod moves beyond the range of these numbers",
-                        self.height.bits(),
-                    ));
-                }
-                if let Some(ending) = self.settle(goal, &mut calm) {
+            if self.state.round > pace.round {
+                if let Some(ending) = self.begin_round(goal, *observe, &mut pace)? {
                     return Ok(ending);
                 }
                 if let Some(trips) = self.leap_length(goal) {
                     self.leap(trips);
-                    fresh = false;
+                    pace.fresh = false;
                     continue;
                 }
             }
@@ -306,117 +316,170 @@ impl<'a, S: RoundedSpecial> Follower<'a, S> {
             {
                 return Ok(ending);
             }
-            // Event at the beginning of this strip.
-            let first = &self.state.segments[0];
-            let (len, ray) = (first.len.clone(), first.off.plus(std::mem::take(&mut moved)));
-            if !fresh && self.contact {
-                let trace = self.held_trace();
-                self.note_open_ray(&trace);
-                if self.rises(trace) {
-                    self.event(ray, None);
-                    fresh = true;
-                    continue;
-                }
+            if let Some(ending) = self.follow_strip(goal, &mut pace) {
+                return Ok(ending);
             }
-            let (trace, height) = self.over(&len);
-            // The height after a release already includes the ray that releases the end.
-            if !fresh {
-                self.pass_ray(&trace, ray);
-            }
-            let left = match goal {
-                Goal::Time(end) => (end.clone() - self.state.time()).to_f64(),
-                Goal::Impacts(_) => f64::INFINITY,
-            };
-            let open = self.note_open(&trace, &height, fresh, left);
-            let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0, open);
-            if !fresh && grounded && !self.rises(self.held_trace()) {
-                if self.land_at_ray(goal, ray, &trace, &height, &len) {
-                    return Ok(Ending::NextImpact);
-                }
-                fresh = true;
-                continue;
-            }
-            // Next event in this strip.
-            let (noise, found) = if self.contact {
-                let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
-                let most = if open { f64::INFINITY } else { self.trace_error() };
-                let noise = self.noise().min(most).max(unit * 16.0 * bound(&trace, 0));
-                (noise, first_descent(&self.medium.basis, &fall, noise))
-            } else {
-                let noise = self.height_noise(len.to_f64(), open).max(unit * 16.0 * bound(&height, 0));
-                (noise, first_descent(&self.medium.basis, &height, noise))
-            };
-            // If the noise hides the root, both the function and its error bound are off by the noise.
-            let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
-            let found = found.map(|(x, _)| if self.proof.is_some() { on_grid(x * &len) } else { x * &len });
-            let nearby = |x: &S| x.to_f64() <= AT_RAY * unit;
-            let at_start = found.as_ref().is_some_and(&nearby);
-            if at_start && !fresh {
-                let ray = ray.plus(AT_RAY * unit);
-                if self.contact {
-                    self.event(ray, None);
-                } else if self.land_at_ray(goal, ray, &trace, &height, &len) {
-                    return Ok(Ending::NextImpact);
-                }
-                fresh = true;
-                continue;
-            }
-            let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
-            let found = found.filter(|_| !at_start && !at_end);
-            if let Goal::Time(end) = goal {
-                let left = end.clone() - self.state.time();
-                if let Some(x) = found.as_ref().filter(|x| ((*x).clone() - &left).to_f64().abs() < MOST_LATE) {
-                    let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
-                    if (x.clone() - &left).to_f64().abs() <= self.budget.better(off) {
-                        self.not_told(left.to_f64(), Near::End, 0.0);
-                    }
-                }
-                let rounding = 8.0 * unit * end.to_f64().max(1.0);
-                if left.to_f64() <= rounding {
-                    // The strip after a release proves it: a run that ends with a release looks that far ahead.
-                    let cut = found.map(|x| x.clone() / x.double(2.0));
-                    let cut = cut.as_ref().map(|cut| (cut, false));
-                    self.prove(|proof, run| proof.last_release(run, cut, &trace, &height));
-                    return Ok(Ending::Time);
-                }
-                // Where only roundings separate the next ray from the end of the run, that ray may bring a release.
-                let ends = (len.clone() - &left).to_f64() > rounding && found.as_ref().is_none_or(|x| *x > left);
-                if ends {
-                    self.advance(Some((&left, false)), Off::default(), &trace, &height);
-                    return Ok(Ending::Time);
-                }
-            }
-            match found {
-                Some(x) => {
-                    let off = self.event_error(&trace, &height, &(x.clone() / &len), &len, vague);
-                    let slope = evaluate(&derivative(&trace), &(x.clone() / &len)).to_f64() / len.to_f64();
-                    self.advance(Some((&x, true)), off, &trace, &height);
-                    if self.contact {
-                        self.event(off, Some(slope));
-                    } else {
-                        self.at_ray = false;
-                        if self.land(goal, off) {
-                            return Ok(Ending::NextImpact);
-                        }
-                    }
-                    fresh = true;
-                }
-                None => {
-                    self.advance(None, Off::default(), &trace, &height);
-                    if at_end {
-                        moved = AT_RAY * unit;
-                    }
-                    if at_end && !self.contact {
-                        self.height = self.height.zero();
-                    }
-                    fresh = false;
-                }
-            }
-            let once = self.state.round > round && !self.contact && matches!(goal, Goal::Impacts(_));
+            let once = self.state.round > pace.round && !self.contact && matches!(goal, Goal::Impacts(_));
             if once && let Some(ending) = self.escapes() {
                 return Ok(ending);
             }
         }
+    }
+
+    /// Returns the ending of a run that has reached a limit of its effort or of its proof.
+    ///
+    /// **Errors**: [`Error::NotDecided`] where the order of events is lost, and longer numbers follow.
+    fn limits(&self, effort: &Effort) -> Result<Option<Ending>, Error> {
+        if self.open() {
+            return Ok(Some(Ending::Time));
+        }
+        let (pieces, rays) = (self.pieces.len(), self.state.segments.len());
+        if pieces >= MOST_PIECES || rays > MOST_SEGMENTS || self.crossed > effort.cells {
+            return Ok(Some(Ending::Undecided(Reason::Effort { cells: self.crossed, rays })));
+        }
+        if self.lost && effort.until_lost {
+            return Err(Error::not_decided("in which order the events come", self.height.bits()));
+        }
+        Ok(None)
+    }
+
+    /// Begins a round trip, and returns the ending of a run that needs no further one.
+    ///
+    /// **Errors**: [`Error::Interrupted`] by `observe`; [`Error::NotDecided`] beyond the range of the numbers.
+    fn begin_round(
+        &mut self,
+        goal: &Goal<S>,
+        observe: &dyn Fn(usize, usize) -> ControlFlow<()>,
+        pace: &mut Pace<S>,
+    ) -> Result<Option<Ending>, Error> {
+        pace.round = self.state.round;
+        let done = if matches!(goal, Goal::Impacts(_)) { self.landed as usize } else { pace.round.max(0) as usize };
+        if observe(done, self.pieces.len()).is_break() {
+            return Err(Error::Interrupted);
+        }
+        self.new_round();
+        if !(self.height.is_finite() && self.cell_error.is_finite()) {
+            return Err(Error::not_decided("how the rod moves beyond the range of these numbers", self.height.bits()));
+        }
+        Ok(self.settle(goal, &mut pace.calm))
+    }
+
+    /// Follows the end to the next event, at most over the strip that begins now; returns the ending if the run ends
+    /// there.
+    fn follow_strip(&mut self, goal: &Goal<S>, pace: &mut Pace<S>) -> Option<Ending> {
+        let first = &self.state.segments[0];
+        let (len, ray) = (first.len.clone(), first.off.plus(std::mem::take(&mut pace.moved)));
+        let fresh = std::mem::replace(&mut pace.fresh, true);
+        if !fresh && self.contact {
+            let trace = self.held_trace();
+            self.note_open_ray(&trace);
+            if self.rises(trace) {
+                self.event(ray, None);
+                return None;
+            }
+        }
+        let (trace, height) = self.over(&len);
+        // The height after a release already includes the ray that releases the end.
+        if !fresh {
+            self.pass_ray(&trace, ray);
+        }
+        let left = match goal {
+            Goal::Time(end) => (end.clone() - self.state.time()).to_f64(),
+            Goal::Impacts(_) => f64::INFINITY,
+        };
+        let open = self.note_open(&trace, &height, fresh, left);
+        let grounded = !self.contact && self.height.to_f64() <= self.height_noise(0.0, open);
+        if !fresh && grounded && !self.rises(self.held_trace()) {
+            return self.land_at_ray(goal, ray, &trace, &height, &len).then_some(Ending::NextImpact);
+        }
+        let strip = Strip { len, trace, height };
+        let Next { inside, at_start, at_end, vague } = self.next_event(&strip, open);
+        let Strip { len, trace, height } = &strip;
+        let close = AT_RAY * self.unit();
+        if at_start && !fresh {
+            let ray = ray.plus(close);
+            if !self.contact {
+                return self.land_at_ray(goal, ray, trace, height, len).then_some(Ending::NextImpact);
+            }
+            self.event(ray, None);
+            return None;
+        }
+        if let Goal::Time(end) = goal
+            && self.ends(end, inside.as_ref(), vague, &strip)
+        {
+            return Some(Ending::Time);
+        }
+        let Some(x) = inside else {
+            self.advance(None, Off::default(), trace, height);
+            if at_end {
+                pace.moved = close;
+            }
+            if at_end && !self.contact {
+                self.height = self.height.zero();
+            }
+            pace.fresh = false;
+            return None;
+        };
+        let off = self.event_error(trace, height, &(x.clone() / len), len, vague);
+        let slope = evaluate(&derivative(trace), &(x.clone() / len)).to_f64() / len.to_f64();
+        self.advance(Some((&x, true)), off, trace, height);
+        if self.contact {
+            self.event(off, Some(slope));
+            return None;
+        }
+        self.at_ray = false;
+        self.land(goal, off).then_some(Ending::NextImpact)
+    }
+
+    /// Finds the next event in a strip; where the bound leaves one `open`, the roundings alone decide.
+    fn next_event(&self, Strip { len, trace, height }: &Strip<S>, open: bool) -> Next<S> {
+        let unit = self.unit();
+        let (noise, found) = if self.contact {
+            let fall: Vec<S> = trace.iter().map(|term| -term.clone()).collect();
+            let most = if open { f64::INFINITY } else { self.trace_error() };
+            let noise = self.noise().min(most).max(unit * 16.0 * bound(trace, 0));
+            (noise, first_descent(&self.medium.basis, &fall, noise))
+        } else {
+            let noise = self.height_noise(len.to_f64(), open).max(unit * 16.0 * bound(height, 0));
+            (noise, first_descent(&self.medium.basis, height, noise))
+        };
+        // If the noise hides the root, both the function and its error bound are off by the noise.
+        let vague = if found.as_ref().is_some_and(|(_, vague)| *vague) { 2.0 * noise } else { 0.0 };
+        let found = found.map(|(x, _)| if self.proof.is_some() { on_grid(x * len) } else { x * len });
+        let nearby = |x: &S| x.to_f64() <= AT_RAY * unit;
+        let at_start = found.as_ref().is_some_and(&nearby);
+        let at_end = found.as_ref().is_some_and(|x| nearby(&(len.clone() - x)));
+        Next { inside: found.filter(|_| !at_start && !at_end), at_start, at_end, vague }
+    }
+
+    /// Returns whether the run ends at the time `end` in this strip, before the event at `found`; marches up to it.
+    fn ends(&mut self, end: &S, found: Option<&S>, vague: f64, Strip { len, trace, height }: &Strip<S>) -> bool {
+        let left = end.clone() - self.state.time();
+        if let Some(x) = found.filter(|x| ((*x).clone() - &left).to_f64().abs() < NEAR_END) {
+            let off = self.event_error(trace, height, &(x.clone() / len), len, vague);
+            if (x.clone() - &left).to_f64().abs() <= self.budget.better(off) {
+                self.not_told(left.to_f64(), Near::End, 0.0);
+            }
+        }
+        let rounding = 8.0 * self.unit() * end.to_f64().max(1.0);
+        if left.to_f64() <= rounding {
+            // The strip after a release proves it: a run that ends with a release looks that far ahead.
+            let cut = found.map(|x| x.clone() / x.double(2.0));
+            let cut = cut.as_ref().map(|cut| (cut, false));
+            self.prove(|proof, run| proof.last_release(run, cut, trace, height));
+            return true;
+        }
+        // Where only roundings separate the next ray from the end of the run, that ray may bring a release.
+        let ends = (len.clone() - &left).to_f64() > rounding && found.is_none_or(|x| *x > left);
+        if ends {
+            self.advance(Some((&left, false)), Off::default(), trace, height);
+        }
+        ends
+    }
+
+    /// Returns the unit roundoff.
+    fn unit(&self) -> f64 {
+        self.height.log2_roundoff().exp2()
     }
 
     /// Begins a round trip: stores a checkpoint, and computes anew the values that are summed up during a round trip.
