@@ -1,8 +1,6 @@
 //! The rod, the ground and the start: what is solved, in exact numbers.
 
-use super::given::{Given, UNITS};
 use super::in_chain::InChain;
-use super::validate::{DAMPING_RATIO, Draft};
 use super::{Builder, Parameter, ProblemError};
 use crate::number::{Number, Rational};
 
@@ -316,40 +314,5 @@ impl Parameter {
     /// Returns the number that `problem` gives for this parameter, to be replaced.
     pub(super) fn given_mut(self, problem: &mut Problem) -> Option<&mut Number> {
         number_of!(problem, self)
-    }
-}
-
-impl Draft {
-    /// The problem, if all values and their combinations are within the [limits](crate::problem#limits).
-    pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
-        let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
-        let length = self.required(Parameter::Length)?;
-        let material = self.material()?;
-        let damping = self.non_negative(Parameter::Damping)?;
-        let gravity = self.non_negative(Parameter::Gravity)?;
-
-        let t1 = material.round_trip(length.number);
-        length.makes("the round trip 2L/c = ", t1, UNITS, "one")?;
-        let g = gravity.as_ref().map_or(0.0, |g| g.number.to_f64());
-        if let Some(gravity) = &gravity {
-            gravity.makes("g t₁ = ", g * t1, UNITS, "a speed")?;
-        }
-        if let Some(damping) = &damping {
-            damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
-        }
-        let problem = Problem {
-            start: match &self.in_chain {
-                Some(_) => Start::Profile(self.profile(length.number)?),
-                None => self.start(length.number, t1, g)?,
-            },
-            run: self.run(t1)?,
-            length: length.number.clone(),
-            material,
-            damping: number(&damping),
-            top: self.top.unwrap_or_default(),
-            gravity: number(&gravity),
-            in_chain: self.place_in_chain()?,
-        };
-        problem.checked_in_chain()
     }
 }

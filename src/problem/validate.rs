@@ -4,12 +4,14 @@ use super::given::{ByParameter, Given, UNITS, range, within};
 use super::in_chain::InChain;
 use super::parameters::touch_speed;
 use super::profile::{self, Points};
-use super::{Material, Parameter, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top, Written};
+use super::{
+    Material, Parameter, Problem, ProblemError, ProblemErrorKind as Kind, Profile, Run, Speed, Start, Top, Written,
+};
 use crate::number::{Number, Rational};
 
 pub(super) const IMPACT: &[Parameter] = &[Parameter::ImpactSpeed, Parameter::Gap, Parameter::DropHeight];
 
-pub(super) const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
+const DAMPING_RATIO: (f64, f64) = (1e-305, 1e6);
 const SPEED_RATIO: (f64, f64) = (1e-12, 1e12);
 /// Maximum length of a run in round trips.
 const MAX_ROUND_TRIPS: f64 = 1e12;
@@ -43,6 +45,39 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
+    /// Returns the problem, if all values and their combinations are within the [limits](crate::problem#limits).
+    pub(crate) fn check(&self) -> Result<Problem, ProblemError> {
+        let number = |given: &Option<Given<'_>>| given.as_ref().map(|given| given.number.clone());
+        let length = self.required(Parameter::Length)?;
+        let material = self.material()?;
+        let damping = self.non_negative(Parameter::Damping)?;
+        let gravity = self.non_negative(Parameter::Gravity)?;
+
+        let t1 = material.round_trip(length.number);
+        length.makes("the round trip 2L/c = ", t1, UNITS, "one")?;
+        let g = gravity.as_ref().map_or(0.0, |g| g.number.to_f64());
+        if let Some(gravity) = &gravity {
+            gravity.makes("g t₁ = ", g * t1, UNITS, "a speed")?;
+        }
+        if let Some(damping) = &damping {
+            damping.makes("r t₁ = ", damping.number.to_f64() * t1, DAMPING_RATIO, "zero or a value")?;
+        }
+        let problem = Problem {
+            start: match &self.in_chain {
+                Some(_) => Start::Profile(self.profile(length.number)?),
+                None => self.start(length.number, t1, g)?,
+            },
+            run: self.run(t1)?,
+            length: length.number.clone(),
+            material,
+            damping: number(&damping),
+            top: self.top.unwrap_or_default(),
+            gravity: number(&gravity),
+            in_chain: self.place_in_chain()?,
+        };
+        problem.checked_in_chain()
+    }
+
     /// Stretches the points of the start to another length.
     pub(super) fn stretch(&mut self, length: &Written) {
         let number = |written: &Written| written.number.as_ref().ok().cloned().map(|number| number.to_rational());
@@ -56,7 +91,7 @@ impl Draft {
         }
     }
 
-    pub(super) fn material(&self) -> Result<Material, ProblemError> {
+    fn material(&self) -> Result<Material, ProblemError> {
         const EITHER: &str = "wave_speed, or a material: modulus and density";
         let first =
             [Parameter::Modulus, Parameter::Density, Parameter::Area].into_iter().find(|other| self.has(*other));
@@ -76,7 +111,7 @@ impl Draft {
     }
 
     /// Returns the chain that the body is part of, with the stiffness of the spring below it.
-    pub(super) fn place_in_chain(&self) -> Result<Option<InChain>, ProblemError> {
+    fn place_in_chain(&self) -> Result<Option<InChain>, ProblemError> {
         if !self.has(Parameter::Stiffness) {
             return Ok(self.in_chain.clone());
         }
@@ -96,7 +131,7 @@ impl Draft {
     }
 
     /// The start of a body of a chain, whose displacement may have either sign.
-    pub(super) fn profile(&self, length: &Number) -> Result<Profile, ProblemError> {
+    fn profile(&self, length: &Number) -> Result<Profile, ProblemError> {
         if let Some(impact) = IMPACT.iter().find(|parameter| self.has(**parameter)) {
             let found = format!("{} of a body of a chain", self.name(*impact));
             let expected = "a velocity and a displacement of the start";
@@ -106,7 +141,7 @@ impl Draft {
     }
 
     /// The motion at `t = 0` of a rod with this length and round trip under the gravity `g`.
-    pub(super) fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
+    fn start(&self, length: &Number, t1: f64, g: f64) -> Result<Start, ProblemError> {
         let impact = IMPACT.iter().any(|parameter| self.has(*parameter));
         match (impact, !self.profiles.is_empty()) {
             (true, false) => match self.non_negative(Parameter::Gap)? {
@@ -194,7 +229,7 @@ impl Draft {
         Ok(given)
     }
 
-    pub(super) fn run(&self, t1: f64) -> Result<Run, ProblemError> {
+    fn run(&self, t1: f64) -> Result<Run, ProblemError> {
         if let Some(time) = self.positive(Parameter::Time)? {
             if self.has(Parameter::Impacts) {
                 let found = "impacts as well as time";
@@ -223,11 +258,11 @@ impl Draft {
     }
 
     /// A value above zero, if it is given.
-    pub(super) fn positive(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
+    fn positive(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
         self.given(parameter)?.map(|given| given.positive(parameter.noun())).transpose()
     }
 
-    pub(super) fn required(&self, parameter: Parameter) -> Result<Given<'_>, ProblemError> {
+    fn required(&self, parameter: Parameter) -> Result<Given<'_>, ProblemError> {
         self.positive(parameter)?.ok_or_else(|| {
             let expected = format!("{} above zero", parameter.noun());
             ProblemError::new(Kind::Missing, "rod", format!("no {}", self.name(parameter)), expected)
@@ -235,7 +270,7 @@ impl Draft {
     }
 
     /// A value that is not negative, if it is given and not zero.
-    pub(super) fn non_negative(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
+    fn non_negative(&self, parameter: Parameter) -> Result<Option<Given<'_>>, ProblemError> {
         let Some(given) = self.given(parameter)? else { return Ok(None) };
         let x = given.number.to_f64();
         if x < 0.0 {
