@@ -326,20 +326,20 @@ impl Near {
 }
 
 impl Warning {
-    /// Whether more bits could settle it in a damped run.
+    /// Returns whether more bits could settle it in a damped run.
     pub fn needs_bits(&self) -> bool {
         matches!(self, Warning::NotTold { .. } | Warning::HopsUnresolved { .. })
     }
 }
 
 impl Doubt {
-    /// Whether more bits could settle it.
+    /// Returns whether more bits could settle it.
     pub fn needs_bits(&self) -> bool {
         !matches!(self, Doubt::Parameters | Doubt::Late { .. } | Doubt::NoneFound(_))
     }
 }
 
-/// A time in words.
+/// Returns a time as text.
 fn short(time: &f64) -> String {
     if *time == 0.0 || (1e-3..1e6).contains(time) {
         format!("{}", (time * 1e6).round() / 1e6)

@@ -4,23 +4,24 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The number of threads that work at the same time.
+/// Number of threads that work at the same time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Threads(NonZero<usize>);
 
-/// One for each core.
 impl Default for Threads {
+    /// Returns one thread for each core.
     fn default() -> Self {
         Threads(std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
     }
 }
 
 impl Threads {
+    /// Returns the number of threads.
     pub(crate) fn count(self) -> usize {
         self.0.get()
     }
 
-    /// The answers for every index below `count`, in order.
+    /// Returns the answers for every index below `count`, in order.
     ///
     /// **Errors**: that of the least index among those that failed before all threads had stopped.
     pub(crate) fn all<T: Send, E: Send>(

@@ -6,7 +6,7 @@
 //! mass at equal times since the last event. It follows, with their signs, the effects of each source of error on the
 //! time of that event and on the velocity of the centre.
 
-use super::dependence::{Dependence, Form, Landing, TakeOff};
+use super::dependence::{Dependence, Form, Landing, SAME, TakeOff};
 use super::effort::LEAST_LEAP;
 use super::uncertainty::{Off, Uncertainty};
 use crate::special::{phi1, phi2};
@@ -103,8 +103,6 @@ fn aged(damping: f64, age: f64) -> (f64, f64) {
     (fall.exp(), phi1(&fall) * age)
 }
 
-/// Distance from a landing, in round trips, within which a stripe may pass before or after it.
-const NEAR: f64 = 1e-13;
 /// Rate of fading: `‖e^{−Rn} e^{nG}‖ ≤ e^{−FADES·Rn}`, as `‖G‖ ≤ R²/8 (1 + R²/150)` and `R ≤ 2`.
 const FADES: f64 = 0.74;
 /// Largest `|v̇| δt/|v|` at which a landing is treated as a linear function of the errors.
@@ -224,7 +222,7 @@ impl Budget {
         let late = self.events.late.bound();
         let (at, end_rate, near, slope, variation, bend) = match (begins, self.landing) {
             (None, Some(Landing { at, velocity, rate, off, slope, variation, bend, .. })) => {
-                (at, velocity - rate, off.apart.max(NEAR), slope, variation, bend)
+                (at, velocity - rate, off.apart.max(SAME), slope, variation, bend)
             }
             (begins, _) => {
                 let (slope, variation, bend) = begins.unwrap_or_default();
@@ -501,7 +499,7 @@ impl Budget {
         let (speed, clock) = (velocity.abs(), self.events.clock.bound());
         let (kept, _) = aged(self.damping, age);
         let fade = (-self.damping * age).exp();
-        let (form, more) = self.flown((age, rate, at), off.apart.max(NEAR));
+        let (form, more) = self.flown((age, rate, at), off.apart.max(SAME));
         let scattered = self.scattered(age, age);
         let bent = curvature * off.apart / speed;
         let linear = bent <= MOST_BENT;

@@ -111,8 +111,8 @@ pub(super) struct Landing {
 /// Maximum numbers of stripes and of sources that are followed one by one.
 const MOST_STRIPES: usize = 32;
 const MOST_SOURCES: usize = 200;
-/// Distance below which two rays count as one.
-const SAME: f64 = 1e-13;
+/// Distance, in round trips, below which two rays count as one, and a ray may pass before or after an event.
+pub(super) const SAME: f64 = 1e-13;
 
 /// Computes the displacement that a unit mass brings to the ground, `x` round trips after it passed: mean-free.
 fn sawtooth(x: f64) -> f64 {

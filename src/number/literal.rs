@@ -178,7 +178,7 @@ fn is_decimal(text: &str) -> bool {
     let digits = |s: &str| s.bytes().all(|b| b.is_ascii_digit());
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty())
-        // Four digits of exponent are more than the range that is accepted needs.
+        // Beside at most MAX_CHARACTERS digits, five digits of exponent span the range that is accepted.
         && !exponent.is_empty() && exponent.len() <= 6 && digits(exponent)
 }
 

@@ -11,6 +11,7 @@ use crate::number::{Number, Rational, Scalar};
 static ALL_DIFFERENTIABLE: LazyLock<String> =
     LazyLock::new(|| Parameter::all_differentiable().map(Parameter::name).collect::<Vec<_>>().join(", "));
 
+/// Returns the product; `None` where it has too many digits.
 fn times(number: &Number, factor: &Rational) -> Option<Number> {
     Number::of_rational(&(number.to_rational() * factor))
 }
@@ -32,7 +33,7 @@ pub(crate) fn stepped(
 }
 
 impl Parameter {
-    /// The step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
+    /// Returns the step by which [`Parameter::moved`] brings it to `value`; `None` where there is none.
     fn step_to(self, problem: &Problem, value: f64) -> Option<Rational> {
         let value = format!("{value:e}").parse::<Number>().ok()?.to_rational();
         let now = self.value_in::<Rational>(problem, &()).ok()?;
@@ -40,7 +41,7 @@ impl Parameter {
         Some((value - now) / unit)
     }
 
-    /// Whether it is zero and has no smaller values.
+    /// Returns whether it is zero and has no smaller values.
     pub(crate) fn only_grows(self, problem: &Problem) -> bool {
         let zero = |number: Option<&Number>| number.is_none_or(Number::is_zero);
         match (self, &problem.start) {
@@ -57,7 +58,7 @@ impl Parameter {
         }
     }
 
-    /// Its value in the numbers of `S`, by which derivatives are taken.
+    /// Returns its value in the numbers of `S`, by which derivatives are taken.
     ///
     /// **Errors**: [`Error::Derivative`] where `problem` has no such value.
     pub(crate) fn value_in<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<S, Error> {
@@ -75,17 +76,19 @@ impl Parameter {
         self.find(problem, precision)?.ok_or(Error::Derivative { parameter: self, expected })
     }
 
-    /// Its value in `problem`; `None` where that has none.
+    /// Returns its value in `problem`; `None` where that has none.
     pub fn value(self, problem: &Problem) -> Option<f64> {
         self.find(problem, &()).ok().flatten()
     }
 
-    /// Young's modulus of the scene in place of the modulus of waves that the problem has: see `InChain::young`.
+    /// Returns the parameter that the scene gives: Young's modulus in place of the modulus of waves that the problem
+    /// has, see `InChain::young`.
     fn in_scene(self, problem: &Problem) -> Self {
         let young = || problem.in_chain.as_ref()?.young();
         if self == Parameter::Modulus { young().unwrap_or(self) } else { self }
     }
 
+    /// Returns its value in the numbers of `S`; `None` where `problem` has none.
     fn find<S: Scalar>(self, problem: &Problem, precision: &S::Precision) -> Result<Option<S>, Error> {
         let rod = Parameters::<S>::of(problem, precision)?;
         Ok(match (self.in_scene(problem), &problem.start) {
@@ -101,8 +104,8 @@ impl Parameter {
         })
     }
 
-    /// The number that it is, or whose root it is, zero where nothing is given; `None` where no problem of this kind
-    /// has one.
+    /// Returns the number that it is, or whose root it is, zero where nothing is given; `None` where no problem of this
+    /// kind has one.
     fn number(self, problem: &mut Problem) -> Option<&mut Number> {
         let held = match (self, &problem.material, &problem.start) {
             _ if !self.is_differentiable() => return None,
@@ -120,7 +123,7 @@ impl Parameter {
         }
     }
 
-    /// The points of the list that it is, or is a point of, to be replaced.
+    /// Returns the points of the list that it is, or is a point of, to be replaced.
     fn list_mut(self, start: &mut Start) -> Option<&mut Vec<(Number, Number)>> {
         let Start::Profile(Profile { displacement, strain, velocity }) = start else { return None };
         match self {
@@ -131,9 +134,9 @@ impl Parameter {
         }
     }
 
-    /// `problem` with this value greater by the part `step` of its size, or by `step` times a scale of its own where it
-    /// is zero; its square by the part `step` where that is what the problem has. `None` where no problem has such a
-    /// value.
+    /// Returns `problem` with this value greater by the part `step` of its size, or by `step` times a scale of its own
+    /// where it is zero; its square by the part `step` where that is what the problem has. `None` where no problem has
+    /// such a value.
     pub(crate) fn moved(self, problem: &Problem, step: &Rational) -> Option<Problem> {
         let factor = Rational::from(1) + step;
         let grow = |number: &mut Number| times(number, &factor).map(|grown| *number = grown);
@@ -161,7 +164,7 @@ impl Parameter {
         Some(moved)
     }
 
-    /// The power of it that the problem has, and that [`Parameter::moved`] moves.
+    /// Returns the power of it that the problem has, and that [`Parameter::moved`] moves.
     pub(crate) fn power(self, problem: &Problem) -> i64 {
         let square = match self {
             Parameter::WaveSpeed => matches!(problem.material, Material::Elastic { .. }),
@@ -197,7 +200,7 @@ impl Parameter {
         format!("{scale:e}").parse().unwrap_or_else(|_| 1.into())
     }
 
-    /// `problem` with `value` in place of its own.
+    /// Returns `problem` with `value` in place of its own.
     ///
     /// **Errors**: a value that no problem has.
     pub fn set(self, problem: &Problem, value: f64) -> Result<Problem, ProblemError> {

@@ -49,11 +49,7 @@ pub fn columns<S: Scalar>(
                 ask(&sided, Side::Left, 0, &mut left)?;
             }
             let jumps = !left.is_empty() && !left.iter().zip(&right).all(|(a, b)| same(a, b));
-            let limit = match side {
-                Some(Side::Left) => -1,
-                None if !jumps => 0,
-                _ => 1,
-            };
+            let limit = limit(side, jumps);
             ask(&plain, asked, limit, &mut right)?;
             if jumps {
                 ask(&plain, Side::Left, -1, &mut left)?;
@@ -187,6 +183,15 @@ pub(crate) fn scaled<S: Scalar>(
         all.extend(values.iter().map(|value| value.clone() * &unit));
     }
     all
+}
+
+/// Returns the number of the limit at a time: −1 from the left, 1 from the right, 0 if both were asked for and agree.
+pub(super) fn limit(side: Option<Side>, jumps: bool) -> i64 {
+    match side {
+        Some(Side::Left) => -1,
+        None if !jumps => 0,
+        _ => 1,
+    }
 }
 
 /// Returns whether two limits are surely the same. Two enclosures that were computed alike are, although their

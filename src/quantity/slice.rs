@@ -1,6 +1,6 @@
 //! The field along the rod at chosen times: at points, averaged over cells, or projected on linear elements.
 
-use super::column::{check_finite, same};
+use super::column::{check_finite, limit, same};
 use super::table::Quantity;
 use crate::error::Error;
 use crate::motion::moments::Moments;
@@ -89,11 +89,7 @@ pub fn slices<S: Scalar>(
         let right = ask(side.unwrap_or_default())?;
         let left = if side.is_none() { ask(Side::Left)? } else { Vec::new() };
         let jumps = left.iter().flatten().zip(right.iter().flatten()).any(|(a, b)| !same(a, b));
-        let limit = match side {
-            Some(Side::Left) => -1,
-            None if !jumps => 0,
-            _ => 1,
-        };
+        let limit = limit(side, jumps);
         if jumps {
             points.iter().zip(left).for_each(|(x, values)| add(time, -1, x, values));
         }

@@ -49,20 +49,8 @@ impl Request {
                 quantities.push((quantity, vec![curve(history, column, span)?]));
             }
         }
-        Ok(SceneData {
-            name,
-            rod: Parameters { length: 0.0, wave_speed: 1.0, damping: 0.0, gravity: 0.0, speed: 0.0 },
-            span,
-            end,
-            units,
-            all_contacts: own.len(),
-            contacts: own.into_iter().filter(|[from, to]| *to >= span[0] && *from <= span[1]).collect(),
-            quantities,
-            stress: Vec::new(),
-            restitution: Vec::new(),
-            field: None,
-            world_lines: Vec::new(),
-        })
+        let rod = Parameters { length: 0.0, wave_speed: 1.0, damping: 0.0, gravity: 0.0, speed: 0.0 };
+        Ok(SceneData::new((name, units), rod, (span, end), own, quantities))
     }
 }
 

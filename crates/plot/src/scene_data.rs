@@ -81,7 +81,39 @@ const WORLD_LINES: usize = 5;
 /// Share of its jump that a ray of a damped rod still carries when it is drawn no more.
 const FADED: f64 = 1e-3;
 
+/// Returns whether a stretch of time has a part in `span`.
+fn meets([from, to]: &[f64; 2], span: [f64; 2]) -> bool {
+    *to >= span[0] && *from <= span[1]
+}
+
 impl SceneData {
+    /// Builds the data of a scene with its `quantities` and those of all its `contacts` that meet the span, and nothing
+    /// else to show.
+    pub(crate) fn new(
+        (name, units): (String, Units),
+        rod: Parameters<f64>,
+        (span, end): ([f64; 2], f64),
+        mut contacts: Vec<[f64; 2]>,
+        quantities: Vec<(Quantity, Vec<Curve>)>,
+    ) -> Self {
+        let all_contacts = contacts.len();
+        contacts.retain(|contact| meets(contact, span));
+        SceneData {
+            name,
+            rod,
+            span,
+            end,
+            units,
+            contacts,
+            all_contacts,
+            quantities,
+            stress: Vec::new(),
+            restitution: Vec::new(),
+            field: None,
+            world_lines: Vec::new(),
+        }
+    }
+
     /// Returns whether the scene is a rigid body of a chain, which has no length.
     pub fn is_rigid(&self) -> bool {
         self.rod.length == 0.0
@@ -133,30 +165,17 @@ impl Request {
     pub fn gather(&self, name: String, units: Units, history: &TypedHistory<f64>) -> Result<SceneData, Error> {
         let rod = Parameters::<f64>::of(history.problem(), &())?;
         let (end, span) = (settled_until(history), self.span(history)?);
-        let meets_span = |[from, to]: &[f64; 2]| *to >= span[0] && *from <= span[1];
         let contacts = history.contacts().iter().map(|contact| [contact.impact, contact.release.unwrap_or(end)]);
         let chain = history.problem().chain();
         let is_soft = chain.as_ref().is_some_and(|(chain, _)| chain.is_soft());
         let has_waves = rod.damping == 0.0 && chain.is_none();
         let extent = Extent { rod: rod.clone(), span, is_soft, has_waves };
         let rays = rays(history, &extent)?;
-        let mut data = SceneData {
-            name,
-            rod,
-            span,
-            end,
-            contacts: contacts.filter(meets_span).collect(),
-            all_contacts: history.contacts().len(),
-            quantities: self.gather_quantities(history, &extent, &rays)?,
-            stress: Vec::new(),
-            restitution: Vec::new(),
-            field: None,
-            world_lines: Vec::new(),
-            units,
-        };
+        let quantities = self.gather_quantities(history, &extent, &rays)?;
+        let mut data = SceneData::new((name, units), rod, (span, end), contacts.collect(), quantities);
         if self.pictures.contains(&Picture::Stress) {
             let pieces = history.stress_history()?.pieces.into_iter();
-            let inside = pieces.filter(|piece| meets_span(&[piece.start, piece.end]));
+            let inside = pieces.filter(|piece| meets(&[piece.start, piece.end], span));
             data.stress = straight(&inside.collect::<Vec<_>>(), STRESS_ERROR);
         }
         if self.pictures.contains(&Picture::Restitution) {
