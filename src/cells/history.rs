@@ -76,14 +76,18 @@ impl<S: RoundedSpecial> Damped<S> {
     ///
     /// **Errors**: [`Error::DampingTooStrong`] for `r t₁ > 2000`; [`Error::Irrational`] from the parameters.
     pub fn solve(problem: &Problem, precision: &S::Precision, digits: f64) -> Result<Self, Error> {
-        Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, 1, false)
+        Self::march(&Task { problem, precision, effort: Effort::of(digits), observe: &unobserved }, false)
     }
 
-    /// Solves a `task` in the same way, with segments `shorten` times shorter than necessary; if `proves`, with a proof
-    /// of its bounds as far as that goes.
+    /// Solves a `task` in the same way; if `proves`, with a proof of its bounds as far as that goes.
     ///
     /// **Errors**: [`Error::NotDecided`] if not even the first strip is proved.
-    pub(crate) fn march(task: &Task<'_, S>, shorten: i64, proves: bool) -> Result<Self, Error> {
+    pub(crate) fn march(task: &Task<'_, S>, proves: bool) -> Result<Self, Error> {
+        Self::march_shortened(task, 1, proves)
+    }
+
+    /// Solves a `task` as [`Damped::march`], with segments `shorten` times shorter than necessary.
+    fn march_shortened(task: &Task<'_, S>, shorten: i64, proves: bool) -> Result<Self, Error> {
         let (medium, data) = medium(task.problem, task.precision, task.effort.digits, shorten)?;
         let found = Follower::new(&medium, &data, proves.then(|| Proof::new(&medium))).run(task)?;
         Self::record_of(task, (medium, data), found)

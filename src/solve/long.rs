@@ -144,7 +144,7 @@ fn marched<S: RoundedSpecial>(
 
 fn prove<S: RoundedSpecial>(plan: &Plan, task: &Task<'_, S>, bits: u32) -> Result<Damped<S>, Error> {
     let effort = Effort { digits: plan.proved_digits(bits), until_lost: false, ..task.effort };
-    Damped::march(&Task { effort, ..*task }, 1, true)
+    Damped::march(&Task { effort, ..*task }, true)
 }
 
 /// Computes enclosures with exact roots inside, for an undamped rod.

@@ -24,7 +24,7 @@ pub(super) fn estimates<S: RoundedSpecial>(
     marched: impl Fn(March<'_, S>) -> Result<Engined<S>, Error>,
 ) -> Result<Engined<S>, Error> {
     let Task { problem, precision, .. } = *task;
-    let march = || Ok(Arc::new(Damped::march(task, 1, false)?) as Engined<S>);
+    let march = || Ok(Arc::new(Damped::march(task, false)?) as Engined<S>);
     let undecided = |what| Error::NotDecided { what, bits };
     Ok(match plan.engine {
         Engine::Chain => return Err(undecided("a chain by an engine of a single rod")),

@@ -20,7 +20,7 @@ fn shorter_cells_change_nothing() {
         let problem = rod(1, 4, damping, Run::Time(Number::from(14)));
         let coarse = Damped::<f64>::solve(&problem, &(), 12.0).unwrap();
         let task = Task { problem: &problem, precision: &(), effort: Effort::of(12.0), observe: &unobserved };
-        let fine = Damped::<f64>::march(&task, 5, false).unwrap();
+        let fine = Damped::<f64>::march_shortened(&task, 5, false).unwrap();
         assert!(fine.pieces.len() > 4 * coarse.pieces.len() / 3);
         assert_eq!(coarse.events().len(), fine.events().len());
         for (a, b) in plain(&coarse).events.iter().zip(plain(&fine).events) {
@@ -43,7 +43,7 @@ fn shorter_cells_change_nothing() {
 fn a_run_that_takes_too_much_ends_where_it_is() {
     let problem = rod(1, 4, "0.01", Run::Time(Number::from(40)));
     let task = |effort| Task { problem: &problem, precision: &(), effort, observe: &unobserved };
-    let solve = |effort| Damped::<f64>::march(&task(effort), 1, false).unwrap();
+    let solve = |effort| Damped::<f64>::march(&task(effort), false).unwrap();
     let (whole, part) = (solve(Effort::of(12.0)), solve(Effort { cells: 100, ..Effort::of(12.0) }));
     let Ending::Undecided(Reason::Effort { cells, rays }) = part.course.ending else {
         panic!("{}", part.course.ending)

@@ -22,7 +22,7 @@ fn march<S: RoundedSpecial>(precision: &S::Precision, digits: f64, exactly: impl
     let problem = rod();
     let effort = Effort { digits, cells: u64::MAX, until_lost: false };
     let task = Task { problem: &problem, precision, effort, observe: &|_, _| ControlFlow::Continue(()) };
-    let run = Damped::<S>::march(&task, 1, false).unwrap();
+    let run = Damped::<S>::march(&task, false).unwrap();
     let time = |event: &crate::motion::Event<_>| {
         let time: &crate::Estimate<S> = &event.t;
         Time { kind: event.kind, at: exactly(time.value()), log2_bound: time.log2_error() }
