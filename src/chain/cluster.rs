@@ -15,9 +15,11 @@ use super::curve::{Curve, Fall, Signal, first_fall, greater, upper, value};
 use super::exact::ExactTime;
 use super::interface::{Interface, Mode, Moment, Softness};
 use super::law::Law;
+use super::linear::Linear;
 use super::node::{Gap, Occurrence, Source, Stage, Stop};
+use super::norm::Since;
 use super::onset::{Onset, Series};
-use super::step::{Linear, Step, degree, in_unit, power};
+use super::step::{Step, degree, in_unit, power};
 use super::wave::{Wave, either};
 use crate::motion::EventKind;
 use crate::number::{Bounded, Open, Rational, is_exact_zero};
@@ -52,6 +54,9 @@ pub(super) struct Cluster<N> {
     pub(super) norm: N,
     /// The bounds of the states that act back before a step, and those that they decay to or grow by.
     pub(super) fading: Vec<(N, N)>,
+    /// All that the errors come from since the last change of a contact or decay, if the response of the states bounds
+    /// them.
+    pub(super) since: Option<Since<N>>,
     /// The natural speed of the chain.
     pub(super) speed: N,
     /// One rounding, relative to the number.
@@ -136,6 +141,7 @@ impl<N: Bounded> Cluster<N> {
             until: Moment::new(until.clone()),
             norm: upper(norm),
             fading: Vec::new(),
+            since: None,
             speed: zero.double(speed),
             rounding: power(&zero.one().halved(), bits as usize),
             degree: degree(bits),
@@ -156,7 +162,7 @@ impl<N: Bounded> Cluster<N> {
         for j in 0..self.interfaces.len() {
             self.interfaces[j].drive = self.arriving(j, 1) - self.arriving(j, 0);
         }
-        self.linear = self.linear();
+        self.relate();
         for interface in self.interfaces.iter().filter(|interface| interface.is_sprung()) {
             if let Some(soft) = &interface.soft {
                 self.norm = self.norm.clone() + interface.gap_error.clone() * &soft.root;
@@ -318,6 +324,14 @@ impl<N: Bounded> Cluster<N> {
         Output { force, leaving: [below, above], softness }
     }
 
+    /// Returns whether a single state acts back, and no signal arrives: it decays as `e⁻ᵏᵗ`, without a change of sign,
+    /// and with it the force of a contact that is closed.
+    fn is_free(&self, inputs: &[[Curve<N>; 2]]) -> bool {
+        let is_mass = |j: usize, side: usize| matches!(self.interfaces[j].sides[side].source, Source::Mass(_));
+        let is_silent = |j: usize| [0, 1].iter().all(|side| is_mass(j, *side) || inputs[j][*side].is_zero());
+        self.linear.dynamic.len() == 1 && (0..self.interfaces.len()).all(is_silent)
+    }
+
     /// Returns the changes of contacts within a step, each with its time since the beginning.
     fn events(
         &mut self,
@@ -326,10 +340,14 @@ impl<N: Bounded> Cluster<N> {
         series: Option<&Series<N>>,
     ) -> Result<Vec<(usize, Change, Moment<N>)>, Stop> {
         let (mut found, mut falls, step) = (Vec::new(), Vec::new(), solved.1);
+        let is_free = self.is_free(solved.0);
         for (j, output) in outputs.iter().enumerate() {
             if self.interfaces[j].law != Law::Contact {
                 continue;
             }
+            let is_positive = (output.force.terms[0].clone() - &output.force.error).positive() == Ok(true);
+            let interface = &mut self.interfaces[j];
+            interface.holds = is_free && interface.mode == Mode::Closed && (interface.holds || is_positive);
             let interface = &self.interfaces[j];
             let Output { force, softness: Some(Softness { gap, .. }), .. } = output else { continue };
             let onset = series.filter(|_| interface.touches).map(|series| match interface.mode {
@@ -346,7 +364,7 @@ impl<N: Bounded> Cluster<N> {
             };
             let rising = |curve: &Curve<N>| if onset == Some(Onset::Rise) { curve.rising_width() } else { None };
             let watched = match interface.mode {
-                _ if onset == Some(Onset::Zero) => Vec::new(),
+                _ if onset == Some(Onset::Zero) || interface.holds => Vec::new(),
                 Mode::Open if interface.is_fresh => {
                     // The force fell to zero, so that y rises from zero, and the gap with it.
                     let [drive] = self.curves([interface.drive_row()], j, solved);
@@ -452,7 +470,7 @@ impl<N: Bounded> Cluster<N> {
         {
             self.norm = self.norm.clone() + self.interfaces[j].gap_error.clone() * &soft.root;
         }
-        self.linear = self.linear();
+        self.relate();
         kind
     }
 
@@ -505,19 +523,15 @@ impl<N: Bounded> Cluster<N> {
 
     /// Takes over the states at the end of a step.
     fn take(&mut self, step: &Step<N>, errors: &[N], width: &N, series: Option<&Series<N>>) {
-        self.fade(width, errors);
+        self.fade(width, (errors, step));
         let masses = self.masses.len();
         let is_constant = |state: usize| series.is_some_and(|series| series.is_constant(state));
         for (state, terms) in step.states.iter().enumerate() {
             let (found, radius) = value(terms, &(width.clone() / &step.unit)).centred();
-            let before = match self.linear.root(state) {
-                Some(root) => {
-                    self.norm = self.norm.clone() + radius.clone() * root;
-                    self.error(state)
-                }
-                None => errors[state].clone(),
-            };
-            *self.error_mut(state) = upper(before + radius);
+            if self.linear.root(state).is_none() {
+                *self.error_mut(state) = errors[state].clone();
+            }
+            self.add_error(state, radius);
             if let Some(interface) = state.checked_sub(masses).map(|j| &mut self.interfaces[j]) {
                 let has_closed = interface.law == Law::Contact && interface.mode == Mode::Closed;
                 interface.touches = interface.touches && !has_closed && is_constant(state);

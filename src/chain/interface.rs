@@ -310,6 +310,9 @@ pub(super) struct Interface<N> {
     /// The gap at the time that is reached, an exact number, and the bound of its error where it is no part of the
     /// norm.
     pub(super) gap: N,
+    /// Whether the force of the closed contact is positive, and goes on to decay without a sign of its own: no signal
+    /// arrives.
+    pub(super) holds: bool,
     pub(super) gap_error: N,
     /// Whether the contact has just opened at a gap of zero, from a force that fell to zero.
     pub(super) is_fresh: bool,
@@ -345,6 +348,7 @@ impl<N: Bounded> Interface<N> {
             sides,
             mode,
             gap,
+            holds: false,
             gap_error,
             is_fresh: false,
             touches,

@@ -21,7 +21,8 @@
 //! enough), `column` (names of the numbers of a chain), `numbers` (numbers that are asked for together), `parameter`
 //! (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or masses have, in place
 //! of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface` (a node with its
-//! signals), `step` (the linear equation of a step), `norm` (bounds of its error), `cluster` (nodes that act on each
+//! signals), `linear` (states that act on each other, and those that decay fast), `response` (bounds of their response),
+//! `step` (the solution over a step), `norm` (bounds of its error), `cluster` (nodes that act on each
 //! other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of contacts that
 //! touch), `peak` (greatest values).
 
@@ -40,6 +41,7 @@ mod foresee;
 mod history;
 mod interface;
 mod law;
+mod linear;
 mod march;
 mod node;
 mod norm;
@@ -47,6 +49,7 @@ mod numbers;
 mod onset;
 mod parameter;
 mod peak;
+mod response;
 mod run;
 mod scales;
 mod start;
@@ -81,4 +84,5 @@ mod tests {
     #[path = "../../../tests/suite/random_chain.rs"]
     mod random_chain;
     mod reference;
+    mod response;
 }

@@ -3,9 +3,43 @@
 use super::cluster::Cluster;
 use super::curve::{Curve, greater, rough_slope, rough_slope_at, smaller, upper};
 use super::interface::{Mode, Rows};
+use super::linear::{Dynamic, Linear};
 use super::node::Source;
-use super::step::{Dynamic, Linear, Step, Values, refs};
+use super::response::Response;
+use super::step::{Step, Values, refs};
 use crate::number::{Bounded, is_exact_zero};
+
+/// Share of a time that covers the roundings of a sum of times.
+const LONGER: f64 = 1e-6;
+
+/// All that the errors of the states that act back come from since a time, in the norm.
+#[derive(Clone, Debug)]
+pub(super) struct Since<N> {
+    /// Errors at that time.
+    begun: Vec<N>,
+    /// Sums of those that steps have added since.
+    added: Vec<N>,
+    /// Bounds of the rates that errors of the signals cause.
+    rates: Vec<N>,
+    elapsed: N,
+}
+
+impl<N: Bounded> Since<N> {
+    /// Returns `Σ aᵢⱼ begunⱼ + sup |e^{At}|ᵢⱼ addedⱼ + min(time, ∫|e^{At}|ᵢⱼ) ratesⱼ` for a bound `a` of what is left of
+    /// the errors at the beginning.
+    fn bounds(&self, a: &[Vec<f64>], response: &Response, time: &N) -> Vec<N> {
+        let Response { peak, integral, .. } = response;
+        let row = |i: usize| {
+            let term = |j: usize| {
+                let reach = smaller(time.double(integral[i][j]), time.clone());
+                let left = time.double(a[i][j]) * &self.begun[j] + time.double(peak[i][j]) * &self.added[j];
+                left + reach * &self.rates[j]
+            };
+            (0..a.len()).map(term).reduce(|sum, term| sum + term).map(upper)
+        };
+        (0..a.len()).filter_map(row).collect()
+    }
+}
 
 impl<N: Bounded> Cluster<N> {
     /// Returns the bounds of the errors of the states over a step, and adds what uncertain breaks before it have
@@ -15,52 +49,39 @@ impl<N: Bounded> Cluster<N> {
         let zero = self.norm.zero();
         let masses = self.masses.len();
         let count = masses + self.interfaces.len();
-        let given = |states: &[N]| {
-            let value = |j: usize| {
-                let side = |side: usize| match &self.interfaces[j].sides[side].source {
-                    Source::Mass(mass) => states[*mass].clone(),
-                    _ => inputs[j][side].error.clone(),
-                };
-                [side(0), side(1), states[masses + j].clone()]
-            };
-            let values: Vec<Values<N>> = (0..self.interfaces.len()).map(value).collect();
-            self.rates(&values, true)
-        };
+        let mut errors = vec![zero.clone(); count];
+        let forced = self.rates_of_errors(inputs, &errors);
+        let driven = self.driven_errors(&forced, step);
         let Linear { dynamic, .. } = &self.linear;
         let width = &step.width;
         let norm = if dynamic.len() > 1 { Some(upper(self.energy_bound(inputs, step))) } else { None };
-        let mut errors = vec![zero.clone(); count];
         let mut fading = Vec::new();
-        if !dynamic.is_empty() {
-            let forced = given(&errors);
-            for own in dynamic {
-                // The others act on the state by their bounds in the norm.
-                let mut rate = forced[own.state].clone();
-                for (other, factor) in dynamic.iter().zip(&own.factors) {
-                    if let Some(norm) = norm.as_ref().filter(|_| !is_exact_zero(factor)) {
-                        rate = rate + norm.clone() / &other.root * factor;
-                    }
+        for (place, own) in dynamic.iter().enumerate() {
+            // The others act on the state by their bounds in the norm.
+            let mut rate = forced[own.state].clone();
+            for (other, factor) in dynamic.iter().zip(&own.factors) {
+                if let Some(norm) = norm.as_ref().filter(|_| !is_exact_zero(factor)) {
+                    rate = rate + norm.clone() / &other.root * factor;
                 }
-                let (before, defect) = (self.error(own.state), &step.defects[own.state]);
-                let rate = upper(rate);
-                let grown = rate.clone() * width;
-                let (most, held) = match &own.decay {
-                    Some(decay) => {
-                        let level = rate / decay;
-                        let most = smaller(greater(before.clone(), level.clone()), before.clone() + &grown);
-                        (most, smaller(level, grown))
-                    }
-                    None => (before.clone() + &grown, grown),
-                };
-                fading.push((before, upper(held + defect)));
-                let most = upper(most + defect);
-                errors[own.state] = match &norm {
-                    Some(norm) => smaller(norm.clone() / &own.root, most),
-                    None => most,
-                };
             }
+            let (before, defect) = (self.error(own.state), &step.defects[own.state]);
+            let rate = upper(rate);
+            let grown = rate.clone() * width;
+            let (most, held) = match &own.decay {
+                Some(decay) => {
+                    let level = rate / decay;
+                    let most = smaller(greater(before.clone(), level.clone()), before.clone() + &grown);
+                    (most, smaller(level, grown))
+                }
+                None => (before.clone() + &grown, grown),
+            };
+            fading.push((before, upper(held + defect)));
+            let most = upper(most + defect);
+            let bounds =
+                [norm.as_ref().map(|norm| norm.clone() / &own.root), driven.as_ref().map(|d| d[place].clone())];
+            errors[own.state] = bounds.into_iter().flatten().fold(most, |least, bound| smaller(bound, least));
         }
-        let rates = given(&errors);
+        let rates = self.rates_of_errors(inputs, &errors);
         for (j, interface) in self.interfaces.iter().enumerate() {
             let state = masses + j;
             if self.linear.root(state).is_none() {
@@ -72,6 +93,62 @@ impl<N: Bounded> Cluster<N> {
             self.norm = norm;
         }
         errors
+    }
+
+    /// Returns bounds of the rates that the errors of the signals and these errors of the states cause.
+    fn rates_of_errors(&self, inputs: &[[Curve<N>; 2]], errors: &[N]) -> Vec<N> {
+        let value = |j: usize| {
+            let side = |side: usize| match &self.interfaces[j].sides[side].source {
+                Source::Mass(mass) => errors[*mass].clone(),
+                _ => inputs[j][side].error.clone(),
+            };
+            [side(0), side(1), errors[self.masses.len() + j].clone()]
+        };
+        let values: Vec<Values<N>> = (0..self.interfaces.len()).map(value).collect();
+        self.rates(&values, true)
+    }
+
+    /// Returns the bounds of the errors that the response of the states gives over a step, `forced` being the rates that
+    /// errors of the signals cause.
+    fn driven_errors(&mut self, forced: &[N], step: &Step<N>) -> Option<Vec<N>> {
+        let Linear { dynamic, response, .. } = &self.linear;
+        let response = response.as_ref()?;
+        let begun = |own: &Dynamic<N>| self.error(own.state) * &own.root;
+        let mut since = self.since.clone().unwrap_or_else(|| Since {
+            begun: dynamic.iter().map(begun).collect(),
+            added: vec![self.norm.zero(); dynamic.len()],
+            rates: vec![self.norm.zero(); dynamic.len()],
+            elapsed: self.norm.zero(),
+        });
+        for (place, own) in dynamic.iter().enumerate() {
+            let mut rate = forced[own.state].clone();
+            if !step.fast.contains(&place) {
+                let acts = |fast: &usize| own.factors[*fast].clone() * &step.defects[dynamic[*fast].state];
+                rate = step.fast.iter().map(acts).fold(rate, |sum, rate| sum + rate);
+                since.added[place] = upper(step.defects[own.state].clone() * &own.root + &since.added[place]);
+            }
+            since.rates[place] = upper(greater(since.rates[place].clone(), rate * &own.root));
+        }
+        let bounds = since.bounds(&response.peak, response, &(since.elapsed.clone() + &step.width));
+        self.since = Some(since);
+        let error = |(place, (own, bound)): (usize, (&Dynamic<N>, N))| {
+            let bound = bound / &own.root;
+            upper(if step.fast.contains(&place) { bound + &step.defects[own.state] } else { bound })
+        };
+        Some(dynamic.iter().zip(bounds).enumerate().map(error).collect())
+    }
+
+    /// Adds to the bound of the error of a state.
+    pub(super) fn add_error(&mut self, state: usize, added: N) {
+        if let Some(place) = self.linear.dynamic.iter().position(|own| own.state == state) {
+            let weighted = added.clone() * &self.linear.dynamic[place].root;
+            if let Some(since) = &mut self.since {
+                since.added[place] = upper(since.added[place].clone() + &weighted);
+            }
+            self.norm = self.norm.clone() + weighted;
+        }
+        let error = self.error_mut(state);
+        *error = upper(error.clone() + added);
     }
 
     /// Returns the bound of the error of a state at the time that is reached.
@@ -92,9 +169,14 @@ impl<N: Bounded> Cluster<N> {
 
     /// Carries the bounds of the states that act back over a step of which the first part, `width`, is taken: an error
     /// of a state before the step fades as `e⁻ᵏʷ`, which is below `1/(1 + x + x²/2 + x³/6)` for `x = κw`.
-    pub(super) fn fade(&mut self, width: &N, errors: &[N]) {
+    ///
+    /// Once all has decayed, the response bounds the errors from then on by those that are left.
+    pub(super) fn fade(&mut self, width: &N, (errors, step): (&[N], &Step<N>)) {
         let mut sum = self.norm.zero();
-        for (own, (before, held)) in self.linear.dynamic.clone().iter().zip(std::mem::take(&mut self.fading)) {
+        let left = self.left(width, step);
+        for (place, (own, (before, held))) in
+            self.linear.dynamic.clone().iter().zip(std::mem::take(&mut self.fading)).enumerate()
+        {
             let faded = match &own.decay {
                 Some(decay) => {
                     let x = decay.clone() * width;
@@ -103,12 +185,35 @@ impl<N: Bounded> Cluster<N> {
                 }
                 None => before,
             };
-            let error = upper(smaller(faded + held, errors[own.state].clone()));
+            let mut error = smaller(faded + held, errors[own.state].clone());
+            if let Some(left) = &left {
+                error = smaller(left[place].clone() / &own.root, error);
+            }
+            let error = upper(error);
             sum = sum + error.clone() * &own.root;
             *self.error_mut(own.state) = error;
         }
         let sum = upper(sum);
         self.norm = if self.linear.dynamic.len() > 1 { smaller(self.norm.clone(), sum) } else { sum };
+    }
+
+    /// Returns bounds of the errors of the states after a step of which the first part, `width`, is taken, in the norm,
+    /// if all that was before has decayed.
+    fn left(&mut self, width: &N, step: &Step<N>) -> Option<Vec<N>> {
+        let Linear { dynamic, response, .. } = &self.linear;
+        let (response, since) = (response.as_ref()?, self.since.as_mut()?);
+        for place in &step.fast {
+            let own = &dynamic[*place];
+            since.added[*place] = upper(step.defects[own.state].clone() * &own.root + &since.added[*place]);
+        }
+        since.elapsed = (since.elapsed.clone() + width).centred().0;
+        if since.elapsed.to_f64() <= response.time * (1.0 + LONGER) {
+            return None;
+        }
+        let left = since.bounds(&response.left, response, &since.elapsed);
+        let zeros = vec![width.zero(); left.len()];
+        *since = Since { begun: left.clone(), added: zeros.clone(), rates: zeros, elapsed: width.zero() };
+        Some(left)
     }
 
     /// Returns `√(n² + ½ Σ Z e² w) + Σ √weight · defect`.
@@ -152,9 +257,12 @@ impl<N: Bounded> Cluster<N> {
             let defect = &step.defects[own.state];
             norm = norm + defect.clone() * &own.root;
             // The effect of the defect on a fast state acts on the others over the step.
-            if step.fast.contains(&own.state) {
-                let acts = |other: &Dynamic<N>| other.factors[place].clone() * defect * &step.width * &other.root;
-                norm = self.linear.dynamic.iter().map(acts).fold(norm, |norm, more| norm + more);
+            if step.fast.contains(&place) {
+                let slow = self.linear.dynamic.iter().enumerate().filter(|(other, _)| !step.fast.contains(other));
+                let acts = |(_, other): (usize, &Dynamic<N>)| {
+                    other.factors[place].clone() * defect * &step.width * &other.root
+                };
+                norm = slow.map(acts).fold(norm, |norm, more| norm + more);
             }
         }
         norm
@@ -179,11 +287,7 @@ impl<N: Bounded> Cluster<N> {
             let bend = rough_slope(terms, &(late.clone() / &step.unit), 2) / step.unit.square() + old_bend;
             let jump = self.jolts.get(state).map_or(late.double(jump), |jolt| jolt.clone() + late.double(jump));
             let added = upper((jump + bend * &late) * &late);
-            if let Some(root) = self.linear.root(state) {
-                self.norm = self.norm.clone() + added.clone() * root;
-            }
-            let error = self.error_mut(state);
-            *error = error.clone() + added;
+            self.add_error(state, added);
         }
         self.before = Some(taken);
     }

@@ -124,7 +124,7 @@ impl<N: Bounded> Cluster<N> {
                 interface.mode = Mode::Closed;
                 impacts.push((j, interface.drive.clone()));
             }
-            self.linear = self.linear();
+            self.relate();
         }
         Ok(impacts)
     }

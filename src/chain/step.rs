@@ -3,6 +3,7 @@
 use super::cluster::{Cluster, Solved};
 use super::curve::{Curve, bound, unit_of};
 use super::interface::{Input, Interface, Row};
+use super::linear::{Linear, WIDEST, even};
 use super::node::{Source, Stop};
 use crate::number::Bounded;
 
@@ -13,9 +14,9 @@ pub(super) struct Step<N> {
     pub(super) states: Vec<Vec<N>>,
     pub(super) unit: N,
     pub(super) width: N,
-    /// Integral of the defect of each state, or a bound of its effect.
+    /// Integral of the defect of each state; of a fast one, a bound of its distance from the polynomial.
     pub(super) defects: Vec<N>,
-    /// States that follow the others at once.
+    /// Fast states, by their places among the dynamic ones.
     pub(super) fast: Vec<usize>,
 }
 
@@ -28,95 +29,11 @@ struct Polynomials<N> {
     radii: Vec<Vec<N>>,
     /// Bounds of the rates in the order that is left out; zero for a fast state.
     rates: Vec<N>,
-    fast: Vec<Fast<N>>,
+    /// Number of fast states.
+    fast: usize,
+    /// Distances of the polynomials of the fast states from the states at the beginning.
+    off: Vec<N>,
 }
-
-/// A state that follows the others at once.
-struct Fast<N> {
-    state: usize,
-    decay: N,
-    /// Distance of the polynomial from the state at the beginning.
-    off: N,
-}
-
-/// A state that acts back on the motion while no contact changes.
-#[derive(Clone, Debug)]
-pub(super) struct Dynamic<N> {
-    pub(super) state: usize,
-    /// The root of its weight in the norm.
-    pub(super) root: N,
-    /// The rate at which it decays if the others are zero; `None` if it does not decay.
-    pub(super) decay: Option<N>,
-    /// Magnitudes of the factors of these states in its rate; zero for its own.
-    pub(super) factors: Vec<N>,
-}
-
-/// The linear equation of the states that act back on the motion.
-#[derive(Clone, Debug)]
-pub(super) struct Linear<N> {
-    pub(super) dynamic: Vec<Dynamic<N>>,
-    /// A bound of the rates.
-    rate: f64,
-}
-
-impl<N> Default for Linear<N> {
-    fn default() -> Self {
-        Linear { dynamic: Vec::new(), rate: 0.0 }
-    }
-}
-
-impl<N: Bounded> Linear<N> {
-    /// Returns the root of the weight of a state, if it acts back.
-    pub(super) fn root(&self, state: usize) -> Option<&N> {
-        self.dynamic.iter().find(|own| own.state == state).map(|own| &own.root)
-    }
-
-    /// Returns the factor of one of the states in the rate of another in the norm.
-    fn scaled(&self, of: usize, by: usize) -> f64 {
-        let [own, other] = [of, by].map(|i| &self.dynamic[i]);
-        (own.factors[by].clone() * &own.root / &other.root).to_f64()
-    }
-
-    /// Returns the states that decay much faster than a step over a width follows the others, by their places among the
-    /// dynamic states, and a width over which it does. None of the places in `moving` is among them.
-    ///
-    /// **Source**: a state f of fast decay κ is `Σ M_fj x_j/κ` and slopes of that over κ, which leaves the others with
-    /// rates of at most `|M_ij| + Σ |M_if M_fj|/κ`. Only springs are fast beside other states, as they do not act on
-    /// each other at once.
-    fn fast(&self, masses: usize, degree: usize, width: f64, moving: &[usize]) -> (Vec<usize>, f64) {
-        let decay = |i: usize| self.dynamic[i].decay.as_ref().map_or(0.0, N::to_f64);
-        let may_be = |i: &usize| !moving.contains(i) && (self.dynamic.len() == 1 || self.dynamic[*i].state >= masses);
-        let is_fast = |i: &usize, width: f64| decay(*i) * width > degree as f64;
-        let all = || 0..self.dynamic.len();
-        let mut fast: Vec<usize> = all().filter(may_be).filter(|i| is_fast(i, width)).collect();
-        loop {
-            let others: Vec<usize> = all().filter(|i| !fast.contains(i)).collect();
-            let through = |i: usize, j: usize| -> f64 {
-                fast.iter().map(|f| self.scaled(i, *f) * self.scaled(*f, j) / decay(*f)).sum()
-            };
-            let row = |i: &usize| decay(*i) + others.iter().map(|j| self.scaled(*i, *j) + through(*i, *j)).sum::<f64>();
-            let slow = even(others.iter().map(row).fold(0.0, f64::max), width);
-            let count = fast.len();
-            fast.retain(|i| is_fast(i, slow));
-            if fast.len() == count {
-                return (fast, slow);
-            }
-        }
-    }
-}
-
-/// Returns a width of at most [`WIDEST`] over a rate. A width that is no simple fraction keeps the ends of steps away
-/// from times that are asked for.
-fn even(rate: f64, width: f64) -> f64 {
-    let product = rate * width;
-    if product > WIDEST { width * UNEVEN / (product / WIDEST).ceil() } else { width }
-}
-
-/// Greatest product of rate and width for a Taylor step.
-const WIDEST: f64 = 2.0;
-
-/// Share of the greatest width that a step takes.
-const UNEVEN: f64 = 0.971_828_182_845;
 
 /// Roundings of a state that do not count as a decaying part.
 const NOISE: i64 = 64;
@@ -180,7 +97,7 @@ impl<N: Bounded> Cluster<N> {
         rates
     }
 
-    fn rates_in_order(&self, inputs: &[[Curve<N>; 2]], k: usize, state: &dyn Fn(usize) -> N) -> Vec<N> {
+    pub(super) fn rates_in_order(&self, inputs: &[[Curve<N>; 2]], k: usize, state: &dyn Fn(usize) -> N) -> Vec<N> {
         let values: Vec<Values<N>> = (0..self.interfaces.len()).map(|j| self.values(inputs, j, k, state)).collect();
         self.rates(&values, false)
     }
@@ -245,37 +162,7 @@ impl<N: Bounded> Cluster<N> {
         self.masses.iter().map(|mass| mass.velocity.clone()).chain(gaps).collect()
     }
 
-    /// Returns the states that act back on the motion in the present state of the contacts.
-    pub(super) fn linear(&self) -> Linear<N> {
-        let zero = self.norm.zero();
-        let masses = self.masses.iter().map(|mass| mass.root.clone()).enumerate();
-        let sprung = self.interfaces.iter().enumerate().filter(|(_, interface)| interface.is_sprung());
-        let root = |(j, interface): (usize, &Interface<N>)| {
-            Some((self.masses.len() + j, interface.soft.as_ref()?.root.clone()))
-        };
-        let roots: Vec<(usize, N)> = masses.chain(sprung.filter_map(root)).collect();
-        let none = self.inputs_of_zero();
-        let column = |of: usize| {
-            let state = |k: usize| if k == of { zero.one() } else { zero.zero() };
-            self.rates_in_order(&none, 0, &state)
-        };
-        let columns: Vec<Vec<N>> = roots.iter().map(|(of, _)| column(*of)).collect();
-        let dynamic = roots.iter().enumerate().map(|(own, (state, root))| {
-            let factor = |j: usize| if j == own { zero.clone() } else { columns[j][*state].magnitude() };
-            let decay = Some(-columns[own][*state].clone()).filter(|decay| decay.positive() == Ok(true));
-            let factors = (0..roots.len()).map(factor).collect();
-            Dynamic { state: *state, root: root.clone(), decay, factors }
-        });
-        let mut linear = Linear { dynamic: dynamic.collect(), rate: 0.0 };
-        let sum = |(i, (state, _)): (usize, &(usize, N))| {
-            let others: f64 = (0..roots.len()).map(|j| linear.scaled(i, j)).sum();
-            columns[i][*state].to_f64().abs() + others
-        };
-        linear.rate = roots.iter().enumerate().map(sum).fold(0.0, f64::max);
-        linear
-    }
-
-    fn inputs_of_zero(&self) -> Vec<[Curve<N>; 2]> {
+    pub(super) fn inputs_of_zero(&self) -> Vec<[Curve<N>; 2]> {
         let zero = self.norm.zero();
         let none = Curve {
             origin: zero.clone(),
@@ -295,23 +182,19 @@ impl<N: Bounded> Cluster<N> {
             let defects = vec![zero; states.len()];
             return Ok(Step { states, unit: unit_of(width), width: width.clone(), defects, fast: Vec::new() });
         }
-        let Linear { dynamic, rate } = &self.linear;
+        let Linear { dynamic, rate, .. } = &self.linear;
         let product = rate * width.to_f64();
         if !product.is_finite() || !rate.is_finite() {
             return Err(Stop::Open);
         }
         let tolerance = self.speed.clone() * &self.rounding;
-        // The places of states that have not decayed yet.
-        let mut moving = Vec::new();
-        loop {
-            let (fast, slow) = self.linear.fast(self.masses.len(), self.degree, width.to_f64(), &moving);
-            if fast.is_empty() {
-                break;
-            }
+        // Number of the first states in the order of their decay that have decayed.
+        let mut settled = dynamic.len();
+        while let Some((fast, slow)) = self.linear.fast(self.degree, width.to_f64(), settled) {
             let slow = if slow < width.to_f64() { width.double(slow) } else { width.clone() };
-            match self.solve_stiff(inputs, &fast, &slow, &tolerance) {
+            match self.solve_stiff(inputs, fast, &slow, &tolerance) {
                 Ok(solved) => return Ok(self.shortened(solved, (slow, *rate), &tolerance)),
-                Err(place) => moving.push(place),
+                Err(moving) => settled = moving,
             }
         }
         let shorter = even(*rate, width.to_f64());
@@ -336,14 +219,14 @@ impl<N: Bounded> Cluster<N> {
             }
         }
         let rates = rates.iter().map(N::magnitude).collect();
-        let solved = Polynomials { states, unit, radii, rates, fast: Vec::new() };
+        let solved = Polynomials { states, unit, radii, rates, fast: 0, off: Vec::new() };
         Ok(self.shortened(solved, (width, *rate), &tolerance))
     }
 
     /// Returns the step with the polynomials, over a width on which the order that they leave out is within the
     /// tolerance.
     fn shortened(&self, solved: Polynomials<N>, (mut width, rate): (N, f64), tolerance: &N) -> Step<N> {
-        let Polynomials { states, unit, radii, rates, fast } = solved;
+        let Polynomials { states, unit, radii, rates, fast, off } = solved;
         let last = radii.iter().map(Vec::len).max().unwrap_or(1) - 1;
         // The order that is left out.
         let rest = |state: usize, width: &N| {
@@ -364,38 +247,37 @@ impl<N: Bounded> Cluster<N> {
             width = (width * tolerance.double(factor)).centred().0;
         }
         let reach = width.clone() / &unit;
-        let defect = |state: usize| {
-            let sum = bound(&radii[state], &reach);
-            match fast.iter().find(|fast| fast.state == state) {
-                // A defect acts for no longer than 1/κ.
-                Some(Fast { decay, off, .. }) => sum / decay + off,
-                None => sum + rest(state, &width),
+        let defect = |state: usize| bound(&radii[state], &reach) + rest(state, &width);
+        let mut defects: Vec<N> = (0..states.len()).map(defect).collect();
+        if let Some(block) = self.linear.block(fast) {
+            let own: Vec<N> = block.states.iter().map(|state| defects[*state].clone()).collect();
+            for ((state, driven), left) in block.states.iter().zip(block.driven(&own)).zip(block.left(&off)) {
+                defects[*state] = driven + left;
             }
-        };
-        let defects = (0..states.len()).map(defect).collect();
-        let fast = fast.into_iter().map(|fast| fast.state).collect();
-        Step { states, unit, width, defects, fast }
+        }
+        Step { states, unit, width, defects, fast: self.linear.order[..fast].to_vec() }
     }
 
-    /// Solves the equation over a width in which the states at the places `fast` among the dynamic ones follow the
-    /// others at once: `Σ (−1)ᵏ u⁽ᵏ⁾/κᵏ⁺¹` for the sum `u` of all that acts on such a state.
+    /// Solves the equation over a width in which the first `count` states in the order of their decay follow the others
+    /// at once: `x⁽ᵏ⁾ = M⁻¹ (x⁽ᵏ⁺¹⁾ − u⁽ᵏ⁾)` for their matrix `M` and the sum `u` of all that acts on them.
     ///
-    /// **Errors**: the place of the slowest state of which a part that decays is more than some roundings.
+    /// **Errors**: the place in that order of the slowest state of which a part that decays is more than some
+    /// roundings.
     fn solve_stiff(
         &self,
         inputs: &[[Curve<N>; 2]],
-        fast: &[usize],
+        count: usize,
         width: &N,
         tolerance: &N,
     ) -> Result<Polynomials<N>, usize> {
         let zero = self.norm.zero();
+        let Some(block) = self.linear.block(count) else { return Err(0) };
+        let has_slow = count < self.linear.dynamic.len();
         let last = inputs.iter().flatten().map(|curve| curve.terms.len()).max().unwrap_or(1).max(self.degree);
         let unit = unit_of(width);
         let inputs = in_unit(inputs, &unit);
         let begun = self.states();
-        let decays = |i: &usize| Some((self.linear.dynamic[*i].state, self.linear.dynamic[*i].decay.clone()?));
-        let decays: Vec<(usize, N)> = fast.iter().filter_map(decays).collect();
-        let is_fast = |state: usize| decays.iter().any(|(fast, _)| *fast == state);
+        let is_fast = |state: usize| block.states.contains(&state);
         let mut states: Vec<Vec<N>> = vec![vec![zero.clone(); last + 1]; begun.len()];
         for (state, begun) in begun.iter().enumerate().filter(|(state, _)| !is_fast(*state)) {
             states[state][0] = begun.clone();
@@ -404,16 +286,32 @@ impl<N: Bounded> Cluster<N> {
             Some(next) => next.clone() * zero.int(k as i64 + 1) / &unit,
             None => zero.clone(),
         };
-        // Returns the greatest change of a fast state in this order, in units of its roundings.
-        let follow = |states: &mut [Vec<N>], k: usize| {
+        // Returns what the fast states have to make up for in this order.
+        let missing = |states: &[Vec<N>], k: usize| -> Vec<N> {
             let slow = |state: usize| if is_fast(state) { zero.clone() } else { states[state][k].clone() };
             let forced = self.rates_in_order(&inputs, k, &slow);
+            block.states.iter().map(|state| slope(&states[*state], k) - &forced[*state]).collect()
+        };
+        // Returns the sizes of roundings of the fast states.
+        let noise = |states: &[Vec<N>], missing: &[N]| -> Vec<N> {
+            let sizes = block.inverse_size(missing).into_iter();
+            let noise = |((state, size), time): ((&usize, N), &N)| {
+                let is_mass = *state < self.masses.len();
+                let allowed = if is_mass { tolerance.clone() } else { tolerance.clone() * time };
+                allowed + (size + states[*state][0].magnitude()) * &self.rounding
+            };
+            block.states.iter().zip(sizes).zip(&block.times).map(noise).collect()
+        };
+        // Returns the greatest change of a fast state in this order, in units of its roundings.
+        let follow = |states: &mut [Vec<N>], k: usize| {
+            let missing = missing(states, k);
+            let noise = noise(states, &missing);
             let mut changed = 0.0_f64;
-            for (state, decay) in &decays {
-                let found = ((forced[*state].clone() - slope(&states[*state], k)) / decay).centred().0;
+            for ((state, found), noise) in block.states.iter().zip(block.inverse(&missing)).zip(noise) {
+                let found = found.centred().0;
                 let change = (found.clone() - &states[*state][k]).magnitude();
                 states[*state][k] = found;
-                changed = changed.max((change / self.noise((*state, decay), &states[*state][0], tolerance)).to_f64());
+                changed = changed.max((change / noise).to_f64());
             }
             changed
         };
@@ -429,17 +327,18 @@ impl<N: Bounded> Cluster<N> {
         for _ in 0..=last {
             let mut changed = (0..=last).rev().map(|k| follow(&mut states, k)).fold(0.0, f64::max);
             for k in 0..=last {
-                if fast.len() < self.linear.dynamic.len() {
+                if has_slow {
                     changed = changed.max(follow(&mut states, k));
                 }
                 advance(&mut states, k);
             }
-            if changed < 1.0 || fast.len() == self.linear.dynamic.len() {
+            if changed < 1.0 || !has_slow {
                 break;
             }
         }
         // A part within the errors of the signals does not count: it may be none of the motion.
         let known = |side: &Input<N>, curve: &Curve<N>| match side.source {
+            Source::Mass(mass) if is_fast(mass) => zero.clone(),
             Source::Mass(mass) => self.masses[mass].error.clone(),
             _ => curve.error.clone(),
         };
@@ -447,26 +346,21 @@ impl<N: Bounded> Cluster<N> {
             let [below, above] = [0, 1].map(|side| known(&interface.sides[side], &curves[side]));
             [below, above, zero.clone()]
         });
-        let blurs = self.rates(&errors.collect::<Vec<_>>(), true);
-        let off = |(state, _): &(usize, N)| (begun[*state].clone() - &states[*state][0]).magnitude();
-        let moves = |own: &(usize, N)| {
-            let (state, decay) = own;
-            let noise = self.noise((*state, decay), &states[*state][0], tolerance) * zero.int(NOISE);
-            off(own).below(&(blurs[*state].clone() / decay + noise)) != Ok(true)
-        };
-        let rate = |i: &usize| decays[*i].1.to_f64();
-        let slowest = (0..decays.len()).filter(|i| moves(&decays[*i])).min_by(|i, j| rate(i).total_cmp(&rate(j)));
-        if let Some(slowest) = slowest {
-            return Err(fast[slowest]);
+        let errors = self.rates(&errors.collect::<Vec<_>>(), true);
+        let blurs = block.driven(&block.states.iter().map(|state| errors[*state].clone()).collect::<Vec<_>>());
+        let noise = block.left(&noise(&states, &missing(&states, 0)));
+        let off: Vec<N> =
+            block.states.iter().map(|state| (begun[*state].clone() - &states[*state][0]).magnitude()).collect();
+        let moves = |i: &usize| off[*i].below(&(noise[*i].clone() * zero.int(NOISE) + &blurs[*i])) != Ok(true);
+        if let Some(slowest) = (0..count).rev().find(moves) {
+            return Err(slowest);
         }
-        let fast: Vec<Fast<N>> =
-            decays.iter().map(|own| Fast { state: own.0, decay: own.1.clone(), off: off(own) }).collect();
         let mut radii: Vec<Vec<N>> = vec![vec![zero.clone()]; states.len()];
         let mut rates = vec![zero.clone(); states.len()];
         for k in 0..=last {
             for (state, rate) in self.rates_in_order(&inputs, k, &|state| states[state][k].clone()).iter().enumerate() {
                 let defect = (slope(&states[state], k) - rate).magnitude();
-                match fast.iter().any(|fast| fast.state == state) {
+                match is_fast(state) {
                     true if k == 0 => radii[state][0] = defect,
                     true => radii[state].push(defect),
                     false if k < last => radii[state].push(defect * &unit / zero.int(k as i64 + 1)),
@@ -474,13 +368,7 @@ impl<N: Bounded> Cluster<N> {
                 }
             }
         }
-        Ok(Polynomials { states, unit, radii, rates, fast })
-    }
-
-    /// Returns the size of roundings of a state that decays fast.
-    fn noise(&self, (state, decay): (usize, &N), value: &N, tolerance: &N) -> N {
-        let allowed = if state < self.masses.len() { tolerance.clone() } else { tolerance.clone() / decay };
-        allowed + value.magnitude() * &self.rounding
+        Ok(Polynomials { states, unit, radii, rates, fast: count, off })
     }
 }
 

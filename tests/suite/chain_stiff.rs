@@ -73,6 +73,53 @@ fn a_mass_between_two_stiff_springs_follows_the_closed_form() {
     }
 }
 
+/// Returns the force of a spring k below a mass m under a bar of impedance one, all of which moves down at the speed
+/// one, before a reflection returns.
+///
+/// **Source**: `mV′ = f − (V + 1)` and `f′ = −kV`, so that `mf″ + f′ + kf = k` with f(0) = 0 and f′(0) = k.
+fn force_below_a_mass(k: f64, m: f64, t: f64) -> f64 {
+    let square = 1.0 - 4.0 * m * k;
+    if square < 0.0 {
+        let [decay, rate] = [0.5 / m, (-square).sqrt() / (2.0 * m)];
+        return 1.0 - (-decay * t).exp() * ((rate * t).cos() + (decay - k) / rate * (rate * t).sin());
+    }
+    let [slow, fast] = [-2.0 * k / (1.0 + square.sqrt()), -(1.0 + square.sqrt()) / (2.0 * m)];
+    let share = (k + fast) / (slow - fast);
+    1.0 + share * (slow * t).exp() - (1.0 + share) * (fast * t).exp()
+}
+
+/// A mass of 10⁻¹² … 10⁻² of a bar below it, bonded to the ground by a spring: together they decay in a time of m/Z, or
+/// the mass decays before the spring does.
+#[test]
+fn a_light_mass_between_a_spring_and_a_bar_costs_no_more_pieces() {
+    let mut compared = 0;
+    for decade in 2..=12 {
+        for k in [10.0, 1e4, 1e7] {
+            let scene = format!(
+                "[[body]]\nmass = 1e-{decade}\nvelocity = -1\n\
+                 [[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\nvelocity = -1\njoint = \"bonded\"\n\
+                 [ends]\nbottom = {{ stiffness = {k} }}\n[run]\ntime = 3"
+            );
+            let (run, m) = (run(&scene), 10f64.powi(-decade));
+            // An oscillation of many periods before it has decayed has its own pieces.
+            let periods = (k * m).sqrt();
+            assert!((run.pieces() as f64) < 2000.0 + 1000.0 * periods, "{} pieces, m = {m:e}, k = {k:e}", run.pieces());
+            for t in TIMES {
+                let time = Estimate::<f64>::spelling(&t.to_string().parse::<Number>().unwrap(), &());
+                let found = run.force(0, &time, Side::Right).unwrap();
+                let off = (found.value() - force_below_a_mass(k, m, t)).abs();
+                let place = format!("m = {m:e}, k = {k:e}, t = {t}: {found:?} is off by {off:e}");
+                // The exponents of the closed form are known to a rounding of `k t` and of `√(k/m) t`.
+                let own = 1e-15 * (4.0 + (k / m).sqrt() * t * (-t / (2.0 * m)).exp() + k * t * (-k * t).exp());
+                assert!(off <= found.bound() + own, "{place}");
+                assert!(found.bound() < 1e-9, "{place}");
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 165);
+}
+
 /// A mass between two bars with springs of 10⁵ and 10⁹ EA/L: the slow spring decays while the fast one follows.
 #[test]
 fn springs_of_different_stiffness_beside_a_mass_keep_the_energy() {
@@ -169,4 +216,26 @@ fn a_number_without_a_bound_in_doubles_comes_from_longer_numbers() {
     let rate = ChainColumn::read("h_rate.1", &chain).unwrap();
     let found = history.value(rate, &"0.7".parse().unwrap(), Side::Right).unwrap();
     assert!((found.to_f64().abs() - 1e-17).abs() < 1e-26 && found.bound().to_f64() < 1e-24, "{found}");
+}
+
+/// A light mass that strikes a clamped bar: its force decays as `e^(−t/m)`, far below all roundings, and does not vanish
+/// until the reflection returns at t = 2. The release follows at 2 + m.
+///
+/// **Source**: the second piece of the delay equation, `(1 + 2(t − 2)/m) e^(−(t − 2)/m)` times the sign that makes it
+/// end at t − 2 = m, but for `e^(−2/m)`.
+#[test]
+fn the_force_of_a_light_mass_decays_without_a_doubt() {
+    for decade in 2..=10 {
+        let scene = format!(
+            "[ends]\nbottom = \"fixed\"\n[[body]]\nlength = 1\nwave_speed = 1\nimpedance = 1\n\
+             [[body]]\nmass = 1e-{decade}\nvelocity = -1\n[run]\ntime = 3"
+        );
+        let chain = ChainScene::parse(&scene).unwrap().chain;
+        let history = chain.solve(Numbers::default()).unwrap();
+        let listing = history.listing().unwrap();
+        let release = listing.contacts[0].release.as_ref().unwrap();
+        let off = (release.to_f64() - 2.0 - 10f64.powi(-decade)).abs();
+        assert!(off <= release.bound().to_f64() + 1e-15, "{release:?} is off by {off:e} for 1e-{decade}");
+        assert_eq!(history.warnings(), [], "for 1e-{decade}");
+    }
 }
