@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._answers import Derivatives
-from ._numbers import Array, Frozen, MaskedArray, Numbers, doubles, objects, unmasked
+from ._numbers import Array, Frozen, MaskedArray, Numbers, Side, doubles, objects, unmasked
 
 
 def _exact(text: str) -> Fraction | Decimal:
@@ -29,6 +29,13 @@ READ: dict[str, Callable[[Any], Any]] = {
 }
 
 _SIDES = np.array(["left", "both", "right"])
+
+
+def one_side(side: Side) -> Side:
+    """Return a side, which ``None`` is not: a single value is the limit from one of them."""
+    if side is None:
+        raise ValueError("found side = None, expected left or right")
+    return side
 
 
 class Answers(Frozen):

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from ._answers import Derivatives, Field
-from ._arrays import READ, Answers, shaped, short
+from ._arrays import READ, Answers, one_side, shaped, short
 from ._numbers import Array, Frozen, MaskedArray, Maybe, Names, Number, Numbers, Side
 from ._problem import Problem, _number, _text
 
@@ -362,7 +362,7 @@ class ChainHistory(Answers):
         """
         if not isinstance(name, str) or name not in self.chain.quantities:
             raise ValueError(f"found the quantity {name}, expected one of {', '.join(self.chain.quantities)}")
-        return shaped([self.columns(t, name, side)[name]], np.asarray(t).shape)[0]
+        return shaped([self.columns(t, name, one_side(side))[name]], np.asarray(t).shape)[0]
 
     def field(self, body: int, x: Numbers, t: Numbers, side: Side = "right") -> Field:
         """Return ``v``, ``v_t`` and ``v_x`` at points of a body.

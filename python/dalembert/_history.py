@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._answers import Centre, Derivatives, Energy, Field, GroundEnd, TopEnd
-from ._arrays import READ, Answers, shaped, short
+from ._arrays import READ, Answers, one_side, shaped, short
 from ._numbers import Array, MaskedArray, Names, Numbers, Side
 
 if TYPE_CHECKING:
@@ -411,7 +411,7 @@ class History(Answers):
         return {name: self._array(name, raw) for name, raw in self._compiled.columns(self._places(t), names, side)}
 
     def _at(self, t: Numbers, side: Side, *names: str) -> list[Any]:
-        return shaped(self.columns(t, names, side).values(), np.asarray(t).shape)
+        return shaped(self.columns(t, names, one_side(side)).values(), np.asarray(t).shape)
 
     def strain(self, t: Numbers, side: Side = "right") -> Any:
         """Return ``v_x(0,t)``, the strain at the ground; zero in flight.

@@ -264,11 +264,14 @@ impl ChainHistory {
         side: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Vec<(String, Column)>> {
         let (columns, side) = (self.columns_of(quantities)?, side.map(side_of).transpose()?);
-        let (times, is_double) = (Given::new("time", times)?.into_numbers("time")?, self.is_double());
+        let (given, is_double) = (Given::new("time", times)?, self.is_double());
+        let doubles = if let Given::Doubles(list) = &given { list.clone() } else { Vec::new() };
+        let times = given.into_numbers("time")?;
         self.ask(py, move |history| {
             let (mut spelled, mut sides, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-            for time in &times {
-                for row in history.rows_at(&columns, ChainTime::Spelled(time), side)? {
+            for (k, time) in times.iter().enumerate() {
+                let asked = doubles.get(k).map_or(ChainTime::Spelled(time), |time| ChainTime::Computed(*time));
+                for row in history.rows_at(&columns, asked, side)? {
                     spelled.push(history.time(time)?);
                     sides.push(row.side.map_or(0.0, |side| if side == Side::Left { -1.0 } else { 1.0 }));
                     rows.push(row.values);

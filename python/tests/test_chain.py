@@ -115,6 +115,23 @@ def test_references(tmp_path):
         dalembert.write_reference(path, dalembert.Chain(BARS).replace({"gravity": 1}), [0.1])
 
 
+def test_doubles_of_events_are_the_events():
+    """A time of an event that was computed, even in another order, stands for the event, whose limits differ."""
+    history = dalembert.Chain(BARS).solve()
+    impact, release = history.events["t"].astype(float)
+    limits = {side: history.value("force.1", [impact, 0.1, release, 27 / 70], side) for side in ("left", "right")}
+    exact = dalembert.Chain(BARS).solve(exact=True)
+    for k, t in enumerate(["1/10", "1/10", "27/70", "27/70"]):
+        for side, found in limits.items():
+            assert abs(found[k] - float(exact.value("force.1", t, side))) < 1e-12
+    # Text is what it spells, to the last digit.
+    late = exact.value("force.1", "0.1000000000000000000001", "left")
+    assert late == exact.value("force.1", "1/10", "right") != exact.value("force.1", "1/10", "left")
+    for refused in [lambda: history.value("force.1", 0.1, None), lambda: dalembert.solve("paper-weak").strain(1, None)]:
+        with pytest.raises(ValueError, match="found side = None, expected left or right"):
+            refused()
+
+
 def test_what_is_refused():
     chain = dalembert.Chain(BARS)
     history = chain.solve()

@@ -6,6 +6,7 @@ use super::column::{ChainColumn, ChainQuantity};
 use super::definition::Chain;
 use super::field::BodySums;
 use super::history::ChainListing;
+use super::node::Stage;
 use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainRun, ForcePiece};
 use super::wave::Limit;
@@ -21,6 +22,9 @@ use crate::solve::{LONG, Observer, Rung};
 pub enum ChainTime<'a> {
     /// The time that a number spells.
     Spelled(&'a Number),
+    /// A time that was computed: that of an event, or of another change at a node, within eight roundings of it, or
+    /// exactly this one.
+    Computed(f64),
     /// The event of the [`listing`](super::ChainHistory::listing) with this index.
     Event(usize),
 }
@@ -47,19 +51,48 @@ impl ChainTime<'_> {
     pub(super) fn digits(self) -> u32 {
         match self {
             ChainTime::Spelled(time) => time.written_digits(),
+            ChainTime::Computed(_) => DIGITS_OF_DOUBLES,
             ChainTime::Event(_) => 0,
         }
     }
 
-    fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<N, Error> {
+    /// Returns the time in the numbers of a run, and whether it is that of an event or another change.
+    fn in_run<N: Bounded>(self, run: &ChainRun<N>) -> Result<(N, bool), Error> {
         match self {
-            ChainTime::Spelled(time) => Ok(N::spelling(time, &run.end.precision())),
-            ChainTime::Event(event) => Ok(run.events.get(event).ok_or(Error::Open(Open))?.t.clone()),
+            ChainTime::Spelled(time) => Ok((N::spelling(time, &run.end.precision()), false)),
+            ChainTime::Computed(time) => Ok(match run.change_near(time) {
+                Some(change) => (change.clone(), true),
+                None => (run.end.double(time), false),
+            }),
+            ChainTime::Event(event) => Ok((run.events.get(event).ok_or(Error::Open(Open))?.t.clone(), true)),
         }
     }
 }
 
+/// Digits of a double.
+const DIGITS_OF_DOUBLES: u32 = 17;
+
+/// Number of changes of a node within such a distance that are compared.
+const MOST_NEAR: usize = 8;
+
+/// Roundings within which a computed time is that of a change.
+const ROUNDINGS: f64 = 8.0;
+
 impl<N: Bounded> ChainRun<N> {
+    /// Returns the time of the event that is nearest to a double, within eight roundings, or else that of the nearest
+    /// change of a node.
+    fn change_near(&self, time: f64) -> Option<&N> {
+        let apart = |change: &N| (change.to_f64() - time).abs();
+        let is_near = |change: &&N| apart(change) <= ROUNDINGS * f64::EPSILON * time.abs();
+        let event = self.events.iter().map(|event| &event.t).filter(is_near);
+        let near = time - 2.0 * ROUNDINGS * f64::EPSILON * time.abs();
+        let later = |stages: &'_ [Stage<N>]| stages.partition_point(|stage| stage.from.to_f64() < near);
+        let of_node = self.nodes.iter().flat_map(|stages| stages[later(stages)..].iter().take(MOST_NEAR));
+        let change = of_node.map(|stage| &stage.from).filter(is_near);
+        let nearest = |a: &&N, b: &&N| apart(a).total_cmp(&apart(b));
+        event.min_by(nearest).or_else(|| change.min_by(nearest))
+    }
+
     /// Returns the value of a column; where a jump is not told from the time, its bound covers both limits.
     pub(super) fn value_within(&self, column: ChainColumn, time: &N, limit: Limit) -> Result<N, Error> {
         let ChainColumn { quantity, place } = column;
@@ -122,12 +155,12 @@ impl<N: IntoValue> Answers for ChainRun<N> {
     }
 
     fn time(&self, time: ChainTime<'_>) -> Result<Value, Error> {
-        time.in_run(self).map(N::into)
+        Ok(time.in_run(self)?.0.into())
     }
 
     fn column(&self, column: ChainColumn, time: ChainTime<'_>, side: Side) -> Result<Value, Error> {
-        let limit = Limit { side, is_event: matches!(time, ChainTime::Event(_)) };
-        self.value_within(column, &time.in_run(self)?, limit).map(N::into)
+        let (time, is_event) = time.in_run(self)?;
+        self.value_within(column, &time, Limit { side, is_event }).map(N::into)
     }
 
     fn rows(&self, numbers: ChainNumbers<'_>) -> Result<NumberRows<Value>, Error> {
