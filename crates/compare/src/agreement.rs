@@ -57,6 +57,12 @@ impl Coverage {
 
 /// Default distance from a jump, in round trips, from which on a sample counts as away from it.
 const WINDOW: f64 = 0.02;
+/// Multiple of the median force in flight, which is noise, that is a force of a contact.
+const ABOVE_NOISE: f64 = 8.0;
+
+/// Largest share of the greatest force that counts as noise.
+const MOST_NOISE: f64 = 0.1;
+
 /// Least force of a sample in contact, as a share of the greatest exact force.
 const LEAST_FORCE: f64 = 1e-6;
 
@@ -147,9 +153,14 @@ impl Agreement {
         let most = exact.iter().filter_map(|contact| contact.peak_force).fold(0.0, f64::max);
         let height = self.column(Quantity::EndDisplacement).into_iter().flat_map(|end| &end.ours);
         let height = height.fold(0.0f64, |most, v| most.max(v.abs()));
+        let least_force = force.map_or(0.0, |force| {
+            let flies = |t: f64| !exact.iter().any(|it| it.impact <= t && it.release.is_none_or(|to| t <= to));
+            let in_flight = force.iter().zip(times).filter(|(_, t)| flies(**t)).map(|(force, _)| force.abs());
+            (LEAST_FORCE * most).max((ABOVE_NOISE * median(in_flight.collect())).min(MOST_NOISE * most))
+        });
         let is_down = |k: usize| match (flags, force, end) {
             (Some(flags), ..) => flags[k] > 0.5,
-            (_, Some(force), _) => force[k] > LEAST_FORCE * most,
+            (_, Some(force), _) => force[k] > least_force,
             (.., Some(v)) => v[k] <= LEAST_FORCE * height,
             _ => false,
         };
@@ -203,4 +214,9 @@ impl Agreement {
         }
         (self.audit, self.contacts) = (audit, contacts);
     }
+}
+/// Returns the median; 0 of nothing.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

@@ -15,10 +15,10 @@
 //! - *The first sample*, which a scheme is given and does not compute: at most half of the change by the value is left.
 //!   Where the value changes the energy there and at most a quarter is left, the start itself determines the value:
 //!   then half of ‖e‖₂² may be left over all columns, and no column may get worse.
-//! - The value exceeds twice its standard error, which has three parts: the step; the scatter of the parts about the
-//!   value; and an error that all parts share, as where a soft contact lasts longer, which no scatter shows. The last
-//!   is estimated by ‖e‖₂/‖s‖₂ from the misfit that is left, where the value changes the signals by s; where the start
-//!   determines the value, it is the difference between both values.
+//! - The value exceeds twice its standard error, and a factor four times its own. The error has three parts: the step;
+//!   the scatter of the parts about the value; and an error that all parts share, as where a soft contact lasts longer,
+//!   which no scatter shows. The last is estimated by ‖e‖₂/‖s‖₂ from the misfit that is left, where the value changes the
+//!   signals by s; where the start determines the value, it is the difference between both values.
 //!
 //! A value of the scene that leaves at most a fiftieth of ‖e‖₂ passes without these conditions.
 //!
@@ -46,6 +46,10 @@ pub(super) struct Candidate {
 pub(super) const LEFT: f64 = 0.5;
 /// Largest share of ‖e‖₂² that an explanation may leave that looks like another one: a quarter of ‖e‖₂.
 pub(super) const CLEAR: f64 = LEFT * LEFT * LEFT * LEFT;
+/// Number of standard errors that a value exceeds.
+const EVIDENT: f64 = 2.0;
+/// Number of standard errors that a factor of a column is known to.
+const KNOWN: f64 = 4.0;
 /// Largest share of a value up to which its effect is taken for linear.
 const LINEAR: f64 = 0.2;
 /// Width of a difference quotient.
@@ -293,7 +297,7 @@ impl CauseFits<'_> {
                 Cause::Offset(place) => self.trip * self.model.signals[*place].rate,
                 _ => 1.0,
             };
-            let share = least.max(2.0 * by_step);
+            let share = least.max(EVIDENT * by_step);
             let most = if column.is_some() { 1.0 } else { LINEAR };
             let quantity = column.map_or("all", |place| self.model.signals[place].column.name());
             // The models of the first two are of first order; the last would fill a page.
@@ -367,7 +371,7 @@ impl CauseFits<'_> {
         let slope = self.slopes(cause, p, &found)?;
         let (before, after) = (self.squares(&self.base), self.squares(&found));
         let error = match matches!(cause, Cause::Value(_)) && after <= EXPLAINED * before {
-            true => Some((after / product(&slope, &slope)).sqrt()).filter(|error| p.abs() > 2.0 * error)?,
+            true => Some((after / product(&slope, &slope)).sqrt()).filter(|error| p.abs() > EVIDENT * error)?,
             false => self.accepted(cause, p, &concerned, &slope, &found)?,
         };
         Some(Fitted { kind, cause, value: p, error, left: self.squares(&found), share_left: left / base })
@@ -433,7 +437,8 @@ impl CauseFits<'_> {
             by_start.map_or_else(|| self.product_over(concerned, found, found) / weight, |apart| apart * apart);
         let error = (scatter + shared + resolution * resolution).sqrt();
         let early = early || is_column || !self.is_resolved(found);
-        (holds && early && count > 0.0 && p.abs() > 2.0 * error).then_some(error)
+        let is_known = !matches!(cause, Cause::Factor(_)) || (1.0 + p).abs() > KNOWN * error;
+        (holds && early && count > 0.0 && p.abs() > EVIDENT * error && is_known).then_some(error)
     }
 
     /// Returns the fits of causes that explain by themselves what the step in time does not resolve. They are fitted

@@ -11,8 +11,8 @@ use super::hint::{Detectable, Hint};
 use super::model::Model;
 use super::reference::Reference;
 use super::symptoms::{
-    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, other_body, other_units, other_way,
-    turned_axis, unlike_mass, unstable_energy,
+    FEWEST, empty_column, fronts_spread, half_step, is_empty, lost_start, no_potential, other_body, other_units,
+    other_way, turned_axis, unlike_mass, unstable_energy,
 };
 use dalembert::Error;
 use dalembert::chain::{ChainParameter, ChainValue};
@@ -56,6 +56,9 @@ impl Diagnosis {
             return Ok(());
         }
         self.hints = other_units(columns, reference);
+        if self.hints.is_empty() {
+            self.hints.extend(no_potential(reference, agreement)?);
+        }
         if !self.hints.is_empty() {
             return Ok(());
         }

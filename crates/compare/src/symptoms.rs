@@ -17,6 +17,8 @@ use dalembert::{Error, Side};
 const OTHER_UNIT: f64 = 10.0;
 /// Smallest number of samples for a diagnosis.
 pub(super) const FEWEST: usize = 8;
+/// Number of standard errors that a symptom exceeds.
+const EVIDENT: f64 = 3.0;
 /// Rounding of values that are written with six digits.
 const SIX_DIGITS: f64 = 5e-6;
 
@@ -141,8 +143,8 @@ pub(super) fn other_body(model: &Model<'_>) -> Option<Hint> {
     Some(Hint::new("other_body", body as f64, text))
 }
 
-/// Returns the hint at a mass that is not that of the scene: the kinetic energy before the first contact, which no
-/// scheme gets wrong, has another value at the same speed.
+/// Returns the hint at a mass that is not that of the scene: the kinetic energy of a rod that moves as one before the
+/// first contact, which no scheme gets wrong, has another value at the same speed.
 ///
 /// **Source**: the factors of the energy and of the speed of the end that fit best, by least squares; the standard
 /// error is that of the residual of the energy.
@@ -160,7 +162,11 @@ pub(super) fn unlike_mass(reference: &Reference<'_>, agreement: &Agreement) -> O
     };
     let ((energy, error), (speed, _)) = (factor(Quantity::KineticEnergy)?, factor(Quantity::EndVelocity)?);
     let (off, by_speed) = (energy - 1.0, (speed * speed - 1.0).abs());
-    let is_evident = off.abs() > 2.0 * error && by_speed < LEFT * LEFT * off.abs() && off.abs() < LEFT;
+    // The speed of the end gives the energy of a rod that moves as one.
+    let (energies, speeds) = (agreement.column(Quantity::KineticEnergy)?, agreement.column(Quantity::EndVelocity)?);
+    let per_square = |k: usize| energies.ours[k] / speeds.ours[k].powi(2);
+    let is_rigid = (0..count).all(|k| (per_square(k) / per_square(0) - 1.0).abs() < SIX_DIGITS);
+    let is_evident = is_rigid && off.abs() > EVIDENT * error && by_speed < LEFT * LEFT * off.abs() && off.abs() < LEFT;
     (count >= FEWEST && is_evident).then(|| {
         let (percent, error_percent) = ((100.0 * off).decimal(3), (100.0 * error).decimal(1));
         let text = format!(
@@ -169,6 +175,22 @@ pub(super) fn unlike_mass(reference: &Reference<'_>, agreement: &Agreement) -> O
         );
         Hint { error, ..Hint::new("mass", off, text.replace('-', "−")) }
     })
+}
+
+/// Returns the hint at an energy without that of the weight: it is the sum of the other two.
+///
+/// **Errors**: those of the history.
+pub(super) fn no_potential(reference: &Reference<'_>, agreement: &Agreement) -> Result<Option<Hint>, Error> {
+    let Some(energy) = energy(&agreement.quantities) else { return Ok(None) };
+    let parts = [Quantity::KineticEnergy, Quantity::StrainEnergy];
+    let parts = reference.history.columns(&parts, &agreement.grid.times, Some(Side::Right))?;
+    let sums = parts[0].iter().zip(&parts[1]).map(|(kinetic, strain)| kinetic + strain);
+    let square = |sum: f64, (a, b): (f64, &f64)| sum + (a - b).powi(2);
+    let (left, base) =
+        (sums.zip(&energy.theirs).fold(0.0, square), energy.ours.iter().copied().zip(&energy.theirs).fold(0.0, square));
+    let text =
+        format!("{} is that without the weight: is the potential energy of gravity left out?", energy.what.name());
+    Ok((left < CLEAR * base).then(|| Hint { quantity: energy.what.name(), ..Hint::new("no_potential", -1.0, text) }))
 }
 
 /// Returns the hint at an unstable scheme: the energy doubles.
@@ -231,13 +253,15 @@ pub(super) fn half_step(reference: &Reference<'_>, agreement: &Agreement) -> Opt
         let count = grid.times.partition_point(|time| *time < until - step);
         let rate = |k: usize| (column.ours[k] - column.ours[k - 1]) / (grid.times[k] - grid.times[k - 1]);
         let sum = |f: &dyn Fn(usize) -> f64| (1..count).filter(|k| rate(*k).is_finite()).map(f).sum::<f64>();
-        let error = |k: usize| column.theirs[k] - column.ours[k];
-        let (square, cross) = (sum(&|k| rate(k) * rate(k)), sum(&|k| error(k) * rate(k)));
+        let error_at = |k: usize| column.theirs[k] - column.ours[k];
+        let (square, cross) = (sum(&|k| rate(k) * rate(k)), sum(&|k| error_at(k) * rate(k)));
         let late = -cross / square;
-        let left = sum(&|k| (error(k) + late * rate(k)).powi(2));
+        let left = sum(&|k| (error_at(k) + late * rate(k)).powi(2));
         let is_half = (late.abs() / step - 0.5).abs() < LEFT * 0.5;
         let error = (left / square / (count as f64 - 2.0)).sqrt();
-        let is_evident = count > 3 && is_half && error < late.abs() / 2.0;
+        let misfit = sum(&|k| error_at(k).powi(2));
+        let is_seen = misfit > SIX_DIGITS * SIX_DIGITS * (1..count).map(|k| column.theirs[k].powi(2)).sum::<f64>();
+        let is_evident = count > 3 && is_half && is_seen && EVIDENT * error < late.abs();
         let place = agreement.column(place).map(|place| place.theirs.as_slice());
         let is_central = place.is_some_and(|place| is_central_difference(&grid.times[..count], place, &column.theirs));
         (is_evident && !is_central).then(|| {
