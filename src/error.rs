@@ -77,6 +77,12 @@ pub enum Error {
         /// Its name.
         quantity: &'static str,
     },
+    /// A quantity that has no value at a point.
+    #[error("found {quantity} asked at points, expected a quantity along the rod, such as strain")]
+    NotAlong {
+        /// Its name.
+        quantity: &'static str,
+    },
     /// The history has more pieces than the limit allows.
     #[error(
         "the history passed {limit} pieces at t = {time:?}; expected fewer: ask for a shorter time, for fewer impacts \

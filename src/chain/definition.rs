@@ -179,16 +179,14 @@ impl Chain {
     ///
     /// **Errors**: [`ProblemError`] for a time that is no last time of a run.
     pub fn reaching(&self, latest: &Number) -> Result<Chain, ProblemError> {
-        if latest.compare(&self.until).is_gt() {
-            return self.with_until(latest.clone());
-        }
-        if latest.to_f64() < 0.0 {
-            return Ok(self.clone());
-        }
+        let is_beyond = latest.compare(&self.until).is_gt();
         // A run has a last time above zero.
         let enough = (latest.to_f64() * (1.0 + BEYOND)).max(self.until.to_f64() * f64::EPSILON);
         match enough.to_string().parse::<Number>() {
-            Ok(enough) if enough.compare(&self.until).is_lt() => self.with_until(enough),
+            Ok(enough) if is_beyond || latest.to_f64() >= 0.0 && enough.compare(&self.until).is_lt() => {
+                self.with_until(enough)
+            }
+            _ if is_beyond => self.with_until(latest.clone()),
             _ => Ok(self.clone()),
         }
     }
@@ -483,7 +481,7 @@ impl Chain {
         };
         let strains = self.bodies.iter().map(strained).zip(1..);
         let (strain, body) = strains.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(strain, _)| *strain > 1.0)?;
-        Some(Warning::StrainAboveOne { strain, body: Some(body).filter(|_| self.bodies.len() > 1) })
+        Some(Warning::StrainAboveOne { strain, body: Some(body) })
     }
 
     /// Checks the springs, and that neighbours without an elastic side between them have one.

@@ -194,12 +194,18 @@ impl Chain {
         self.solve_observed(numbers, crate::solve::unobserved())
     }
 
+    /// Checks that a run in these numbers is possible.
+    ///
+    /// **Errors**: [`Error::Accuracy`]; [`Error::Digits`]; [`Error::SoftExact`] for springs, dashpots or masses in
+    /// fractions.
+    pub fn check_numbers(&self, numbers: Numbers) -> Result<(), Error> {
+        numbers.check()?;
+        if self.is_soft() && numbers == Numbers::Exact { Err(Error::SoftExact) } else { Ok(()) }
+    }
+
     /// Solves the chain as [`Chain::solve`] does; `observe` receives the number of events and of wave pieces.
     pub fn solve_observed(&self, numbers: Numbers, observe: Observer) -> Result<ChainHistory, Error> {
-        numbers.check()?;
-        if self.is_soft() && numbers == Numbers::Exact {
-            return Err(Error::SoftExact);
-        }
+        self.check_numbers(numbers)?;
         let is_possible = |rung: &Rung| !(self.is_soft() && *rung == Rung::Fractions);
         let attempts = rungs(numbers).into_iter().filter(is_possible).map(|rung| (rung, Attempt::new()));
         let attempts: Vec<_> = attempts.collect();
@@ -531,6 +537,9 @@ impl ChainHistory {
             // The natural scale decides only for a number that is not distinguished from zero, or almost zero.
             let excess = |(value, measure): Judged<'_>| {
                 let (size, scale) = (value.to_f64().abs(), self.scales.of(measure));
+                if value.log2_error() == f64::NEG_INFINITY {
+                    return f64::NEG_INFINITY;
+                }
                 let is_faint = size.log2() <= value.log2_error();
                 let excess = value.log2_error() - size.max(if is_faint { scale } else { FAINT * scale }).log2();
                 // A number without a bound is unknown, whatever its size; a maximum would pass over it.

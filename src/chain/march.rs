@@ -9,7 +9,7 @@ use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
 use super::start::{Nodes, Start};
 use super::varied::Varied;
-use super::wave::Wave;
+use super::wave::{Wave, left};
 use crate::error::Error;
 use crate::motion::Ending;
 use crate::number::{Bounded, Open, is_exact_zero};
@@ -130,7 +130,7 @@ impl<N: Bounded> ChainRun<N> {
             }
             steps += 1;
             if steps % 64 == 0 {
-                let pieces = waves.iter().flatten().map(|wave| wave.pieces.len()).sum();
+                let pieces = left(&waves);
                 if pieces > chain.max_pieces() {
                     return Err(Error::TooManyPieces { limit: chain.max_pieces(), time: reached.to_f64() });
                 }
@@ -220,7 +220,7 @@ fn march<N: Bounded>(
         }
         steps += 1;
         if steps % 64 == 0 {
-            let pieces = waves.iter().flatten().map(|wave| wave.pieces.len()).sum();
+            let pieces = left(waves);
             if pieces > limit {
                 return Err(Error::TooManyPieces { limit, time: clusters[at].reached.at.to_f64() });
             }

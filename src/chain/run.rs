@@ -7,7 +7,7 @@ use super::march::SOFT;
 use super::node::{Gap, Stage};
 use super::peak::highest;
 use super::start::Bar;
-use super::wave::{Limit, Wave, either, indices_at, may_jump, smooth_value};
+use super::wave::{Limit, Wave, either, indices_at, left, may_jump, smooth_value};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Side, maps};
 use crate::number::{Bounded, Open, is_exact_zero};
@@ -168,7 +168,7 @@ impl<N: Bounded> ChainRun<N> {
 
     /// Returns the number of wave pieces that left the nodes after the start.
     pub fn pieces(&self) -> usize {
-        self.waves.iter().flatten().map(|wave| wave.pieces.len() - wave.given).sum()
+        left(&self.waves)
     }
 
     /// Returns the contacts, in the order of their impacts.

@@ -241,6 +241,11 @@ pub(super) fn order<N: Bounded>(time: &N, from: &N) -> Result<Ordering, Open> {
     }
 }
 
+/// Returns the number of pieces that left the nodes after the start.
+pub(super) fn left<N>(waves: &[[Wave<N>; 2]]) -> usize {
+    waves.iter().flatten().map(|wave| wave.pieces.len() - wave.given).sum()
+}
+
 /// The limit of a value at a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limit {

@@ -153,7 +153,8 @@ impl<S: Rounded> Bounded for Estimate<S> {
     /// Widens the bound of the first number by the distance to the second and the bound of the second.
     fn joined(self, other: &Self) -> Self {
         let error = other.error() + (self.clone() - other).nominal().error_of_zero();
-        let error = error.max(self.error());
+        // An unknown error stays unknown.
+        let error = if error <= self.error() { self.error() } else { error };
         Estimate::new(self.into_value(), error)
     }
 

@@ -245,7 +245,8 @@ impl<S: Rounded> Scalar for Estimate<S> {
     fn sign(&self) -> Result<Ordering, Open> {
         let size = self.value.to_f64();
         // One comparison of doubles decides almost all cases.
-        if size.abs() > (2.0 * self.bound()).max(f64::MIN_POSITIVE) {
+        let size_of_error = 2.0 * self.bound();
+        if size.abs() > size_of_error && size.abs() > f64::MIN_POSITIVE {
             return Ok(if size < 0.0 { Ordering::Less } else { Ordering::Greater });
         }
         let error = self.value.double(self.error) * &self.value.roundoff();

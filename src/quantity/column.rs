@@ -79,7 +79,7 @@ pub(crate) fn columns_along<S: Scalar>(
     side: Side,
 ) -> Result<Vec<Vec<Option<S>>>, Error> {
     if let Some(other) = quantities.iter().find(|quantity| quantity.needs() != Needs::PointAndTime) {
-        return Err(Error::NotOverTime { quantity: other.name() });
+        return Err(Error::NotAlong { quantity: other.name() });
     }
     let mut rows = Vec::with_capacity(points.len() * times.len());
     for time in times {

@@ -41,6 +41,9 @@ const PLAIN: [(&str, [i32; 3], f64, i32); 11] = [
 const PREFIXES: [(&str, i32); 9] =
     [("n", -9), ("µ", -6), ("μ", -6), ("u", -6), ("m", -3), ("c", -2), ("k", 3), ("M", 6), ("G", 9)];
 
+/// Greatest power of a unit that is read.
+const MOST_POWER: i32 = 9;
+
 impl Unit {
     /// Returns the unit of one name: `mm`, `lbf`.
     fn from_name(name: &str) -> Option<Self> {
@@ -75,6 +78,9 @@ impl Unit {
                 let digits = factor.find(|c: char| c == '^' || c.is_ascii_digit()).filter(|at| *at > 0);
                 let (name, power) = factor.split_at(digits.unwrap_or(factor.len()));
                 let power = if power.is_empty() { 1 } else { power.trim_start_matches('^').parse().ok()? };
+                if !(-MOST_POWER..=MOST_POWER).contains(&power) {
+                    return None;
+                }
                 let two = |at: usize| {
                     let (first, second) = name.split_at_checked(at)?;
                     Some(Unit::from_name(first)?.times(Unit::from_name(second)?, 1))

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use super::error::{SceneError, position};
 use super::publication::Publication;
-use super::read::Scene;
+use super::read::{Scene, document};
 use super::reader::{Reader, Value};
 use super::target::{ChainTarget, Target};
 use crate::chain::{Body, BodyMaterial, Chain, Joint, MAX_PIECES, Points, Spring};
@@ -121,7 +121,7 @@ impl ChainScene {
     ///
     /// **Errors**: [`SceneError`] with the place of the value.
     pub fn parse(source: &str) -> Result<Self, SceneError> {
-        let document = DeTable::parse(source).map_err(|error| super::read::syntax(source, &error))?;
+        let document = document(source)?;
         Reader { source, document: document.get_ref() }.chain()
     }
 

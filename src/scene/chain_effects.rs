@@ -1,6 +1,7 @@
 //! The effects that a chain calls for.
 
 use super::chain::ChainScene;
+use super::chain_ends::SPRING_KEYS;
 use super::effects::EffectUse;
 use crate::chain::{End, Joint};
 
@@ -41,10 +42,11 @@ impl ChainScene {
         add("infinite_ends", infinite, "a half-infinite bar takes up waves for ever", "no wave leaves the chain");
         let top = bodies;
         let path = |node: usize| match node {
-            0 if self.line_of("ground.stiffness").or(self.line_of("ground.damping")).is_some() => {
-                "ground.stiffness".into()
-            }
-            0 => "ends.bottom".to_string(),
+            0 => SPRING_KEYS
+                .map(|key| format!("ground.{key}"))
+                .into_iter()
+                .find(|key| self.line_of(key).is_some())
+                .unwrap_or_else(|| "ends.bottom".to_string()),
             node if node == top => "ends.top".into(),
             node => format!("body[{node}].joint"),
         };

@@ -143,13 +143,17 @@ impl Scene {
                 (problem.top() == Top::Fixed).then(|| "top = \"fixed\"".into()),
                 match place {
                     None => "the top is free: waves come back with the same strain reversed",
-                    Some(_) => "the chain acts on the upper end of the body",
+                    Some(_) => "the upper end of the body is that of the chain, or meets the next one",
                 },
             ),
             Effect::InitialGap => {
                 let above = |gap| format!("{}: t = 0 is the start, before the first touch", shown("gap", gap));
                 let touch = "t = 0 is the first touch: no flight before it is computed";
-                let otherwise = if profile.is_some() { "the start is a profile" } else { touch };
+                let otherwise = match (&profile, place) {
+                    (Some(_), None) => "the start is a profile",
+                    (Some(_), Some(_)) => "a body of a chain starts where its scene places it",
+                    (None, _) => touch,
+                };
                 ("impact.gap", self.problem.gap().map(above), otherwise)
             }
             Effect::InitialStrain => (

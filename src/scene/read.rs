@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::error::{SceneError, position};
@@ -98,11 +99,7 @@ impl Scene {
     /// # Ok::<(), dalembert::SceneError>(())
     /// ```
     pub fn parse(source: &str) -> Result<Self, SceneError> {
-        if source.len() > MAX_BYTES {
-            let found = format!("a scene of {} bytes", source.len());
-            return Err(SceneError::new("", 0..0, Kind::TooLong, found, format!("at most {MAX_BYTES}")));
-        }
-        let document = DeTable::parse(source).map_err(|error| syntax(source, &error))?;
+        let document = document(source)?;
         Reader { source, document: document.get_ref() }.scene()
     }
 
@@ -117,8 +114,19 @@ impl Scene {
     }
 }
 
+/// Reads a document.
+///
+/// **Errors**: [`SceneError`] for one that is too long, or is not TOML.
+pub(super) fn document(source: &str) -> Result<Spanned<DeTable<'_>>, SceneError> {
+    if source.len() > MAX_BYTES {
+        let found = format!("a scene of {} bytes", source.len());
+        return Err(SceneError::new("", 0..0, Kind::TooLong, found, format!("at most {MAX_BYTES}")));
+    }
+    DeTable::parse(source).map_err(|error| syntax(source, &error))
+}
+
 /// Returns the error of the TOML reader, with its place; a number with a unit and a bare fraction are recognised.
-pub(super) fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
+fn syntax(source: &str, error: &toml::de::Error) -> SceneError {
     let span = error.span().unwrap_or(0..0);
     let value = value_around(source, span.start);
     let text = source.get(value.clone()).unwrap_or_default();

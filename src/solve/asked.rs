@@ -228,6 +228,9 @@ impl<S: Rounded> TimeResolver<S> {
 
 /// Returns a number whose bound covers both numbers with their bounds.
 fn hull<S: Rounded>(a: Estimate<S>, b: &Estimate<S>) -> Estimate<S> {
+    if a.error().is_nan() || b.error().is_nan() {
+        return Estimate::new(a.into_value(), f64::INFINITY);
+    }
     let apart = b.value().clone() - a.value();
     let far = apart.in_roundoffs() + apart.to_f64().abs();
     let to = if apart.is_negative() { -far } else { far };

@@ -359,6 +359,10 @@ impl History {
         times: &Places<'_>,
         side: Option<Side>,
     ) -> Result<Vec<Vec<Value>>, Error> {
+        let is_along = |quantity: &Quantity| SLICE.contains(quantity) || *quantity == Quantity::PointStress;
+        if let Some(quantity) = quantities.iter().find(|quantity| !is_along(quantity)) {
+            return Err(Error::NotAlong { quantity: quantity.name() });
+        }
         self.in_parts(times, |times| typed_at!(self, [points, times], history => {
             let columns = history.ask_slices(slice, side, |motion| Ok((points.lift(motion)?, times.lift(motion)?)))?;
             let scales = history.carried_scales();

@@ -78,13 +78,14 @@ fn touches(scene: &ChainScene, listing: &ChainListing) -> Dataset {
 
 fn contacts(scene: &ChainScene, listing: &ChainListing) -> Dataset {
     let row = |contact: &dalembert::chain::ChainContact<Value>| {
-        let names = ChainNumbers::Contacts.names().iter().copied().map(column);
-        let numbers = contact.numbers(&listing.ending).map(|number| Cell::number(number.cloned()));
-        let peak_time = (column("peak_time"), Cell::number(listing.peak_time(contact).cloned()));
-        let node = (Column::new("node").text(), place(scene, contact.node));
-        [node].into_iter().chain(names.zip(numbers)).chain([peak_time]).collect()
+        let numbers = contact.numbers(&listing.ending).into_iter().chain([listing.peak_time(contact)]);
+        let numbers = numbers.map(|number| Cell::number(number.cloned()));
+        [place(scene, contact.node)].into_iter().chain(numbers).collect()
     };
-    Dataset::from_rows(listing.contacts.iter().map(row))
+    // A file without contacts has its header.
+    let columns = ChainNumbers::Contacts.names().iter().copied().chain(["peak_time"]).map(column);
+    let columns = [Column::new("node").text()].into_iter().chain(columns).collect();
+    Dataset { columns, rows: listing.contacts.iter().map(row).collect(), ..Dataset::default() }
 }
 
 /// Returns the pieces of the forces of all nodes.
@@ -254,6 +255,7 @@ pub(super) fn warnings(history: &ChainHistory) -> Vec<String> {
 
 /// Runs `explain`: the effects of the chain, and the wave pieces that its run takes.
 pub(crate) fn explain(scene: &ChainScene, numbers: Numbers, destinations: &[Destination]) -> Result<(), Failure> {
+    scene.chain.check_numbers(numbers)?;
     let effects = scene.effects();
     let foreseen = scene.chain.foresee_pieces();
     let cost = match &foreseen {

@@ -23,10 +23,13 @@ pub(crate) fn duration(seconds: f64) -> String {
     format!("{value:.places$} {name}")
 }
 
-/// Returns the relative error of a row, however small: `3.2e-15`; `0` without an error.
+/// Returns the relative error of a row, however small: `3.2e-15`; `0` without an error, `unknown` without a bound.
 fn error(row: &CostRow) -> String {
     if row.log10_error == f64::NEG_INFINITY {
         return "0".into();
+    }
+    if !row.log10_error.is_finite() {
+        return "unknown".into();
     }
     let mut exponent = row.log10_error.floor();
     let mut mantissa = format!("{:.1}", 10f64.powf(row.log10_error - exponent));

@@ -84,8 +84,10 @@ struct ContactSchema {
     impact: NumberSchema,
     /// Null if the run ends before.
     release: Option<NumberSchema>,
-    impulse: NumberSchema,
-    peak_force: NumberSchema,
+    /// Null for a contact that goes on beyond the end of exactness.
+    impulse: Option<NumberSchema>,
+    /// Null for a contact that goes on beyond the end of exactness.
+    peak_force: Option<NumberSchema>,
     /// The first time of the greatest force; null where the force is the same, within its bound, over a plateau.
     peak_time: Option<NumberSchema>,
     /// Derivatives by quantity and value.

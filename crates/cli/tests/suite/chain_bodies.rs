@@ -54,7 +54,10 @@ fn a_body_is_explained_by_its_ends() {
     for (command, because) in [
         ("explain openfoam-7-1-2 --body 1 --wide", "the upper end of the body pushes and never pulls"),
         ("explain openfoam-7-1-2 --body 2 --wide", "the lower end of the body pushes and never pulls"),
-        ("explain saint-venant-mass --body 1 --wide", "the chain acts on the upper end of the body"),
+        (
+            "explain saint-venant-mass --body 1 --wide",
+            "the upper end of the body is that of the chain, or meets the next one",
+        ),
         ("explain schwarz-two-bars --body 1 --wide", "velocity = "),
     ] {
         let text = run(command);

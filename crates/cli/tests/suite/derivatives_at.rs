@@ -157,7 +157,7 @@ fn what_has_no_derivative_at_a_time_is_refused() {
     assert!(matches!(ask(Quantity::Strain, &["-1"], &[]), Err(Error::TimeOutside { .. })));
     assert!(matches!(ask(Quantity::PointStrain, &["1"], &["1.5"]), Err(Error::PointOutside { .. })));
     assert!(matches!(ask(Quantity::PointStrain, &["1"], &[]), Err(Error::NotOverTime { .. })));
-    assert!(matches!(ask(Quantity::Strain, &["1"], &["1/2"]), Err(Error::NotOverTime { .. })));
+    assert!(matches!(ask(Quantity::Strain, &["1"], &["1/2"]), Err(Error::NotAlong { .. })));
     assert_eq!(ask(Quantity::Strain, &[], &[]), Ok(()));
 }
 
