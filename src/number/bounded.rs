@@ -154,7 +154,8 @@ impl<S: Rounded> Bounded for Estimate<S> {
     fn joined(self, other: &Self) -> Self {
         let error = other.error() + (self.clone() - other).nominal().error_of_zero();
         // An unknown error stays unknown.
-        let error = if error <= self.error() { self.error() } else { error };
+        let own = self.error();
+        let error = if own >= error || own.is_nan() { own } else { error };
         Estimate::new(self.into_value(), error)
     }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::number::Bounded;
 
 #[test]
 fn zero_is_what_lies_within_the_bound() {
@@ -36,4 +37,13 @@ fn quotients_by_what_may_be_zero_have_no_bound() {
     assert_eq!((Estimate::exact(1.0) / &zero).error(), f64::INFINITY);
     let half = Estimate::exact(1.0f64) / Estimate::exact(2.0);
     assert_eq!((*half.value(), half.error()), (0.5, 0.5));
+}
+
+#[test]
+fn an_unknown_bound_decides_nothing_and_stays_unknown() {
+    let unknown = Estimate::new(0.0, f64::INFINITY) * &Estimate::exact(1.0) + &Estimate::exact(5.0);
+    assert!(unknown.error().is_nan());
+    assert_eq!(unknown.sign(), Ok(Ordering::Equal));
+    let joined = unknown.joined(&Estimate::exact(5.0));
+    assert!(joined.error().is_nan());
 }

@@ -26,7 +26,9 @@ fn by_hand() {
         let factor = Conversion::between(found, expected).map(|conversion| conversion.apply(1.0));
         assert!(factor.is_some_and(|factor| (factor / one - 1.0).abs() < 4e-16), "{found} {expected} {factor:?}");
     }
-    for (found, expected) in [("V", "N"), ("N", "Pa"), ("s", ""), ("m/", "m"), ("N", "per ρS"), ("", "m")] {
+    for (found, expected) in
+        [("V", "N"), ("N", "Pa"), ("s", ""), ("m/", "m"), ("N", "per ρS"), ("", "m"), ("N^2000000000", "N")]
+    {
         assert_eq!(Conversion::between(found, expected), None, "{found} {expected}");
     }
     // Three tenths of a millisecond are the double next to 0.0003.

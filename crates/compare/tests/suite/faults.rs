@@ -301,3 +301,42 @@ fn data_in_another_unit_of_another_start_or_of_zeros_have_one_hint() {
         assert_eq!((kinds(&found), number(&found[0], "value").round()), (vec![kind], value), "{found:#?}");
     }
 }
+
+/// An energy without that of the weight is not the energy of an unstable scheme.
+#[test]
+fn a_missing_potential_energy_is_asked_after() {
+    let text = BAR.scene(END);
+    let times: Vec<f64> = (0..=450).map(|k| f64::from(k) / 100.0).collect();
+    let parts = exact(&text, &[Quantity::KineticEnergy, Quantity::StrainEnergy], &times);
+    let sums = parts[1].1.iter().zip(&parts[2].1).map(|(kinetic, strain)| kinetic + strain).collect();
+    let data = vec![("t", times.clone()), ("E_total", sums)];
+    let found = hints(&compare_columns(&scene(&text), &data, &Options::default()));
+    assert_eq!(kinds(&found), ["no_potential"], "{found:#?}");
+    let whole = exact(&text, &[Quantity::Energy], &times);
+    assert_eq!(hints(&compare_columns(&scene(&text), &whole, &Options::default())), [] as [Value; 0]);
+}
+
+/// Noise of a thousandth in flight does not make one contact of all.
+#[test]
+fn noise_of_a_force_makes_no_contact() {
+    let text = BAR.scene(END);
+    let times: Vec<f64> = (0..=1800).map(|k| f64::from(k) / 400.0).collect();
+    let mut data = exact(&text, &[Quantity::Force], &times);
+    let most = data[1].1.iter().copied().fold(0.0, f64::max);
+    let noise = |k: usize| 1e-3 * most * (1.7 * k as f64 * k as f64).sin();
+    data[1].1.iter_mut().enumerate().for_each(|(k, force)| *force += noise(k));
+    let report = compare_columns(&scene(&text), &data, &Options::default());
+    assert_eq!([&report["audit"]["missed"], &report["audit"]["invented"]], [0, 0], "{}", report["contacts"]);
+}
+
+/// A rod that is compressed before its contact has another kinetic energy at the speed of its end than one that moves
+/// as one: it accuses no mass.
+#[test]
+fn a_deforming_rod_accuses_no_mass() {
+    let text = "getfem-dynamic-contact";
+    let times: Vec<f64> = (0..=200).map(|k| f64::from(k) / 100.0).collect();
+    let mut data = exact(text, &[Quantity::EndVelocity, Quantity::KineticEnergy], &times);
+    data[2].1.iter_mut().for_each(|energy| *energy *= 0.995);
+    let found = hints(&compare_columns(&scene(text), &data, &Options::default()));
+    assert!(!kinds(&found).contains(&"mass"), "{found:#?}");
+}
