@@ -288,10 +288,10 @@ pub enum Warning {
     },
     /// Strains of a material that the theory does not hold for.
     #[error(
-        "the strain{} {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
+        "the strain{} {} {}: beyond 1 the rod would fold, and linear elasticity does not hold; check the units of \
          the material and of velocities, such as GPa in place of Pa",
         .body.map(|body| format!(" of body {body}")).unwrap_or_default(),
-        match .body { Some(_) => format!("may reach {}", .strain.decimal(3)), None => format!("reaches {}", .strain.decimal(3)) }
+        if .body.is_some() { "may reach" } else { "reaches" }, .strain.decimal(3)
     )]
     StrainAboveOne {
         /// The greatest `|v_x|` that is known; in a chain, that of the greatest speed of a body or end against a rigid

@@ -6,8 +6,8 @@
 //!
 //! **Errors**: the distance of the stored states from the true ones is bounded in the norm of the energy, `Σ mV² + Σ k
 //! gap²` over masses and loaded springs. An error of the arriving signals does work of at most `Z e²/4` per unit of
-//! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A state
-//! that decays is also bounded by the greater of its error before and that of all that acts on it.
+//! time, and dashpots take up energy, so that the norm grows by this and by the defect of the polynomials alone. A
+//! state that decays is also bounded by the greater of its error before and that of all that acts on it.
 
 use std::sync::Arc;
 

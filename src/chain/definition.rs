@@ -1,9 +1,8 @@
 //! A chain of bodies in exact numbers, checked once.
 
-use super::body::{Body, BodyMaterial, Points, steepest};
+use super::body::{Body, BodyMaterial, Points};
 use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::number::{Number, Rational, Scalar, short};
-use crate::reason::Warning;
 
 /// Limit of the wave pieces of a run, unless the chain states another one.
 pub const MAX_PIECES: usize = 2_000_000;
@@ -446,42 +445,6 @@ impl Chain {
         let spring = |node: &usize| (*node, Spring { stiffness: stiffness.clone(), damping: 0.into() });
         let springs = self.springs.iter().cloned().chain(nodes.iter().map(spring)).collect();
         Chain { springs, ..self.clone() }.checked()
-    }
-
-    /// Returns the warning of a bar with a material that the speeds, strains and loads given would strain above 1: it
-    /// would fold, as where a modulus is given in GPa beside a density in kg/m³.
-    ///
-    /// ```
-    /// use dalembert::chain::{Body, Chain};
-    /// let steel = |modulus: &str| Body::elastic(1.into(), modulus.parse().unwrap(), 7800.into(), 1.into());
-    /// let chain = |modulus| {
-    ///     let moving = steel(modulus).with_velocity((-1).into());
-    ///     Chain::builder(steel(modulus)).contact(0.into(), moving).until(1.into()).build()
-    /// };
-    /// assert!(chain("210e9")?.strain_warning().is_none());
-    /// assert!(chain("210")?.strain_warning().is_some());
-    /// # Ok::<(), dalembert::problem::ProblemError>(())
-    /// ```
-    pub fn strain_warning(&self) -> Option<Warning> {
-        let size = |points: &Points| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
-        let ends = self.ends.iter().map(|end| match end {
-            End::Force(points) => [0.0, size(points)],
-            End::Velocity(points) | End::Ground { velocity: points, .. } => [size(points), 0.0],
-            End::Free | End::Infinite { .. } => [0.0, 0.0],
-        });
-        let [speed, force] = ends.fold([0.0f64; 2], |[a, b], [c, d]| [a.max(c), b.max(d)]);
-        let speed = self.bodies.iter().map(|body| size(&body.velocity)).fold(speed, f64::max);
-        let strained = |body: &Body| {
-            if !matches!(body.material, BodyMaterial::Elastic { .. }) {
-                return 0.0;
-            }
-            let [impedance, wave_speed] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
-            let slope = steepest(&body.displacement);
-            (speed / wave_speed).max(force / (impedance * wave_speed)).max(slope).max(size(&body.strain))
-        };
-        let strains = self.bodies.iter().map(strained).zip(1..);
-        let (strain, body) = strains.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(strain, _)| *strain > 1.0)?;
-        Some(Warning::StrainAboveOne { strain, body: Some(body) })
     }
 
     /// Checks the springs, and that neighbours without an elastic side between them have one.

@@ -21,10 +21,10 @@
 //! enough), `column` (names of the numbers of a chain), `numbers` (numbers that are asked for together), `parameter`
 //! (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or masses have, in place
 //! of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface` (a node with its
-//! signals), `linear` (states that act on each other, and those that decay fast), `response` (bounds of their response),
-//! `step` (the solution over a step), `norm` (bounds of its error), `cluster` (nodes that act on each
-//! other at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of contacts that
-//! touch), `peak` (greatest values).
+//! signals), `linear` (states that act on each other, and those that decay fast), `response` (bounds of their
+//! response), `step` (the solution over a step), `norm` (bounds of its error), `cluster` (nodes that act on each other
+//! at once), `breaks` (changes of the signals that reach it), `onset` (the start of the motion of contacts that touch),
+//! `peak` (greatest values).
 
 mod answers;
 mod body;

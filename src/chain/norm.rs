@@ -25,8 +25,8 @@ pub(super) struct Since<N> {
 }
 
 impl<N: Bounded> Since<N> {
-    /// Returns `Σ aᵢⱼ begunⱼ + sup |e^{At}|ᵢⱼ addedⱼ + min(time, ∫|e^{At}|ᵢⱼ) ratesⱼ` for a bound `a` of what is left of
-    /// the errors at the beginning.
+    /// Returns `Σ aᵢⱼ begunⱼ + sup |e^{At}|ᵢⱼ addedⱼ + min(time, ∫|e^{At}|ᵢⱼ) ratesⱼ` for a bound `a` of what is left
+    /// of the errors at the beginning.
     fn bounds(&self, a: &[Vec<f64>], response: &Response, time: &N) -> Vec<N> {
         let Response { peak, integral, .. } = response;
         let row = |i: usize| {
@@ -108,8 +108,8 @@ impl<N: Bounded> Cluster<N> {
         self.rates(&values, true)
     }
 
-    /// Returns the bounds of the errors that the response of the states gives over a step, `forced` being the rates that
-    /// errors of the signals cause.
+    /// Returns the bounds of the errors that the response of the states gives over a step, `forced` being the rates
+    /// that errors of the signals cause.
     fn driven_errors(&mut self, forced: &[N], step: &Step<N>) -> Option<Vec<N>> {
         let Linear { dynamic, response, .. } = &self.linear;
         let response = response.as_ref()?;

@@ -1,7 +1,7 @@
 //! Bounds of the response of a linear system that takes up no energy, element by element.
 //!
-//! For `x′ = Ax` with `xᵀAx ≤ 0`, these are bounds of `sup |e^{At}|` and `∫ |e^{At}| dt`. The matrices `e^{At}` at times
-//! that double each time come from squares; the bounds over twice a time from `e^{A(t+s)} = e^{At} e^{As}`.
+//! For `x′ = Ax` with `xᵀAx ≤ 0`, these are bounds of `sup |e^{At}|` and `∫ |e^{At}| dt`. The matrices `e^{At}` at
+//! times that double each time come from squares; the bounds over twice a time from `e^{A(t+s)} = e^{At} e^{As}`.
 
 /// A square matrix by rows.
 type Matrix = Vec<Vec<f64>>;

@@ -1,9 +1,10 @@
-//! Natural scales of a chain, which bounds are held against.
+//! Natural scales of a chain, which bounds are held against, and the warning of strains beyond them.
 
-use super::body::Body;
+use super::body::{Body, BodyMaterial, Points, steepest};
 use super::definition::{Chain, End};
 use crate::number::{Number, Scalar};
 use crate::quantity::Measure;
+use crate::reason::Warning;
 
 /// The largest numbers that a chain can be expected to have.
 #[derive(Clone, Copy, Debug)]
@@ -71,5 +72,43 @@ impl Chain {
         let time = self.until.to_f64();
         let force = (impedance * velocity).max(forces);
         Scales { time, velocity, force, length }
+    }
+}
+
+impl Chain {
+    /// Returns the warning of a bar with a material that the speeds, strains and loads given would strain above 1: it
+    /// would fold, as where a modulus is given in GPa beside a density in kg/m³.
+    ///
+    /// ```
+    /// use dalembert::chain::{Body, Chain};
+    /// let steel = |modulus: &str| Body::elastic(1.into(), modulus.parse().unwrap(), 7800.into(), 1.into());
+    /// let chain = |modulus| {
+    ///     let moving = steel(modulus).with_velocity((-1).into());
+    ///     Chain::builder(steel(modulus)).contact(0.into(), moving).until(1.into()).build()
+    /// };
+    /// assert!(chain("210e9")?.strain_warning().is_none());
+    /// assert!(chain("210")?.strain_warning().is_some());
+    /// # Ok::<(), dalembert::problem::ProblemError>(())
+    /// ```
+    pub fn strain_warning(&self) -> Option<Warning> {
+        let size = |points: &Points| points.iter().map(|(_, v)| v.to_f64().abs()).fold(0.0, f64::max);
+        let ends = self.ends.iter().map(|end| match end {
+            End::Force(points) => [0.0, size(points)],
+            End::Velocity(points) | End::Ground { velocity: points, .. } => [size(points), 0.0],
+            End::Free | End::Infinite { .. } => [0.0, 0.0],
+        });
+        let [speed, force] = ends.fold([0.0f64; 2], |[a, b], [c, d]| [a.max(c), b.max(d)]);
+        let speed = self.bodies.iter().map(|body| size(&body.velocity)).fold(speed, f64::max);
+        let strained = |body: &Body| {
+            if !matches!(body.material, BodyMaterial::Elastic { .. }) {
+                return 0.0;
+            }
+            let [impedance, wave_speed] = body.squares().map(|square| Scalar::to_f64(&square).sqrt());
+            let slope = steepest(&body.displacement);
+            (speed / wave_speed).max(force / (impedance * wave_speed)).max(slope).max(size(&body.strain))
+        };
+        let strains = self.bodies.iter().map(strained).zip(1..);
+        let (strain, body) = strains.max_by(|(a, _), (b, _)| a.total_cmp(b)).filter(|(strain, _)| *strain > 1.0)?;
+        Some(Warning::StrainAboveOne { strain, body: Some(body) })
     }
 }

@@ -11,7 +11,8 @@ const TIMES: [f64; 5] = [0.001, 0.25, 0.5, 1.0, 1.875];
 /// Returns the force between a mass m and bars of impedance one that meet through springs of stiffness k at the speed
 /// one, before a reflection returns.
 ///
-/// **Source**: `f′ = k(1 − f − V)` and `mV′ = count · f`, so that `f″ + kf′ + count (k/m) f = 0` with f(0) = 0 and f′(0) = k.
+/// **Source**: `f′ = k(1 − f − V)` and `mV′ = count · f`, so that `f″ + kf′ + count (k/m) f = 0` with f(0) = 0 and
+/// f′(0) = k.
 fn force(k: f64, per_mass: f64, t: f64) -> f64 {
     let root = (k * k - 4.0 * k * per_mass).sqrt();
     let [slow, fast] = [-2.0 * k * per_mass / (k + root), -(k + root) / 2.0];
@@ -167,8 +168,8 @@ fn opposite_pushes_on_a_mass_within_a_rounding_are_within_its_bound() {
 
 /// Bars that strike a mass whose time, m/Z, is less than a rounding of the time at which its waves return.
 ///
-/// **Source**: the mass rests at first, so that the forces are 1 and 2, and ends at −1/3; the waves that return move the
-/// ends at −1 and 1.
+/// **Source**: the mass rests at first, so that the forces are 1 and 2, and ends at −1/3; the waves that return move
+/// the ends at −1 and 1.
 #[test]
 fn waves_shorter_than_a_rounding_of_their_time_are_not_lost() {
     for decade in [3, 15, 16, 17, 18, 20] {
@@ -218,8 +219,8 @@ fn a_number_without_a_bound_in_doubles_comes_from_longer_numbers() {
     assert!((found.to_f64().abs() - 1e-17).abs() < 1e-26 && found.bound().to_f64() < 1e-24, "{found}");
 }
 
-/// A light mass that strikes a clamped bar: its force decays as `e^(−t/m)`, far below all roundings, and does not vanish
-/// until the reflection returns at t = 2. The release follows at 2 + m.
+/// A light mass that strikes a clamped bar: its force decays as `e^(−t/m)`, far below all roundings, and does not
+/// vanish until the reflection returns at t = 2. The release follows at 2 + m.
 ///
 /// **Source**: the second piece of the delay equation, `(1 + 2(t − 2)/m) e^(−(t − 2)/m)` times the sign that makes it
 /// end at t − 2 = m, but for `e^(−2/m)`.

@@ -17,8 +17,8 @@
 //!   then half of ‖e‖₂² may be left over all columns, and no column may get worse.
 //! - The value exceeds twice its standard error, and a factor four times its own. The error has three parts: the step;
 //!   the scatter of the parts about the value; and an error that all parts share, as where a soft contact lasts longer,
-//!   which no scatter shows. The last is estimated by ‖e‖₂/‖s‖₂ from the misfit that is left, where the value changes the
-//!   signals by s; where the start determines the value, it is the difference between both values.
+//!   which no scatter shows. The last is estimated by ‖e‖₂/‖s‖₂ from the misfit that is left, where the value changes
+//!   the signals by s; where the start determines the value, it is the difference between both values.
 //!
 //! A value of the scene that leaves at most a fiftieth of ‖e‖₂ passes without these conditions.
 //!
