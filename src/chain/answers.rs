@@ -4,11 +4,11 @@ use std::fmt;
 
 use super::column::{ChainColumn, ChainQuantity};
 use super::definition::Chain;
-use super::field::BodySums;
-use super::history::ChainListing;
+use super::listing::ChainListing;
 use super::node::Stage;
 use super::numbers::{ChainNumbers, NumberRows};
 use super::run::{ChainRun, ForcePiece};
+use super::sums::BodySums;
 use super::wave::Limit;
 use crate::error::Error;
 use crate::motion::{Ending, Field, Side};

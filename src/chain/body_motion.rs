@@ -5,9 +5,9 @@ use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::definition::Chain;
-use super::field::BodySums;
 use super::run::{ChainContact, ChainEvent, ChainRun};
 use super::start::Bar;
+use super::sums::BodySums;
 use super::wave::Wave;
 use crate::error::Error;
 use crate::motion::{Contact, Course, Event, EventKind, Field, Motion, Pair, Scales, Side, StressPiece, Stretch};

@@ -4,6 +4,9 @@ use super::body::{Body, BodyMaterial, Points};
 use crate::error::{Error, ProblemError, ProblemErrorKind as Kind};
 use crate::number::{Number, Rational, Scalar, short};
 
+/// Whether chains with springs, dashpots and masses are built in.
+pub(super) const SOFT: bool = cfg!(feature = "chain");
+
 /// Limit of the wave pieces of a run, unless the chain states another one.
 pub const MAX_PIECES: usize = 2_000_000;
 

@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 
 use super::cluster::Cluster;
-use super::definition::Chain;
-use super::field::KeptSums;
+use super::definition::{Chain, SOFT};
 use super::node::{Node, Occurrence, Source, Stage, Stop};
 use super::run::{ChainEvent, ChainRun, Touch};
 use super::start::{Nodes, Start};
+use super::sums::KeptSums;
 use super::varied::Varied;
 use super::wave::{Wave, left};
 use crate::error::Error;
@@ -156,9 +156,6 @@ impl<N: Bounded> ChainRun<N> {
         }
     }
 }
-
-/// Whether chains with springs, dashpots and masses are built in.
-pub(super) const SOFT: bool = cfg!(feature = "chain");
 
 /// The nodes of a chain with springs, dashpots or masses, up to the end of its run.
 struct Marched<N> {

@@ -16,8 +16,8 @@
 //!
 //! Reading order: `body` and `definition` (the chain in exact numbers), `wave` (travelling signals), `start` (numbers
 //! and initial waves), `law` (the force of each node), `node` (state and events of a node), `march` (the event loop),
-//! `run` (a finished run), `field` (queries along a body), `body_motion` (a body with the queries of a rod), `answers`
-//! (a run in any numbers), `scales` (sizes that bounds are held against), `history` (answers in numbers that are long
+//! `run` (a finished run), `field` (queries along a body), `sums` (energies and centre of a body), `body_motion` (a body with the queries of a rod), `answers`
+//! (a run in any numbers), `scales` (sizes that bounds are held against), `listing` (events, contacts and forces in one list), `history` (answers in numbers that are long
 //! enough), `column` (names of the numbers of a chain), `numbers` (numbers that are asked for together), `parameter`
 //! (names of its values), `foresee` (wave pieces before a run). Chains with springs, dashpots or masses have, in place
 //! of `node`, `curve` (signals that are polynomials), `exact` (exact forms of times), `interface` (a node with its
@@ -42,6 +42,7 @@ mod history;
 mod interface;
 mod law;
 mod linear;
+mod listing;
 mod march;
 mod node;
 mod norm;
@@ -54,6 +55,7 @@ mod run;
 mod scales;
 mod start;
 mod step;
+mod sums;
 mod varied;
 mod wave;
 
@@ -63,13 +65,14 @@ pub use body::{Body, BodyMaterial, Points};
 pub(crate) use body_motion::{BodyMotion, Runs};
 pub use column::{ChainColumn, ChainContactQuantity, ChainQuantity, ChainQuery};
 pub use definition::{Chain, ChainBuilder, End, Joint, MAX_PIECES, Spring};
-pub use field::BodySums;
 pub use foresee::ForeseenPieces;
-pub use history::{ChainHistory, ChainListing, ChainRow};
+pub use history::{ChainHistory, ChainRow};
+pub use listing::ChainListing;
 pub use numbers::ChainNumbers;
 pub(crate) use numbers::RowKey;
 pub use parameter::{ChainParameter, ChainValue, UnknownChainParameter};
 pub use run::{ChainContact, ChainEvent, ChainRun, ForcePiece, Touch};
+pub use sums::BodySums;
 pub(crate) use varied::Varied;
 
 #[cfg(test)]

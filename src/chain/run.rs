@@ -1,12 +1,12 @@
 //! A finished run of a chain: events, contacts, forces and gaps.
 
 use super::curve::Signal;
-use super::field::KeptSums;
+use super::definition::SOFT;
 use super::interface::Soft;
-use super::march::SOFT;
 use super::node::{Gap, Stage};
 use super::peak::highest;
 use super::start::Bar;
+use super::sums::KeptSums;
 use super::wave::{Limit, Wave, either, indices_at, left, may_jump, smooth_value};
 use crate::error::Error;
 use crate::motion::{Ending, EventKind, Side, maps};
