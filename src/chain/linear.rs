@@ -22,14 +22,14 @@ pub(super) struct Dynamic<N> {
 #[derive(Clone, Debug)]
 pub(super) struct Block<N> {
     pub(super) states: Vec<usize>,
-    /// The time that each takes to decay.
+    /// Bounds of the time that each takes to decay.
     pub(super) times: Vec<N>,
     /// Inverse of the matrix of their factors in their rates.
     inverse: Vec<Vec<N>>,
     /// Bounds of the response to a constant rate, and to a distance at the beginning.
     driven: Vec<Vec<N>>,
     left: Vec<Vec<N>>,
-    /// Sum of the response to rates in the norm.
+    /// Greatest sum of a row of the response to rates, in the norm.
     slowness: f64,
 }
 
@@ -134,6 +134,15 @@ fn inverse<N: Bounded>(mut rows: Vec<Vec<N>>) -> Option<Vec<Vec<N>>> {
     Some(rows.into_iter().map(|row| row[count..].to_vec()).collect())
 }
 
+/// Leaves a state out of a matrix: it follows the others at once, `x = −Σ mⱼ xⱼ/m` for the factors in its own rate.
+fn leave_out(state: usize, matrix: &mut [Vec<f64>]) {
+    let own = matrix[state].clone();
+    for row in matrix {
+        let factor = row[state] / own[state];
+        row.iter_mut().zip(&own).for_each(|(x, own)| *x -= factor * own);
+    }
+}
+
 /// Returns the places of states in the order in which they are left out: next comes the one that decays fastest once
 /// those before it follow the others at once. Those that do not decay are missing.
 fn order(mut matrix: Vec<Vec<f64>>) -> Vec<usize> {
@@ -143,11 +152,7 @@ fn order(mut matrix: Vec<Vec<f64>>) -> Vec<usize> {
         let fastest = left.max_by(|i, j| matrix[*j][*j].total_cmp(&matrix[*i][*i]));
         let Some(fastest) = fastest.filter(|i| matrix[*i][*i] < 0.0) else { return order };
         order.push(fastest);
-        let own = matrix[fastest].clone();
-        for row in &mut matrix {
-            let factor = row[fastest] / own[fastest];
-            row.iter_mut().zip(&own).for_each(|(x, own)| *x -= factor * own);
-        }
+        leave_out(fastest, &mut matrix);
     }
 }
 
@@ -193,13 +198,7 @@ impl<N: Bounded> Linear<N> {
         (1..=most.min(self.order.len())).rev().find_map(|count| {
             let least = self.block(count)?.slowness * degree as f64;
             let mut left = self.scaled.clone();
-            for fast in &self.order[..count] {
-                let own = left[*fast].clone();
-                for row in &mut left {
-                    let factor = row[*fast] / own[*fast];
-                    row.iter_mut().zip(&own).for_each(|(x, own)| *x -= factor * own);
-                }
-            }
+            self.order[..count].iter().for_each(|fast| leave_out(*fast, &mut left));
             let is_fast = |i: &usize| self.order[..count].contains(i);
             let others = (0..left.len()).filter(|i| !is_fast(i));
             let size = |i: usize| (0..left.len()).filter(|j| !is_fast(j)).map(|j| left[i][j].abs()).sum();
